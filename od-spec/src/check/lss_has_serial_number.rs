@@ -1,0 +1,16 @@
+//! LSS needs the serial number, 1018h.4.
+
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{Dictionary, Index, SubIndex};
+
+pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
+    let identity = device.objects.get(&Index(0x1018));
+    if let (true, Some(identity)) = (device.info.lss, identity)
+        && identity.entry(SubIndex(4)).is_none()
+    {
+        diagnostics.push(
+            Diagnostic::new(Code::LssWithoutSerial, identity.span, format!("`{}` supports LSS, but 1018h has no serial number", device.key))
+                .help("add sub-index 4 to 1018h, or remove `lss: yes`"),
+        );
+    }
+}

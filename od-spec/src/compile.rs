@@ -1,0 +1,151 @@
+//! The one entry point: text in, model and diagnostics out.
+
+use crate::ast::Spec;
+use crate::decode::{decode, nearest};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::System;
+use crate::resolve;
+use crate::source::{FileId, SourceMap, Span};
+use crate::yaml;
+
+/// Libraries that come with the compiler: name and text.
+pub const LIBRARIES: &[(&str, &str)] = &[("cia301", include_str!("../profiles/cia301.od.yaml"))];
+
+/// Largest file that is read, in bytes.
+const LARGEST_FILE: usize = 64 << 20;
+
+/// What [`compile`] gives.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The model; `None` exactly when an error is among the diagnostics.
+    pub system: Option<System>,
+    /// Errors and warnings, sorted by place.
+    pub diagnostics: Diagnostics,
+}
+
+/// Gives the compiler the library files that a specification names by path.
+pub trait Loader {
+    /// The bytes of `path`, which stands in the file named `from`. The error is a few words such as "no such file".
+    fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
+}
+
+/// A loader without files: only the built-in libraries can be used.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Loader for NoFiles {
+    fn load(&mut self, _path: &str, _from: &str) -> Result<Vec<u8>, String> {
+        Err("files cannot be read here".to_owned())
+    }
+}
+
+/// Compiles the specification `root` of `sources`; libraries are added to `sources`.
+pub fn compile(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader) -> Compiled {
+    let mut diagnostics = Diagnostics::new();
+    let system = build(sources, root, loader, &mut diagnostics);
+    diagnostics.sort();
+    let system = system.filter(|_| !diagnostics.has_errors());
+    Compiled { system, diagnostics }
+}
+
+fn build(
+    sources: &mut SourceMap,
+    root: FileId,
+    loader: &mut dyn Loader,
+    diagnostics: &mut Diagnostics,
+) -> Option<System> {
+    let node = yaml::parse(root, sources.file(root), diagnostics)?;
+    let spec = decode(&node, diagnostics);
+    let libraries = libraries(sources, &spec, loader, diagnostics);
+    Some(resolve::resolve(&spec, &libraries, diagnostics))
+}
+
+fn libraries(
+    sources: &mut SourceMap,
+    root: &Spec,
+    loader: &mut dyn Loader,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Spec> {
+    let mut libraries = Vec::new();
+    let from = sources.file(root.file).name().to_owned();
+    for name in &root.uses {
+        let built_in = LIBRARIES.iter().find(|(library, _)| *library == name.value);
+        let id = match built_in {
+            Some((library, text)) => sources.add(format!("<{library}>"), *text),
+            None => match load(sources, &name.value, name.span, &from, loader) {
+                Ok(id) => id,
+                Err(diagnostic) => {
+                    diagnostics.push(*diagnostic);
+                    continue;
+                }
+            },
+        };
+        let Some(node) = yaml::parse(id, sources.file(id), diagnostics) else { continue };
+        let library = decode(&node, diagnostics);
+        if library.profile.is_none() || !library.uses.is_empty() {
+            diagnostics.push(
+                Diagnostic::new(Code::NotALibrary, name.span, format!("`{}` is no library", name.value))
+                    .help("a library has `profile: NAME` at its top level and no `uses:` of its own"),
+            );
+            continue;
+        }
+        libraries.push(library);
+    }
+    libraries
+}
+
+fn load(
+    sources: &mut SourceMap,
+    path: &str,
+    span: Span,
+    from: &str,
+    loader: &mut dyn Loader,
+) -> Result<FileId, Box<Diagnostic>> {
+    let missing = |reason: &str| {
+        let known = LIBRARIES.iter().map(|(name, _)| *name);
+        let help = match nearest(path, known) {
+            Some(word) => format!("did you mean `{word}`?"),
+            None => "name a built-in library (`cia301`), or a file relative to this one".to_owned(),
+        };
+        Box::new(
+            Diagnostic::new(Code::MissingLibrary, span, format!("cannot read library `{path}`: {reason}")).help(help),
+        )
+    };
+    let bytes = loader.load(path, from).map_err(|reason| missing(&reason))?;
+    let text = read_text(path, bytes).map_err(|mut diagnostic| {
+        diagnostic.labels.push(crate::diag::Label { span, text: "used here".to_owned() });
+        diagnostic
+    })?;
+    Ok(sources.add(path, text))
+}
+
+/// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.
+pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> {
+    if bytes.len() > LARGEST_FILE {
+        return Err(Box::new(
+            Diagnostic::without_place(
+                Code::TooLarge,
+                format!("{name} has {} MiB; the limit is {} MiB", bytes.len() >> 20, LARGEST_FILE >> 20),
+            )
+            .help("is this the right file?"),
+        ));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..valid]);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count()) + 1;
+        let byte = error.as_bytes().get(valid).copied().unwrap_or_default();
+        Box::new(
+            Diagnostic::without_place(
+                Code::NotUtf8,
+                format!("{name}:{line}:{column}: found byte {byte:#04x}, expected UTF-8 text"),
+            )
+            .help("convert the file, for example with `iconv -f latin1 -t utf-8`"),
+        )
+    })?;
+    Ok(match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    })
+}

@@ -1,0 +1,131 @@
+//! Notations inside scalars: indices, entries, bits, dates, access, patterns.
+
+use crate::model::{Access, BitPattern, Date, DateTime, EntryId, Index, PatternBit, SubIndex};
+use crate::yaml::scalar;
+
+/// An index from 0001h to FFFFh.
+pub(crate) fn index(text: &str) -> Option<Index> {
+    let value = scalar::integer(text).ok()?;
+    u16::try_from(value).ok().filter(|index| *index != 0).map(Index)
+}
+
+/// `0x30FA.3`: an entry by index. The flag tells whether a sub-index was written.
+pub(crate) fn entry_by_index(text: &str) -> Option<(EntryId, bool)> {
+    let (object, sub) = match text.split_once('.') {
+        Some((object, sub)) => (object, Some(sub)),
+        None => (text, None),
+    };
+    let index = index(object)?;
+    let number = match sub {
+        Some(sub) => u8::try_from(scalar::integer(sub).ok()?).ok()?,
+        None => 0,
+    };
+    Some((EntryId { index, sub: SubIndex(number) }, sub.is_some()))
+}
+
+/// Whether a reference is meant as a number rather than as a name.
+pub(crate) fn looks_like_index(text: &str) -> bool {
+    let rest = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    match rest {
+        Some(_) => true,
+        None => !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit() || b == b'.' || b == b'_'),
+    }
+}
+
+/// `5` or `0..3`.
+pub(crate) fn bits(text: &str) -> Option<(u8, u8)> {
+    let number = |text: &str| u8::try_from(scalar::integer(text.trim()).ok()?).ok().filter(|bit| *bit < 64);
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let (first, last) = (number(first)?, number(last)?);
+    (first <= last).then_some((first, last))
+}
+
+/// `0x3280` or `0x3281..0x3288`.
+pub(crate) fn error_codes(text: &str) -> Option<(u16, u16)> {
+    let number = |text: &str| u16::try_from(scalar::integer(text.trim()).ok()?).ok();
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let (first, last) = (number(first)?, number(last)?);
+    (first <= last).then_some((first, last))
+}
+
+/// `2009-05-27`, a day that exists.
+pub(crate) fn date(text: &str) -> Option<Date> {
+    let mut parts = text.split('-');
+    let mut part = |width: usize| {
+        let digits = parts.next()?;
+        (digits.len() == width && digits.bytes().all(|b| b.is_ascii_digit())).then(|| digits.parse::<u16>().ok())?
+    };
+    let (year, month, day) = (part(4)?, part(2)?, part(2)?);
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
+        4 | 6 | 9 | 11 => 30,
+        2 => 28 + u16::from(leap),
+        _ => return None,
+    };
+    let valid = parts.next().is_none() && (1..=days).contains(&day);
+    valid.then_some(Date { year, month: u8::try_from(month).ok()?, day: u8::try_from(day).ok()? })
+}
+
+/// `2009-05-27 09:00`.
+pub(crate) fn date_time(text: &str) -> Option<DateTime> {
+    let (day, time) = text.split_once([' ', 'T'])?;
+    let (hour, minute) = time.split_once(':')?;
+    let number = |digits: &str, below: u8| {
+        let fine = digits.len() == 2 && digits.bytes().all(|b| b.is_ascii_digit());
+        digits.parse::<u8>().ok().filter(|value| fine && *value < below)
+    };
+    Some(DateTime { date: date(day)?, hour: number(hour, 24)?, minute: number(minute, 60)? })
+}
+
+/// `rw`, `rw locked`.
+pub(crate) fn access(text: &str) -> Option<(Access, bool)> {
+    let (word, locked) = match text.strip_suffix(" locked") {
+        Some(word) => (word.trim_end(), true),
+        None => (text, false),
+    };
+    Some((Access::from_word(word)?, locked))
+}
+
+/// `xxxx xxxx x01x 0001`: 8, 16 or 32 bits, most significant first.
+pub(crate) fn pattern(text: &str) -> Option<BitPattern> {
+    let bits: Option<Vec<PatternBit>> = text
+        .chars()
+        .filter(|c| !c.is_whitespace())
+        .map(|c| match c {
+            '0' => Some(PatternBit::Zero),
+            '1' => Some(PatternBit::One),
+            'x' => Some(PatternBit::Any),
+            'r' => Some(PatternBit::Rising),
+            'f' => Some(PatternBit::Falling),
+            _ => None,
+        })
+        .collect();
+    bits.filter(|bits| matches!(bits.len(), 8 | 16 | 32)).map(BitPattern)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn notations() {
+        assert_eq!(index("0x6040"), Some(Index(0x6040)));
+        assert_eq!(index("4120"), Some(Index(0x1018)));
+        assert_eq!((index("0"), index("0x10000"), index("x")), (None, None, None));
+        let id = EntryId { index: Index(0x30FA), sub: SubIndex(10) };
+        assert_eq!(entry_by_index("0x30FA.10"), Some((id, true)));
+        assert_eq!(entry_by_index("0x30FA.0x0A"), Some((id, true)));
+        assert_eq!(entry_by_index("0x30FA."), None);
+        assert_eq!(bits("0..3"), Some((0, 3)));
+        assert_eq!((bits("3..0"), bits("64")), (None, None));
+        assert_eq!(date("2008-02-29"), Some(Date { year: 2008, month: 2, day: 29 }));
+        assert_eq!((date("2009-02-29"), date("09-05-27"), date("2009-5-27")), (None, None, None));
+        assert!(date_time("2009-05-27 09:00").is_some());
+        assert!(date_time("2009-05-27 24:00").is_none());
+        assert_eq!(access("rw locked"), Some((Access::Rw, true)));
+        assert_eq!(access("locked"), None);
+        assert_eq!(pattern("xxxx xxxx x01x 0001").unwrap().mask_and_value(), (0b0110_1111, 0b0010_0001));
+        assert_eq!(pattern("xxxx"), None);
+    }
+}

@@ -1,0 +1,23 @@
+//! YAML tree to specification as written.
+//!
+//! First [`shape`] compares the whole tree with the key tables and reports everything that does not fit; then
+//! [`spec`] reads what does fit and silently leaves out the rest, so that each mistake is reported once.
+
+pub(crate) mod lexical;
+mod nearest;
+mod read;
+mod shape;
+mod spec;
+
+pub(crate) use nearest::nearest;
+
+use crate::ast::Spec;
+use crate::diag::Diagnostics;
+use crate::keys;
+use crate::yaml::Node;
+
+/// Reads a specification or library.
+pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
+    shape::check_map(root, &keys::SPEC, diagnostics);
+    spec::read(root, diagnostics)
+}

@@ -1,0 +1,240 @@
+//! Compares a YAML tree with the key tables.
+
+use super::{lexical, nearest};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::expr::Expr;
+use crate::keys::{KeyKind, Keys, Shape};
+use crate::model::Access;
+use crate::source::Spanned;
+use crate::yaml::{Node, NodeKind, scalar, shorten};
+
+/// Checks a map with fixed keys and everything below it.
+pub(super) fn check_map(node: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+    let NodeKind::Map(entries) = &node.kind else {
+        wrong_kind(node, &format!("{}: a map of keys", keys.name), diagnostics);
+        return;
+    };
+    for (name, value) in entries {
+        match keys.keys.iter().find(|key| key.name == name.value) {
+            Some(key) => check(value, key.shape, diagnostics),
+            None => unknown_key(name, keys, diagnostics),
+        }
+    }
+    for key in keys.keys.iter().filter(|key| key.required) {
+        if !entries.iter().any(|(name, _)| name.value == key.name) {
+            let place = entries.first().map_or(node.span, |(name, _)| name.span);
+            diagnostics.push(
+                Diagnostic::new(Code::MissingKey, place, format!("{} needs the key `{}`", keys.name, key.name))
+                    .label(format!("in {} that starts here", keys.name.split_once(' ').map_or(keys.name, |(_, n)| n)))
+                    .help(format!("add `{}:`, {}", key.name, key.about)),
+            );
+        }
+    }
+}
+
+fn unknown_key(name: &Spanned<String>, keys: &Keys, diagnostics: &mut Diagnostics) {
+    let known = keys.keys.iter().map(|key| key.name);
+    let diagnostic = Diagnostic::new(
+        Code::UnknownKey,
+        name.span,
+        format!("{} has no key `{}`", keys.name, shorten(&name.value)),
+    );
+    diagnostics.push(match nearest(&name.value, known.clone()) {
+        Some(word) => diagnostic.label("unknown").help(format!("did you mean `{word}`?")),
+        None => diagnostic
+            .label("unknown")
+            .help(format!("its keys are {}", known.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", "))),
+    });
+}
+
+fn wrong_kind(node: &Node, expected: &str, diagnostics: &mut Diagnostics) {
+    if node.kind == NodeKind::Broken {
+        return;
+    }
+    diagnostics.push(
+        Diagnostic::new(Code::WrongKind, node.span, format!("found {}, expected {expected}", node.describe()))
+            .help(format!("write {expected}")),
+    );
+}
+
+fn check(node: &Node, shape: Shape, diagnostics: &mut Diagnostics) {
+    match shape {
+        Shape::Map(keys) => check_map(node, keys, diagnostics),
+        Shape::ShortOr(short, keys) => match node.kind {
+            NodeKind::Map(_) => check_map(node, keys, diagnostics),
+            _ => check(node, *short, diagnostics),
+        },
+        Shape::Words => match &node.kind {
+            NodeKind::Map(_) => check_keyed(node, KeyKind::Language, Shape::Text, diagnostics),
+            _ => check(node, Shape::Text, diagnostics),
+        },
+        Shape::MapOf(kind, value) => check_keyed(node, kind, *value, diagnostics),
+        Shape::List(item) => match &node.kind {
+            NodeKind::List(items) => items.iter().for_each(|node| check(node, *item, diagnostics)),
+            _ => wrong_kind(node, "a list", diagnostics),
+        },
+        Shape::OneOrMore(item) => match &node.kind {
+            NodeKind::List(items) => items.iter().for_each(|node| check(node, *item, diagnostics)),
+            _ => check(node, *item, diagnostics),
+        },
+        _ => match node.text() {
+            Some(text) => check_scalar(text, shape, diagnostics),
+            None => wrong_kind(node, expected(shape), diagnostics),
+        },
+    }
+}
+
+fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagnostics) {
+    let NodeKind::Map(entries) = &node.kind else {
+        // A section whose entries were all removed or commented out holds nothing.
+        if node.kind != NodeKind::Null {
+            wrong_kind(node, &format!("a map whose keys are {}", key_words(kind)), diagnostics);
+        }
+        return;
+    };
+    for (name, node) in entries {
+        let text = name.value.as_str();
+        let integer = || scalar::integer(text).ok();
+        let fits = match kind {
+            KeyKind::Name => !text.is_empty(),
+            KeyKind::Language => text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-'),
+            KeyKind::Index => lexical::index(text).is_some(),
+            KeyKind::SubIndex => integer().is_some_and(|sub| (1..=254).contains(&sub)),
+            KeyKind::Bits => lexical::bits(text).is_some(),
+            KeyKind::Integer => integer().is_some(),
+            KeyKind::ErrorCodes => lexical::error_codes(text).is_some(),
+            KeyKind::PdoNumber => integer().is_some_and(|number| (1..=512).contains(&number)),
+            KeyKind::Number => integer().is_some_and(|number| (0..=255).contains(&number)),
+        };
+        if !fits {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::BadKey,
+                    name.span,
+                    format!("found the key `{}`, expected {}", shorten(text), key_words(kind)),
+                )
+                .help(format!("keys of this map are {}", key_words(kind))),
+            );
+        }
+        check(node, value, diagnostics);
+    }
+}
+
+const fn key_words(kind: KeyKind) -> &'static str {
+    match kind {
+        KeyKind::Name => "names",
+        KeyKind::Language => "language codes such as `en`",
+        KeyKind::Index => "indices such as `0x6040`, 0001h to FFFFh",
+        KeyKind::SubIndex => "sub-indices, 1 to 254",
+        KeyKind::Bits => "bits such as `4`, or runs such as `0..3`",
+        KeyKind::Integer => "integers",
+        KeyKind::ErrorCodes => "error codes such as `0x3210`, or ranges such as `0x3281..0x3288`",
+        KeyKind::PdoNumber => "PDO numbers, 1 to 512",
+        KeyKind::Number => "numbers, 0 to 255",
+    }
+}
+
+const fn expected(shape: Shape) -> &'static str {
+    match shape {
+        Shape::Integer(..) => "an integer",
+        Shape::YesNo => "`yes` or `no`",
+        Shape::Choice(_) => "a word",
+        Shape::Date => "a date such as `2009-05-27`",
+        Shape::DateTime => "a date and time such as `2009-05-27 09:00`",
+        Shape::Index => "an index such as `0x6040`",
+        Shape::Entry => "an entry such as `0x6040`, `0x30FA.3` or its name",
+        Shape::Access => "an access type such as `ro` or `rw locked`",
+        Shape::Type => "a data type or the name of a type",
+        Shape::Value => "a value",
+        Shape::Ratio => "a fraction such as `1/10`",
+        Shape::Base => "a fraction and a symbol such as `1/1000 V`",
+        Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
+        Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
+        _ => "a text",
+    }
+}
+
+fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics) {
+    let value = text.value;
+    match shape {
+        Shape::Integer(low, high) => match scalar::integer(value) {
+            Err(error) => diagnostics.push(
+                Diagnostic::new(
+                    Code::BadNumber,
+                    text.span,
+                    format!("found `{}`, expected an integer", shorten(value)),
+                )
+                .help(error.help()),
+            ),
+            Ok(number) if !(low..=high).contains(&number) => diagnostics.push(
+                Diagnostic::new(Code::NumberOutOfRange, text.span, format!("{number} is outside {low} to {high}"))
+                    .help(format!("write a number from {low} to {high}")),
+            ),
+            Ok(_) => {}
+        },
+        Shape::YesNo if scalar::yes_no(value).is_none() => unknown_word(text, &["yes", "no"], diagnostics),
+        Shape::Choice(words) if !words.contains(&value) => unknown_word(text, words, diagnostics),
+        Shape::Access if lexical::access(value).is_none() => unknown_word(text, Access::WORDS, diagnostics),
+        Shape::Condition => {
+            if let Err((range, message)) = Expr::parse(value) {
+                diagnostics.push(
+                    Diagnostic::new(Code::BadNotation, inside(text, &range), format!("cannot read this condition: {message}"))
+                        .help("conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`"),
+                );
+            }
+        }
+        _ => {
+            let fits = match shape {
+                Shape::Date => lexical::date(value).is_some(),
+                Shape::DateTime => lexical::date_time(value).is_some(),
+                Shape::Index => lexical::index(value).is_some(),
+                Shape::Entry => lexical::entry_by_index(value).is_some() || !lexical::looks_like_index(value),
+                Shape::Ratio => scalar::ratio(value).is_some_and(|ratio| ratio.numerator() > 0),
+                Shape::Base => base(value).is_some(),
+                Shape::Pattern => lexical::pattern(value).is_some(),
+                _ => true,
+            };
+            if !fits {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::BadNotation,
+                        text.span,
+                        format!("found `{}`, expected {}", shorten(value), expected(shape)),
+                    )
+                    .help(format!("write {}", expected(shape))),
+                );
+            }
+        }
+    }
+}
+
+/// The part of a scalar that a byte range of its text covers. Exact for plain one-line scalars, else the whole scalar.
+fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> crate::source::Span {
+    let plain = (text.span.end - text.span.start) as usize;
+    match plain.checked_sub(text.value.len()) {
+        Some(0) => text.span.part(range.start, range.end.max(range.start + 1)),
+        Some(2) => text.span.part(range.start + 1, range.end.max(range.start + 1) + 1),
+        _ => text.span,
+    }
+}
+
+/// `1/1000 V`.
+pub(super) fn base(text: &str) -> Option<(crate::model::Ratio, &str)> {
+    let (ratio, symbol) = text.split_once(' ')?;
+    let ratio = scalar::ratio(ratio).filter(|ratio| ratio.numerator() > 0)?;
+    let symbol = symbol.trim();
+    (!symbol.is_empty()).then_some((ratio, symbol))
+}
+
+fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnostics) {
+    let list = words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
+    let diagnostic = Diagnostic::new(
+        Code::UnknownWord,
+        text.span,
+        format!("found `{}`, expected one of {list}", shorten(text.value)),
+    );
+    diagnostics.push(match nearest(text.value, words.iter().copied()) {
+        Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+        None => diagnostic.help(format!("write one of {list}")),
+    });
+}

@@ -1,0 +1,458 @@
+//! Reads every kind of map of the language.
+
+use std::collections::BTreeMap;
+
+use super::read::Reader;
+use super::{lexical, shape};
+use crate::ast::{
+    ArrayDecl, BitDecl, BitErrorDecl, CommandDecl, ConstraintDecl, ContentDecl, DeviceDecl, EdsDecl, EntryDecl,
+    ErratumDecl, ErrorDecl, FeatureDecl, FileDecl, IssueDecl, MachineDecl, Name, ObjectDecl, PdoDecl, RecordDecl,
+    SectionDecl, SourceDecl, Spec, SpecialDecl, TableDecl, TransitionDecl, TypeDecl, UnitDecl, ValueDecl, VendorDecl,
+};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::expr::Expr;
+use crate::model::{
+    Access, BitUsage, Category, Direction, Edge, ErratumKind, Outside, PdoMapping, Rounding, Storage, SubIndex,
+};
+use crate::source::{Span, Spanned};
+use crate::yaml::{Node, scalar};
+
+pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
+    let languages = Reader { node: root, language: "en" }.texts("languages");
+    let language = languages.first().map_or("en", |name| name.value.as_str()).to_owned();
+    let top = Reader { node: root, language: &language };
+    Spec {
+        file: root.span.file,
+        span: root.span,
+        profile: top.text("profile"),
+        title: top.text("title"),
+        source: top.child("source").map(|r| SourceDecl {
+            title: r.text("title"),
+            edition: r.text("edition"),
+            about: r.words("about"),
+        }),
+        revision: top.child("revision").map(issue),
+        history: top.items("history").map(issue).collect(),
+        vendor: top.child("vendor").map(|r| VendorDecl { name: r.text("name"), number: r.integer("number") }),
+        uses: top.texts("uses"),
+        glossary: top
+            .entries("glossary")
+            .filter_map(|(name, r)| Some((owned(name), r.own_words()?)))
+            .collect(),
+        devices: top.entries("devices").map(|(key, r)| device(key, r)).collect(),
+        units: top.entries("units").map(|(name, r)| unit(name, r)).collect(),
+        types: top.entries("types").map(|(name, r)| named_type(name, r, diagnostics)).collect(),
+        features: top.entries("features").map(|(name, r)| feature(name, r)).collect(),
+        objects: numbered(top.entries("objects"), lexical::index, diagnostics, Code::DuplicateIndex, |index| {
+            index.to_string()
+        })
+        .into_iter()
+        .map(|(index, r)| object(index, r, diagnostics))
+        .collect(),
+        pdos: top.entries("pdos").map(|(key, r)| (owned(key), pdos(r, diagnostics))).collect(),
+        errors: top.entries("errors").filter_map(|(codes, r)| error(codes, r)).collect(),
+        machines: top.entries("state-machines").map(|(name, r)| machine(name, r, diagnostics)).collect(),
+        constraints: top.entries("constraints").map(|(name, r)| constraint(name, r)).collect(),
+        errata: top.items("errata").map(erratum).collect(),
+        sections: top.items("document").map(section).collect(),
+        languages,
+    }
+}
+
+fn owned(name: Spanned<&str>) -> Name {
+    name.map(ToOwned::to_owned)
+}
+
+/// Reads numeric keys and reports two spellings of one number.
+fn numbered<'a, K: Ord + Copy>(
+    entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    read: impl Fn(&str) -> Option<K>,
+    diagnostics: &mut Diagnostics,
+    code: Code,
+    show: impl Fn(K) -> String,
+) -> Vec<(Spanned<K>, Reader<'a>)> {
+    let mut first: BTreeMap<K, Spanned<&str>> = BTreeMap::new();
+    let mut list = Vec::new();
+    for (name, reader) in entries {
+        let Some(number) = read(name.value) else { continue };
+        if let Some(before) = first.get(&number) {
+            diagnostics.push(
+                Diagnostic::new(code, name.span, format!("{} is defined twice", show(number)))
+                    .label(if before.value == name.value {
+                        "again here".to_owned()
+                    } else {
+                        format!("again here (`{}` is {})", name.value, show(number))
+                    })
+                    .with(before.span, "first here")
+                    .help("remove one of the two, or give it its own number"),
+            );
+            continue;
+        }
+        first.insert(number, name);
+        list.push((Spanned::new(number, name.span), reader));
+    }
+    list
+}
+
+fn issue(r: Reader<'_>) -> IssueDecl {
+    IssueDecl { number: r.text("number"), date: r.value("date", lexical::date), about: r.words("about") }
+}
+
+fn device(key: Spanned<&str>, r: Reader<'_>) -> DeviceDecl {
+    DeviceDecl {
+        key: owned(key),
+        name: r.text("name"),
+        about: r.words("about"),
+        product_name: r.text("product-name"),
+        product: r.integer("product"),
+        product_revision: r.integer("product-revision"),
+        order_code: r.text("order-code"),
+        bit_rates: r.integers("bit-rates"),
+        device_type: r.integer("device-type"),
+        granularity: r.integer("granularity"),
+        boot_up_master: r.yes_no("boot-up-master"),
+        boot_up_slave: r.yes_no("boot-up-slave"),
+        group_messaging: r.yes_no("group-messaging"),
+        lss: r.yes_no("lss"),
+        dummies: r.texts("dummies"),
+        features: r.texts("features"),
+        eds: r.child("eds").map(|r| FileDecl {
+            description: r.text("description"),
+            created: r.value("created", lexical::date_time),
+            created_by: r.text("created-by"),
+            modified: r.value("modified", lexical::date_time),
+            modified_by: r.text("modified-by"),
+            version: r.integer("file-version"),
+            revision: r.integer("file-revision"),
+        }),
+        eds_defaults: r.text("eds-defaults"),
+    }
+}
+
+fn unit(name: Spanned<&str>, r: Reader<'_>) -> UnitDecl {
+    UnitDecl {
+        name: owned(name),
+        symbol: r.text("symbol"),
+        scale: r.value("scale", scalar::ratio),
+        base: r.value("base", |text| shape::base(text).map(|(ratio, symbol)| (ratio, symbol.to_owned()))),
+        about: r.words("about"),
+    }
+}
+
+fn usage(word: &str) -> Option<BitUsage> {
+    match word {
+        "reserved" => Some(BitUsage::Reserved),
+        "unused" => Some(BitUsage::Unused),
+        _ => None,
+    }
+}
+
+fn named_type(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> TypeDecl {
+    let has = |key: &str| r.node.get(key).is_some();
+    TypeDecl {
+        name: owned(name),
+        base: r.text("base"),
+        about: r.words("about"),
+        values: has("values").then(|| values(r, diagnostics)),
+        bits: has("bits").then(|| r.entries("bits").filter_map(|(key, r)| bit(key, r, diagnostics)).collect()),
+        rest: r.value("rest", usage).map(|usage| usage.value),
+    }
+}
+
+fn values(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<ValueDecl> {
+    let integer = |text: &str| scalar::integer(text).ok();
+    numbered(r.entries("values"), integer, diagnostics, Code::DuplicateValue, |value| format!("value {value}"))
+        .into_iter()
+        .map(|(value, r)| ValueDecl {
+            value,
+            name: short(r, "name"),
+            supported: r.yes_no("supported"),
+            about: r.words("about"),
+        })
+        .collect()
+}
+
+/// The scalar itself, or the text under a key.
+fn short(r: Reader<'_>, key: &str) -> Option<Name> {
+    r.scalar(|text| Some(text.to_owned())).or_else(|| r.text(key))
+}
+
+fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<BitDecl> {
+    let bits = Spanned::new(lexical::bits(key.value)?, key.span);
+    let name = short(r, "name");
+    let flag = |key: &str| r.yes_no(key).is_some_and(|flag| flag.value);
+    let usage = match r.scalar(usage) {
+        Some(usage) => usage.value,
+        None if flag("reserved") => BitUsage::Reserved,
+        None if flag("unused") => BitUsage::Unused,
+        None => BitUsage::Used,
+    };
+    Some(BitDecl {
+        bits,
+        usage,
+        name: if r.node.text().is_some() && usage != BitUsage::Used { None } else { name },
+        about: r.words("about"),
+        errors: r.integers("error"),
+        clamp: r.text("clamp"),
+        active: r.integer("active"),
+        edge: r.value("edge", edge).map(|edge| edge.value),
+        priority: r.text("priority"),
+        values: values(r, diagnostics),
+        modes: r.entries("modes").map(|(mode, r)| (owned(mode), short(r, "name"), r.words("about"))).collect(),
+    })
+}
+
+fn edge(word: &str) -> Option<Edge> {
+    match word {
+        "rising" => Some(Edge::Rising),
+        "falling" => Some(Edge::Falling),
+        "both" => Some(Edge::Both),
+        _ => None,
+    }
+}
+
+fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {
+    FeatureDecl {
+        name: owned(name),
+        implied: r.yes_no("implied").is_some_and(|implied| implied.value),
+        objects: r.indices("objects"),
+        needs: r.texts("needs"),
+    }
+}
+
+fn object(index: Spanned<crate::model::Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
+    ObjectDecl {
+        index,
+        on: r.optional_texts("on"),
+        from: r.text("from"),
+        alias: r.text("alias"),
+        outside: r.value("outside", Outside::from_word),
+        rounding: r.value("rounding", Rounding::from_word),
+        array: r.child("array").map(|child| ArrayDecl {
+            span: child.node.span,
+            count: child.integer("count"),
+            entry: entry(child, child.node.span, diagnostics),
+            elements: members(child.entries("elements"), diagnostics),
+        }),
+        record: r.child("record").map(|child| RecordDecl {
+            span: child.node.span,
+            members: members(r.entries("record"), diagnostics),
+        }),
+        sub0: r.child("sub0").map(|child| entry(child, child.node.span, diagnostics)),
+        omit: r.integers("omit"),
+        entry: entry(r, index.span, diagnostics),
+    }
+}
+
+fn members<'a>(
+    entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<(Spanned<SubIndex>, EntryDecl)> {
+    let sub = |text: &str| {
+        let number = u8::try_from(scalar::integer(text).ok()?).ok()?;
+        (1..=254).contains(&number).then_some(SubIndex(number))
+    };
+    let mut members: Vec<_> =
+        numbered(entries, sub, diagnostics, Code::DuplicateSubIndex, |sub| format!("sub-index {sub}"))
+            .into_iter()
+            .map(|(sub, r)| (sub, entry(r, sub.span, diagnostics)))
+            .collect();
+    members.sort_by_key(|(sub, _)| sub.value);
+    members
+}
+
+fn entry(r: Reader<'_>, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
+    EntryDecl {
+        span,
+        name: r.text("name"),
+        type_name: r.text("type"),
+        unit: r.text("unit"),
+        access: r.value("access", lexical::access),
+        pdo: r.value("pdo", PdoMapping::from_word),
+        default: r.text("default"),
+        min: r.text("min"),
+        max: r.text("max"),
+        special: special(r, diagnostics),
+        stored: r.value("stored", Storage::from_word),
+        category: r.value("category", Category::from_word),
+        since: r.text("since"),
+        writable_when: r.value("writable-when", |text| Expr::parse(text).ok()),
+        bit_errors: r.child("bit-errors").map(|child| {
+            let codes = r.entries("bit-errors").filter_map(|(key, r)| {
+                let bits = Spanned::new(lexical::bits(key.value)?, key.span);
+                let integer = |text: &str| scalar::integer(text).ok();
+                let codes = match r.node.items() {
+                    [] => r.scalar(integer).into_iter().collect(),
+                    items => items.iter().filter_map(|node| r.at(node).scalar(integer)).collect(),
+                };
+                Some(BitErrorDecl { bits, codes })
+            });
+            Spanned::new(codes.collect(), child.node.span)
+        }),
+        eds: r.child("eds").map(|child| {
+            let flags = child.texts("flags");
+            let flag = |word: &str| flags.iter().any(|flag| flag.value == word);
+            let eds = EdsDecl {
+                default: child.text("default").map(|word| word.value == "written"),
+                access: child.value("access", |text| Access::from_word(text)).map(|access| access.value),
+                no_write: flag("no-write"),
+                no_scan: flag("no-scan"),
+            };
+            Spanned::new(eds, child.node.span)
+        }),
+        about: r.words("about"),
+    }
+}
+
+fn special(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Spanned<Vec<SpecialDecl>>> {
+    let child = r.child("special")?;
+    let integer = |text: &str| scalar::integer(text).ok();
+    let list =
+        numbered(r.entries("special"), integer, diagnostics, Code::DuplicateValue, |value| format!("value {value}"))
+            .into_iter()
+            .map(|(value, r)| SpecialDecl { value, name: short(r, "name"), about: r.words("about") });
+    Some(Spanned::new(list.collect(), child.node.span))
+}
+
+fn pdos(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<PdoDecl> {
+    let number = |text: &str| {
+        let number = u16::try_from(scalar::integer(text).ok()?).ok()?;
+        (1..=512).contains(&number).then_some(number)
+    };
+    let mut list = Vec::new();
+    for direction in [Direction::Receive, Direction::Transmit] {
+        let show = |number: u16| format!("{} {number}", direction.pdo());
+        let entries = numbered(r.entries(direction.word()), number, diagnostics, Code::DuplicatePdo, show);
+        list.extend(entries.into_iter().map(|(number, r)| PdoDecl {
+            direction,
+            number,
+            span: r.node.get("map").map_or(number.span, |map| map.span),
+            cob_id: r.text("cob-id"),
+            valid: r.yes_no("valid"),
+            no_rtr: r.yes_no("no-rtr"),
+            transmission: r.integer("transmission"),
+            inhibit_time: r.integer("inhibit-time"),
+            event_timer: r.integer("event-timer"),
+            sync_start: r.integer("sync-start"),
+            fixed: r.text("mapping").is_some_and(|word| word.value == "fixed"),
+            capacity: r.integer("capacity"),
+            map: r.texts("map"),
+            about: r.words("about"),
+        }));
+    }
+    list
+}
+
+fn error(codes: Spanned<&str>, r: Reader<'_>) -> Option<ErrorDecl> {
+    Some(ErrorDecl {
+        codes: Spanned::new(lexical::error_codes(codes.value)?, codes.span),
+        name: r.text("name"),
+        on: r.optional_texts("on"),
+        priority: r.text("priority"),
+        reaction: r.words("reaction"),
+        about: r.words("about"),
+    })
+}
+
+fn machine(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> MachineDecl {
+    let integer = |text: &str| scalar::integer(text).ok();
+    let transitions = numbered(r.entries("transitions"), integer, diagnostics, Code::DuplicateValue, |number| {
+        format!("transition {number}")
+    });
+    MachineDecl {
+        name: owned(name),
+        on: r.optional_texts("on"),
+        status: r.text("status"),
+        command: r.text("command"),
+        states: r
+            .entries("states")
+            .map(|(name, r)| (owned(name), r.value("pattern", lexical::pattern), r.words("about")))
+            .collect(),
+        transitions: transitions
+            .into_iter()
+            .map(|(number, r)| TransitionDecl {
+                number,
+                from: r.texts("from"),
+                to: r.text("to"),
+                event: r.words("event"),
+                action: r.words("action"),
+            })
+            .collect(),
+        commands: r
+            .entries("commands")
+            .map(|(name, r)| CommandDecl {
+                name: owned(name),
+                pattern: r.value("pattern", lexical::pattern),
+                send: r.integer("send"),
+                transitions: r.integers("transitions"),
+                about: r.words("about"),
+            })
+            .collect(),
+    }
+}
+
+fn constraint(name: Spanned<&str>, r: Reader<'_>) -> ConstraintDecl {
+    ConstraintDecl {
+        name: owned(name),
+        on: r.optional_texts("on"),
+        require: r.value("require", |text| Expr::parse(text).ok()),
+        when: r.value("when", |text| Expr::parse(text).ok()),
+        about: r.words("about"),
+    }
+}
+
+fn erratum(r: Reader<'_>) -> ErratumDecl {
+    ErratumDecl {
+        at: r.texts("at"),
+        on: r.optional_texts("on"),
+        kind: r.value("kind", ErratumKind::from_word),
+        place: r.words("place"),
+        prints: r.words("prints"),
+        reads: r.words("reads"),
+        because: r.words("because"),
+    }
+}
+
+fn section(r: Reader<'_>) -> SectionDecl {
+    SectionDecl { number: r.text("section"), title: r.words("title"), tables: r.items("tables").map(table).collect() }
+}
+
+fn table(r: Reader<'_>) -> TableDecl {
+    let contents = r.node.entries().iter().filter_map(|(key, node)| {
+        let own = r.at(node);
+        let key_name = key.value.as_str();
+        let name = || own.scalar(|text| Some(text.to_owned()));
+        let content = match key_name {
+            "overview" => ContentDecl::Overview(r.indices(key_name)),
+            "objects" => ContentDecl::Objects(r.indices(key_name)),
+            "bits" => ContentDecl::Bits(name()?),
+            "values" => ContentDecl::Values(name()?),
+            "errors" => ContentDecl::Errors(r.texts(key_name)),
+            "reactions" => ContentDecl::Reactions(r.texts(key_name)),
+            "states" => ContentDecl::States(name()?),
+            "transitions" => ContentDecl::Transitions(name()?),
+            "commands" => ContentDecl::Commands(name()?),
+            "ladder" => ContentDecl::Ladder(name()?),
+            "pdos" => ContentDecl::Pdos(own.text("device"), own.value("direction", Direction::from_word)),
+            "rows" => ContentDecl::Rows(
+                own.items("columns").filter_map(Reader::own_words).collect(),
+                own.items("rows")
+                    .map(|row| {
+                        let cells = row.node.items().iter().map(|node| row.at(node).own_words().unwrap_or_default());
+                        Spanned::new(cells.collect(), row.node.span)
+                    })
+                    .collect(),
+            ),
+            "glossary" => ContentDecl::Glossary,
+            "history" => ContentDecl::History,
+            _ => return None,
+        };
+        Some(Spanned::new(content, key.span))
+    });
+    TableDecl {
+        span: r.node.entries().first().map_or(r.node.span, |(key, _)| key.span),
+        number: r.integer("number"),
+        title: r.words("title"),
+        contents: contents.collect(),
+    }
+}

@@ -1,0 +1,503 @@
+//! Conditions between entries: `0x30FC.2 < 0x30FC.1`, `bit(0x6041, 2) == 0`.
+//!
+//! ```text
+//! condition  = comparison { "and" comparison }
+//! comparison = sum op sum { op sum }            op = "<" | "<=" | "==" | "!=" | ">=" | ">"
+//! sum        = product { ("+" | "-") product }
+//! product    = factor { ("*" | "/") factor }
+//! factor     = number | reference | "bit" "(" reference "," number ")" | "(" sum ")" | "-" factor
+//! reference  = [ device ":" ] "0x" hex digits [ "." sub-index ]
+//! ```
+//!
+//! Values are compared in physical units: raw value × scale, in the unit's base symbol.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+use crate::model::{EntryId, Index, Ratio, SubIndex};
+
+/// Nesting of parentheses and minus signs that is read.
+const MAX_DEPTH: usize = 32;
+
+/// A condition.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Expr {
+    /// The condition as written.
+    pub text: String,
+    /// All must hold.
+    pub comparisons: Vec<Comparison>,
+}
+
+/// A chain such as `a < b <= c`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Comparison {
+    /// The first term.
+    pub first: Term,
+    /// Operators with the terms to their right.
+    pub rest: Vec<(CompareOp, Term)>,
+}
+
+/// A comparison operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CompareOp {
+    /// `<`
+    Less,
+    /// `<=`
+    LessOrEqual,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `>=`
+    GreaterOrEqual,
+    /// `>`
+    Greater,
+}
+
+impl CompareOp {
+    /// Whether the operator accepts this order of its sides.
+    pub const fn accepts(self, order: Ordering) -> bool {
+        match self {
+            CompareOp::Less => order.is_lt(),
+            CompareOp::LessOrEqual => order.is_le(),
+            CompareOp::Equal => order.is_eq(),
+            CompareOp::NotEqual => order.is_ne(),
+            CompareOp::GreaterOrEqual => order.is_ge(),
+            CompareOp::Greater => order.is_gt(),
+        }
+    }
+
+    /// The operator as written.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            CompareOp::Less => "<",
+            CompareOp::LessOrEqual => "<=",
+            CompareOp::Equal => "==",
+            CompareOp::NotEqual => "!=",
+            CompareOp::GreaterOrEqual => ">=",
+            CompareOp::Greater => ">",
+        }
+    }
+}
+
+/// An arithmetic term.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Term {
+    /// A number.
+    Number(Ratio),
+    /// The value of an entry.
+    Entry(EntryRef),
+    /// One bit of an entry, 0 or 1.
+    Bit(EntryRef, u8),
+    /// Two terms and an operator.
+    Binary(Box<Term>, ArithmeticOp, Box<Term>),
+}
+
+/// An arithmetic operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArithmeticOp {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+}
+
+impl ArithmeticOp {
+    const fn sign(self) -> &'static str {
+        match self {
+            ArithmeticOp::Add => "+",
+            ArithmeticOp::Subtract => "-",
+            ArithmeticOp::Multiply => "*",
+            ArithmeticOp::Divide => "/",
+        }
+    }
+}
+
+/// An entry named in a condition.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct EntryRef {
+    /// The device, where it is written.
+    pub device: Option<String>,
+    /// The entry.
+    pub id: EntryId,
+}
+
+/// What a condition asks of its surroundings.
+pub trait Values {
+    /// Value of an entry in physical units.
+    fn value(&self, entry: &EntryRef) -> Option<Ratio>;
+    /// Raw value of an entry.
+    fn raw(&self, entry: &EntryRef) -> Option<i128>;
+}
+
+/// Whether a condition holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It holds.
+    Holds,
+    /// This link of a chain does not hold: left term, value, operator, right term, value.
+    Fails {
+        /// Left side as written, and its value.
+        left: (String, Ratio),
+        /// The operator between them.
+        op: CompareOp,
+        /// Right side as written, and its value.
+        right: (String, Ratio),
+    },
+    /// A value is missing, a divisor is zero, or a number is too large.
+    Unknown,
+}
+
+impl Expr {
+    /// All entries that the condition names.
+    pub fn entries(&self) -> Vec<&EntryRef> {
+        let mut entries = Vec::new();
+        for comparison in &self.comparisons {
+            comparison.first.collect(&mut entries);
+            for (_, term) in &comparison.rest {
+                term.collect(&mut entries);
+            }
+        }
+        entries
+    }
+
+    /// Whether the condition holds for these values. A failing link is reported also where an earlier link is unknown.
+    pub fn evaluate(&self, values: &dyn Values) -> Outcome {
+        let mut outcome = Outcome::Holds;
+        for comparison in &self.comparisons {
+            let mut left = &comparison.first;
+            for (op, right) in &comparison.rest {
+                match (left.evaluate(values), right.evaluate(values)) {
+                    (Some(a), Some(b)) => match a.compare(b) {
+                        Some(order) if op.accepts(order) => {}
+                        Some(_) => {
+                            return Outcome::Fails { left: (left.to_string(), a), op: *op, right: (right.to_string(), b) };
+                        }
+                        None => outcome = Outcome::Unknown,
+                    },
+                    _ => outcome = Outcome::Unknown,
+                }
+                left = right;
+            }
+        }
+        outcome
+    }
+
+    /// Reads a condition. An error is a byte range in `text` and what is wrong there.
+    pub fn parse(text: &str) -> Result<Expr, (std::ops::Range<usize>, String)> {
+        let mut parser = Parser { text, at: 0, depth: 0 };
+        let mut comparisons = vec![parser.comparison()?];
+        while parser.word("and") {
+            comparisons.push(parser.comparison()?);
+        }
+        parser.blank();
+        if parser.at < text.len() {
+            return Err(parser.unexpected("`and` or the end"));
+        }
+        Ok(Expr { text: text.to_owned(), comparisons })
+    }
+}
+
+impl Term {
+    fn collect<'a>(&'a self, entries: &mut Vec<&'a EntryRef>) {
+        match self {
+            Term::Number(_) => {}
+            Term::Entry(entry) | Term::Bit(entry, _) => entries.push(entry),
+            Term::Binary(left, _, right) => {
+                left.collect(entries);
+                right.collect(entries);
+            }
+        }
+    }
+
+    /// Value of the term; `None` when something is missing.
+    pub fn evaluate(&self, values: &dyn Values) -> Option<Ratio> {
+        match self {
+            Term::Number(number) => Some(*number),
+            Term::Entry(entry) => values.value(entry),
+            Term::Bit(entry, bit) => Some(Ratio::whole(values.raw(entry)?.checked_shr(u32::from(*bit))? & 1)),
+            Term::Binary(left, op, right) => {
+                let (left, right) = (left.evaluate(values)?, right.evaluate(values)?);
+                match op {
+                    ArithmeticOp::Add => left.checked_add(right),
+                    ArithmeticOp::Subtract => left.checked_sub(right),
+                    ArithmeticOp::Multiply => left.checked_mul(right),
+                    ArithmeticOp::Divide => left.checked_div(right),
+                }
+            }
+        }
+    }
+}
+
+impl fmt::Display for EntryRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(device) = &self.device {
+            write!(f, "{device}:")?;
+        }
+        self.id.fmt(f)
+    }
+}
+
+impl fmt::Display for Term {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Term::Number(number) => number.fmt(f),
+            Term::Entry(entry) => entry.fmt(f),
+            Term::Bit(entry, bit) => write!(f, "bit({entry}, {bit})"),
+            Term::Binary(left, op, right) => write!(f, "({left} {} {right})", op.sign()),
+        }
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+}
+
+type Parsed<T> = Result<T, (std::ops::Range<usize>, String)>;
+
+impl<'a> Parser<'a> {
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    fn blank(&mut self) {
+        self.at = self.text.len() - self.rest().trim_start().len();
+    }
+
+    fn take(&mut self, token: &str) -> bool {
+        self.blank();
+        let found = self.rest().starts_with(token);
+        if found {
+            self.at += token.len();
+        }
+        found
+    }
+
+    /// Takes a whole word.
+    fn word(&mut self, word: &str) -> bool {
+        self.blank();
+        let found = self.name() == word;
+        if found {
+            self.at += word.len();
+        }
+        found
+    }
+
+    /// The name that starts here; may be empty.
+    fn name(&self) -> &'a str {
+        let rest = self.rest();
+        let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '-')).unwrap_or(rest.len());
+        if rest.starts_with(|c: char| c.is_alphabetic()) { &rest[..end] } else { "" }
+    }
+
+    fn unexpected(&self, expected: &str) -> (std::ops::Range<usize>, String) {
+        let rest = self.rest();
+        let length = rest.find(char::is_whitespace).unwrap_or(rest.len());
+        let found = if length == 0 { "the end".to_owned() } else { format!("`{}`", &rest[..length]) };
+        (self.at..self.at + length, format!("found {found}, expected {expected}"))
+    }
+
+    fn comparison(&mut self) -> Parsed<Comparison> {
+        let first = self.sum()?;
+        let mut rest = Vec::new();
+        while let Some(op) = self.compare_op() {
+            rest.push((op, self.sum()?));
+        }
+        if rest.is_empty() {
+            self.blank();
+            return Err(self.unexpected("a comparison: `<`, `<=`, `==`, `!=`, `>=` or `>`"));
+        }
+        Ok(Comparison { first, rest })
+    }
+
+    fn compare_op(&mut self) -> Option<CompareOp> {
+        [
+            ("<=", CompareOp::LessOrEqual),
+            (">=", CompareOp::GreaterOrEqual),
+            ("==", CompareOp::Equal),
+            ("!=", CompareOp::NotEqual),
+            ("<", CompareOp::Less),
+            (">", CompareOp::Greater),
+        ]
+        .into_iter()
+        .find_map(|(sign, op)| self.take(sign).then_some(op))
+    }
+
+    fn sum(&mut self) -> Parsed<Term> {
+        let mut left = self.product()?;
+        loop {
+            let op = if self.take("+") {
+                ArithmeticOp::Add
+            } else if self.take("-") {
+                ArithmeticOp::Subtract
+            } else {
+                return Ok(left);
+            };
+            left = Term::Binary(Box::new(left), op, Box::new(self.product()?));
+        }
+    }
+
+    fn product(&mut self) -> Parsed<Term> {
+        let mut left = self.factor()?;
+        loop {
+            let op = if self.take("*") {
+                ArithmeticOp::Multiply
+            } else if self.take("/") {
+                ArithmeticOp::Divide
+            } else {
+                return Ok(left);
+            };
+            left = Term::Binary(Box::new(left), op, Box::new(self.factor()?));
+        }
+    }
+
+    fn factor(&mut self) -> Parsed<Term> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return Err((self.at..self.text.len(), "too many parentheses".to_owned()));
+        }
+        let term = self.factor_inner();
+        self.depth -= 1;
+        term
+    }
+
+    fn factor_inner(&mut self) -> Parsed<Term> {
+        if self.take("(") {
+            let inner = self.sum()?;
+            return if self.take(")") { Ok(inner) } else { Err(self.unexpected("`)`")) };
+        }
+        if self.take("-") {
+            let zero = Box::new(Term::Number(Ratio::whole(0)));
+            return Ok(Term::Binary(zero, ArithmeticOp::Subtract, Box::new(self.factor()?)));
+        }
+        self.blank();
+        let name = self.name();
+        if name == "bit" && self.rest()[3..].trim_start().starts_with('(') {
+            self.at += 3;
+            self.take("(");
+            let entry = self.reference()?;
+            if !self.take(",") {
+                return Err(self.unexpected("`,` and a bit number"));
+            }
+            self.blank();
+            let bit = self.digits(10).and_then(|digits| digits.parse().ok()).filter(|bit| *bit < 64);
+            let bit = bit.ok_or_else(|| self.unexpected("a bit number below 64"))?;
+            return if self.take(")") { Ok(Term::Bit(entry, bit)) } else { Err(self.unexpected("`)`")) };
+        }
+        if !name.is_empty() || self.rest().starts_with("0x") || self.rest().starts_with("0X") {
+            return self.reference().map(Term::Entry);
+        }
+        let rest = self.rest();
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '_')).unwrap_or(rest.len());
+        match crate::yaml::scalar::decimal(&rest[..end]) {
+            Some(number) => {
+                self.at += end;
+                Ok(Term::Number(number))
+            }
+            None => Err(self.unexpected("a number, an entry such as `0x6040` or `0x30FA.1`, or `(`")),
+        }
+    }
+
+    fn reference(&mut self) -> Parsed<EntryRef> {
+        self.blank();
+        let name = self.name();
+        let device = if name.is_empty() {
+            None
+        } else {
+            self.at += name.len();
+            if !self.take(":") {
+                self.at -= name.len();
+                return Err(self.unexpected("an entry by index, such as `0x6040`, or `device:0x6040`"));
+            }
+            Some(name.to_owned())
+        };
+        self.blank();
+        if !(self.take("0x") || self.take("0X")) {
+            return Err(self.unexpected("an index such as `0x6040`"));
+        }
+        let index = self.digits(16).and_then(|digits| u16::from_str_radix(digits, 16).ok());
+        let index = index.ok_or_else(|| self.unexpected("an index of at most four hexadecimal digits"))?;
+        let mut sub = 0;
+        if self.rest().starts_with('.') {
+            self.at += 1;
+            let radix = if self.take("0x") { 16 } else { 10 };
+            let digits = self.digits(radix).and_then(|digits| u8::from_str_radix(digits, radix).ok());
+            sub = digits.ok_or_else(|| self.unexpected("a sub-index, 0 to 255"))?;
+        }
+        Ok(EntryRef { device, id: EntryId { index: Index(index), sub: SubIndex(sub) } })
+    }
+
+    fn digits(&mut self, radix: u32) -> Option<&'a str> {
+        let rest = self.rest();
+        let end = rest.find(|c: char| !c.is_digit(radix)).unwrap_or(rest.len());
+        self.at += end;
+        (end > 0).then(|| &rest[..end])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Fixed;
+
+    impl Values for Fixed {
+        fn value(&self, entry: &EntryRef) -> Option<Ratio> {
+            self.raw(entry).map(Ratio::whole)
+        }
+        fn raw(&self, entry: &EntryRef) -> Option<i128> {
+            match (entry.id.index.0, entry.id.sub.0) {
+                (0x1000, sub) => Some(i128::from(sub) * 10),
+                (0x2000, 0) => Some(0b100),
+                _ => None,
+            }
+        }
+    }
+
+    fn outcome(text: &str) -> Outcome {
+        Expr::parse(text).unwrap().evaluate(&Fixed)
+    }
+
+    #[test]
+    fn chains_arithmetic_and_bits() {
+        for text in [
+            "0x1000.1 < 0x1000.2 <= 20",
+            "0x1000.3 == (0x1000.1 + 5) * 2",
+            "bit(0x2000, 2) == 1 and bit(0x2000, 1) == 0",
+            "0x1000.0x0A == 100",
+            "pmc:0x1000.1 / 4 == 2.5",
+            "-3 < 0x1000",
+        ] {
+            assert_eq!(outcome(text), Outcome::Holds, "{text}");
+        }
+        assert_eq!(outcome("0x3000 < 1"), Outcome::Unknown);
+        assert_eq!(outcome("1 / 0 < 1"), Outcome::Unknown);
+        assert!(matches!(outcome("0x1000.1 < 20 < 0x1000.1"), Outcome::Fails { op: CompareOp::Less, .. }));
+        assert!(matches!(outcome("0x3000 < 1 and 2 < 1"), Outcome::Fails { .. }));
+    }
+
+    #[test]
+    fn mistakes_have_a_place() {
+        for (text, start, expected) in [
+            ("0x1000", 6, "a comparison"),
+            ("0x1000 <", 8, "a number"),
+            ("0x1000 < controlword", 9, "an entry by index"),
+            ("0x10000 < 1", 7, "at most four"),
+            ("(0x1000 < 1", 8, "`)`"),
+            ("1 < 2 or", 6, "`and`"),
+            ("bit(0x1000) == 1", 10, "`,`"),
+            ("bit(0x1000, 64) == 1", 14, "below 64"),
+        ] {
+            let (range, message) = Expr::parse(text).unwrap_err();
+            assert_eq!(range.start, start, "{text}: {message}");
+            assert!(message.contains(expected), "{text}: {message}");
+        }
+        assert!(Expr::parse(&"(".repeat(1000)).is_err());
+    }
+}

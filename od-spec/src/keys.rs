@@ -1,0 +1,637 @@
+//! The keys of the language: one table decodes specifications, suggests corrections, and prints the
+//! JSON Schema and the language reference.
+
+use crate::model::{Category, ErratumKind, Outside, PdoMapping, Rounding, Storage};
+
+/// The keys of one kind of map.
+#[derive(Debug)]
+pub struct Keys {
+    /// What such a map describes, with its article: `an object`.
+    pub name: &'static str,
+    /// The keys, in the order the reference shows them.
+    pub keys: &'static [Key],
+}
+
+/// One key.
+#[derive(Debug)]
+pub struct Key {
+    /// The key as written.
+    pub name: &'static str,
+    /// What its value looks like.
+    pub shape: Shape,
+    /// Whether it must be there.
+    pub required: bool,
+    /// What it means.
+    pub about: &'static str,
+}
+
+/// What a value looks like.
+#[derive(Debug, Clone, Copy)]
+pub enum Shape {
+    /// Any text.
+    Text,
+    /// A text, or a map from language code to text.
+    Words,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// `yes` or `no`.
+    YesNo,
+    /// An integer in a range.
+    Integer(i128, i128),
+    /// `2009-05-27`.
+    Date,
+    /// `2009-05-27 09:00`.
+    DateTime,
+    /// An index: `0x6040`.
+    Index,
+    /// An entry: `0x30FA.3`, or by name.
+    Entry,
+    /// An access type, `locked` may follow.
+    Access,
+    /// A data type or a named type.
+    Type,
+    /// A value of an entry: number, physical value, enum name, text or `$NODEID` formula.
+    Value,
+    /// A fraction: `1/10`.
+    Ratio,
+    /// A fraction and a symbol: `1/1000 V`.
+    Base,
+    /// A condition between entries.
+    Condition,
+    /// Bits, most significant first: `xxxx xxxx x01x 0001`.
+    Pattern,
+    /// A map with fixed keys.
+    Map(&'static Keys),
+    /// A map whose keys are data.
+    MapOf(KeyKind, &'static Shape),
+    /// A list.
+    List(&'static Shape),
+    /// One value, or a list of them.
+    OneOrMore(&'static Shape),
+    /// A short form (a scalar) or a map.
+    ShortOr(&'static Shape, &'static Keys),
+}
+
+/// What the keys of a map are that carries data in its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeyKind {
+    /// A name.
+    Name,
+    /// A language code.
+    Language,
+    /// An index.
+    Index,
+    /// A sub-index from 1 to 254.
+    SubIndex,
+    /// A bit, or bits `0..3`.
+    Bits,
+    /// An integer.
+    Integer,
+    /// A 16-bit error code, or a range `0x3281..0x3288`.
+    ErrorCodes,
+    /// A number from 1 to 512.
+    PdoNumber,
+    /// A number from 0 to 255.
+    Number,
+}
+
+macro_rules! keys {
+    ($(#[$meta:meta])* $name:ident = $title:literal { $($key:literal $($required:ident)?: $shape:expr, $about:literal;)+ }) => {
+        $(#[$meta])*
+        pub static $name: Keys = Keys {
+            name: $title,
+            keys: &[$(Key { name: $key, shape: $shape, required: keys!(@ $($required)?), about: $about },)+],
+        };
+    };
+    (@ required) => { true };
+    (@) => { false };
+}
+
+const U8: Shape = Shape::Integer(0, 0xFF);
+const U16: Shape = Shape::Integer(0, 0xFFFF);
+const U32: Shape = Shape::Integer(0, 0xFFFF_FFFF);
+const NAMES: Shape = Shape::OneOrMore(&Shape::Text);
+const INDICES: Shape = Shape::List(&Shape::Index);
+
+keys! {
+    /// Top level of a specification.
+    SPEC = "a specification" {
+        "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
+        "title" required: Shape::Text, "title of the product or product family";
+        "profile": Shape::Text, "makes the file a library that others name in `uses:`";
+        "languages": Shape::List(&Shape::Text), "language codes of the descriptions; the first is the default (`en`)";
+        "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
+        "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
+        "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
+        "vendor": Shape::Map(&VENDOR), "the maker of the devices";
+        "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, or the path of a library file";
+        "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean";
+        "devices": Shape::MapOf(KeyKind::Name, &Shape::Map(&DEVICE)), "the devices, by a short key";
+        "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
+        "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
+        "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that a library offers";
+        "objects": Shape::MapOf(KeyKind::Index, &Shape::Map(&OBJECT)), "the objects, by index";
+        "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
+        "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
+        "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";
+        "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
+        "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
+        "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
+    }
+}
+
+keys! {
+    /// `source:`.
+    SOURCE = "a source" {
+        "title" required: Shape::Text, "title of the manual";
+        "edition": Shape::Text, "edition, as printed";
+        "about": Shape::Words, "more about it";
+    }
+}
+
+keys! {
+    /// An issue of the manual.
+    REVISION = "a revision" {
+        "number" required: Shape::Text, "number of the issue, as printed";
+        "date" required: Shape::Date, "its date";
+        "about": Shape::Words, "what changed";
+    }
+}
+
+keys! {
+    /// `vendor:`.
+    VENDOR = "a vendor" {
+        "name" required: Shape::Text, "company name";
+        "number": U32, "vendor-ID assigned by CiA (1018h.1); 0 when it is not known";
+    }
+}
+
+keys! {
+    /// A device.
+    DEVICE = "a device" {
+        "name" required: Shape::Text, "full name";
+        "about": Shape::Words, "what the device does";
+        "product-name": Shape::Text, "product name in the EDS; the device's name unless given";
+        "product": U32, "product code (1018h.2)";
+        "product-revision": U32, "product revision (1018h.3): upper half major, lower half minor";
+        "order-code": Shape::Text, "order code; the product name unless given";
+        "bit-rates": Shape::List(&Shape::Integer(10, 1000)), "supported bit rates in kbit/s: 10, 20, 50, 125, 250, 500, 800, 1000";
+        "device-type": U32, "device type (1000h): low word profile number, high word additional information";
+        "granularity": Shape::Integer(0, 64), "smallest step of PDO mapping in bits; 8 unless given, 0 when no mapping can be changed";
+        "boot-up-master": Shape::YesNo, "simple boot-up master; no unless given";
+        "boot-up-slave": Shape::YesNo, "simple boot-up slave; yes unless given";
+        "group-messaging": Shape::YesNo, "multiplexed PDOs; no unless given";
+        "lss": Shape::YesNo, "LSS slave; no unless given";
+        "dummies": Shape::List(&Shape::Text), "data types that may stand in an RPDO as placeholders";
+        "features": Shape::List(&Shape::Text), "features of the used libraries that the device has";
+        "eds": Shape::Map(&FILE), "what the EDS says about itself";
+        "eds-defaults": Shape::Choice(&["safe", "all"]), "`safe` withholds the defaults of locked and stored entries from the EDS; `all` writes every default";
+    }
+}
+
+keys! {
+    /// `eds:` of a device.
+    FILE = "an EDS header" {
+        "description": Shape::Text, "description of the file";
+        "created" required: Shape::DateTime, "when the file was first made";
+        "created-by": Shape::Text, "who made it; the vendor unless given";
+        "modified": Shape::DateTime, "when it was last changed; `created` unless given";
+        "modified-by": Shape::Text, "who changed it; `created-by` unless given";
+        "file-version": U8, "version of the file; 1 unless given";
+        "file-revision": U8, "revision of the file; 0 unless given";
+    }
+}
+
+keys! {
+    /// A unit.
+    UNIT = "a unit" {
+        "symbol" required: Shape::Text, "symbol, such as `°C`";
+        "scale": Shape::Ratio, "one raw step in `symbol`; 1 unless given";
+        "base": Shape::Base, "one `symbol` in a more basic one, such as `1/1000 V`; units of one base convert into each other";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// A named type.
+    TYPE = "a type" {
+        "base" required: Shape::Text, "data type on the bus";
+        "about": Shape::Words, "meaning";
+        "values": Shape::MapOf(KeyKind::Integer, &Shape::ShortOr(&Shape::Text, &ENUM_VALUE)), "makes it an enum: names by value";
+        "bits": Shape::MapOf(KeyKind::Bits, &Shape::ShortOr(&Shape::Text, &BIT)), "makes it a bit field: names by bit or bits; the short forms `reserved` and `unused` mark bits without meaning";
+        "rest": Shape::Choice(&["reserved", "unused"]), "what bits are that are not listed";
+    }
+}
+
+keys! {
+    /// A value of an enum.
+    ENUM_VALUE = "an enum value" {
+        "name" required: Shape::Text, "name";
+        "supported": Shape::YesNo, "whether the device takes or sends it; yes unless given";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// A bit or a run of bits.
+    BIT = "a bit" {
+        "name": Shape::Text, "name";
+        "about": Shape::Words, "meaning";
+        "error": Shape::OneOrMore(&U16), "error codes that come with the bit";
+        "clamp": Shape::Text, "terminal at which the signal is found";
+        "active": Shape::Integer(0, 1), "level that means \"active\"; 1 unless given";
+        "edge": Shape::Choice(&["rising", "falling", "both"]), "change that triggers the function";
+        "priority": Shape::Text, "priority of the error, as the manual classes it";
+        "values": Shape::MapOf(KeyKind::Integer, &Shape::ShortOr(&Shape::Text, &ENUM_VALUE)), "named values of a run of bits";
+        "modes": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &MODE_BIT)), "meanings in single modes of operation";
+        "reserved": Shape::YesNo, "reserved: written as 0, ignored when read";
+        "unused": Shape::YesNo, "free, without function";
+    }
+}
+
+keys! {
+    /// A bit's meaning in one mode.
+    MODE_BIT = "a mode-specific bit" {
+        "name" required: Shape::Text, "name";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// A feature of a library.
+    FEATURE = "a feature" {
+        "about": Shape::Words, "what the device can do with it";
+        "implied": Shape::YesNo, "every device has it; no unless given";
+        "objects" required: INDICES, "objects it brings";
+        "needs": Shape::List(&Shape::Text), "features it cannot be without";
+    }
+}
+
+const ENTRY_TYPE: Key = Key { name: "type", shape: Shape::Type, required: false, about: "data type, or a named type" };
+const ENTRY_ACCESS: Key = Key {
+    name: "access",
+    shape: Shape::Access,
+    required: false,
+    about: "`ro`, `wo`, `rw`, `rwr`, `rww` or `const`; `rw locked`: writable only when unlocked for service",
+};
+const ENTRY_PDO: Key = Key {
+    name: "pdo",
+    shape: Shape::Choice(PdoMapping::WORDS),
+    required: false,
+    about: "PDOs it may be mapped into; none unless given",
+};
+const ENTRY_DEFAULT: Key =
+    Key { name: "default", shape: Shape::Value, required: false, about: "value after factory reset" };
+const ENTRY_MIN: Key = Key { name: "min", shape: Shape::Value, required: false, about: "smallest allowed value" };
+const ENTRY_MAX: Key = Key { name: "max", shape: Shape::Value, required: false, about: "largest allowed value" };
+const ENTRY_UNIT: Key = Key { name: "unit", shape: Shape::Text, required: false, about: "physical unit, by name" };
+const ENTRY_SPECIAL: Key = Key {
+    name: "special",
+    shape: Shape::MapOf(KeyKind::Integer, &Shape::ShortOr(&Shape::Text, &SPECIAL)),
+    required: false,
+    about: "raw values with a meaning of their own, allowed even outside the limits",
+};
+const ENTRY_STORED: Key = Key {
+    name: "stored",
+    shape: Shape::Choice(Storage::WORDS),
+    required: false,
+    about: "which \"store parameters\" command saves it; `remanent`: the device keeps it by itself",
+};
+const ENTRY_CATEGORY: Key = Key {
+    name: "category",
+    shape: Shape::Choice(Category::WORDS),
+    required: false,
+    about: "whether a standard demands it",
+};
+const ENTRY_SINCE: Key = Key {
+    name: "since",
+    shape: Shape::Text,
+    required: false,
+    about: "issue of the manual that brought it",
+};
+const ENTRY_ABOUT: Key = Key { name: "about", shape: Shape::Words, required: false, about: "meaning" };
+const ENTRY_WHEN: Key = Key {
+    name: "writable-when",
+    shape: Shape::Condition,
+    required: false,
+    about: "condition under which a write is accepted",
+};
+const ENTRY_BIT_ERRORS: Key = Key {
+    name: "bit-errors",
+    shape: Shape::MapOf(KeyKind::Bits, &Shape::OneOrMore(&U16)),
+    required: false,
+    about: "error codes of the type's bits, where several entries share the type",
+};
+const ENTRY_EDS: Key = Key {
+    name: "eds",
+    shape: Shape::Map(&ENTRY_EDS_KEYS),
+    required: false,
+    about: "what the EDS shows, where the device's policy does not fit",
+};
+const ENTRY_NAME: Key = Key { name: "name", shape: Shape::Text, required: false, about: "name, as the manual spells it" };
+
+/// An element or member.
+pub static ENTRY: Keys = Keys {
+    name: "an entry",
+    keys: &[
+        ENTRY_NAME,
+        ENTRY_TYPE,
+        ENTRY_UNIT,
+        ENTRY_ACCESS,
+        ENTRY_PDO,
+        ENTRY_DEFAULT,
+        ENTRY_MIN,
+        ENTRY_MAX,
+        ENTRY_SPECIAL,
+        ENTRY_STORED,
+        ENTRY_CATEGORY,
+        ENTRY_SINCE,
+        ENTRY_WHEN,
+        ENTRY_BIT_ERRORS,
+        ENTRY_EDS,
+        ENTRY_ABOUT,
+    ],
+};
+
+/// An object.
+pub static OBJECT: Keys = Keys {
+    name: "an object",
+    keys: &[
+        ENTRY_NAME,
+        Key { name: "on", shape: NAMES, required: false, about: "devices that have the object; all unless given" },
+        Key {
+            name: "from",
+            shape: Shape::Text,
+            required: false,
+            about: "library that defines the object; the other keys say what differs",
+        },
+        Key {
+            name: "alias",
+            shape: Shape::Entry,
+            required: false,
+            about: "makes it a view of another entry, in a narrower type or another unit, without storage of its own",
+        },
+        Key {
+            name: "outside",
+            shape: Shape::Choice(Outside::WORDS),
+            required: false,
+            about: "what an alias gives outside its range; saturate unless given",
+        },
+        Key {
+            name: "rounding",
+            shape: Shape::Choice(Rounding::WORDS),
+            required: false,
+            about: "how a rescaling alias rounds; down unless given",
+        },
+        Key { name: "array", shape: Shape::Map(&ARRAY), required: false, about: "makes it an ARRAY" },
+        Key {
+            name: "record",
+            shape: Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)),
+            required: false,
+            about: "makes it a RECORD: members by sub-index",
+        },
+        Key {
+            name: "sub0",
+            shape: Shape::Map(&SUB0),
+            required: false,
+            about: "name and access of sub-index 0, where they are not the usual ones",
+        },
+        Key {
+            name: "omit",
+            shape: Shape::List(&Shape::Integer(1, 254)),
+            required: false,
+            about: "with `from:`: sub-indices that the device does not have",
+        },
+        ENTRY_TYPE,
+        ENTRY_UNIT,
+        ENTRY_ACCESS,
+        ENTRY_PDO,
+        ENTRY_DEFAULT,
+        ENTRY_MIN,
+        ENTRY_MAX,
+        ENTRY_SPECIAL,
+        ENTRY_STORED,
+        ENTRY_CATEGORY,
+        ENTRY_SINCE,
+        ENTRY_WHEN,
+        ENTRY_BIT_ERRORS,
+        ENTRY_EDS,
+        ENTRY_ABOUT,
+    ],
+};
+
+/// `array:`.
+pub static ARRAY: Keys = Keys {
+    name: "an array",
+    keys: &[
+        Key {
+            name: "count",
+            shape: Shape::Integer(1, 254),
+            required: false,
+            about: "number of elements; the highest of `elements` unless given",
+        },
+        Key {
+            name: "name",
+            shape: Shape::Text,
+            required: false,
+            about: "name of the elements; `{n}` stands for the sub-index",
+        },
+        Key {
+            name: "elements",
+            shape: Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)),
+            required: false,
+            about: "what single elements have of their own",
+        },
+        ENTRY_TYPE,
+        ENTRY_UNIT,
+        ENTRY_ACCESS,
+        ENTRY_PDO,
+        ENTRY_DEFAULT,
+        ENTRY_MIN,
+        ENTRY_MAX,
+        ENTRY_SPECIAL,
+        ENTRY_STORED,
+        ENTRY_CATEGORY,
+        ENTRY_SINCE,
+        ENTRY_WHEN,
+        ENTRY_BIT_ERRORS,
+        ENTRY_EDS,
+        ENTRY_ABOUT,
+    ],
+};
+
+keys! {
+    /// `sub0:`.
+    SUB0 = "sub-index 0" {
+        "name": Shape::Text, "name; `number of elements` unless given";
+        "access": Shape::Access, "access; `ro` unless given";
+        "default": Shape::Value, "value; the highest sub-index unless given";
+        "min": Shape::Value, "smallest allowed value";
+        "max": Shape::Value, "largest allowed value";
+        "eds": Shape::Map(&ENTRY_EDS_KEYS), "what the EDS shows";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// A special value.
+    SPECIAL = "a special value" {
+        "name" required: Shape::Text, "what it means, in a few words";
+        "about": Shape::Words, "more about it";
+    }
+}
+
+keys! {
+    /// `eds:` of an entry.
+    ENTRY_EDS_KEYS = "an entry's EDS policy" {
+        "default": Shape::Choice(&["written", "withheld"]), "whether `DefaultValue` is written";
+        "access": Shape::Access, "access type written, where it differs";
+        "flags": Shape::List(&Shape::Choice(&["no-write", "no-scan"])), "`no-write`: tools must not write it on download; `no-scan`: tools must not read it on scan";
+    }
+}
+
+keys! {
+    /// `pdos:` of a device.
+    PDOS = "a device's PDOs" {
+        "receive": Shape::MapOf(KeyKind::PdoNumber, &Shape::Map(&PDO)), "RPDOs by number";
+        "transmit": Shape::MapOf(KeyKind::PdoNumber, &Shape::Map(&PDO)), "TPDOs by number";
+    }
+}
+
+keys! {
+    /// A PDO.
+    PDO = "a PDO" {
+        "cob-id": Shape::Value, "COB-ID without flag bits; the predefined connection set's unless given";
+        "valid": Shape::YesNo, "whether the PDO exists after start-up; yes unless given";
+        "no-rtr": Shape::YesNo, "TPDO: remote frames are not answered (bit 30); no unless given";
+        "transmission": U8, "transmission type; 255 unless given";
+        "inhibit-time": U16, "inhibit time in multiples of 100 µs; the device has no such entry unless given";
+        "event-timer": U16, "event timer in ms; the device has no such entry unless given";
+        "sync-start": Shape::Integer(0, 240), "SYNC start value; the device has no such entry unless given";
+        "mapping": Shape::Choice(&["variable", "fixed"]), "whether the mapping can be changed over the bus; variable unless given";
+        "capacity": Shape::Integer(1, 64), "mapping entries the device offers; 64 / granularity unless given";
+        "map" required: Shape::List(&Shape::Entry), "mapped entries in order, by index or name, or data types as placeholders";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// An error code.
+    ERROR = "an error code" {
+        "name" required: Shape::Text, "name; `{n}` counts through a range from 1";
+        "on": NAMES, "devices that report it; all unless given";
+        "priority": Shape::Text, "priority, as the manual classes it";
+        "reaction": Shape::Words, "what the device does";
+        "about": Shape::Words, "more about it";
+    }
+}
+
+keys! {
+    /// A state machine.
+    MACHINE = "a state machine" {
+        "on": NAMES, "devices that have it; all unless given";
+        "status" required: Shape::Entry, "entry that shows the state";
+        "command" required: Shape::Entry, "entry that takes the commands";
+        "states" required: Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)), "states by name";
+        "transitions": Shape::MapOf(KeyKind::Number, &Shape::Map(&TRANSITION)), "transitions by number";
+        "commands": Shape::MapOf(KeyKind::Name, &Shape::Map(&COMMAND)), "commands by name";
+    }
+}
+
+keys! {
+    /// A state.
+    STATE = "a state" {
+        "pattern" required: Shape::Pattern, "bits of the status entry, most significant first; `x` either";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// A transition.
+    TRANSITION = "a transition" {
+        "from": Shape::OneOrMore(&Shape::Text), "states it leaves; `start` after power-on, `any` for every state";
+        "to" required: Shape::Text, "state it enters";
+        "event" required: Shape::Words, "what causes it";
+        "action": Shape::Words, "what the device does";
+    }
+}
+
+keys! {
+    /// A command.
+    COMMAND = "a command" {
+        "pattern" required: Shape::Pattern, "bits of the command entry, most significant first; `x` either, `r` rising, `f` falling edge";
+        "send": U32, "a value that gives the command";
+        "transitions": Shape::List(&U8), "transitions it causes";
+        "about": Shape::Words, "meaning";
+    }
+}
+
+keys! {
+    /// A constraint.
+    CONSTRAINT = "a constraint" {
+        "on": NAMES, "devices it is for; all whose entries it names unless given";
+        "require" required: Shape::Condition, "the condition";
+        "when": Shape::Condition, "the condition counts only while this one holds";
+        "about": Shape::Words, "why";
+    }
+}
+
+keys! {
+    /// An erratum.
+    ERRATUM = "an erratum" {
+        "at": Shape::OneOrMore(&Shape::Entry), "objects or entries it is about";
+        "on": NAMES, "devices it is about; all unless given";
+        "kind" required: Shape::Choice(ErratumKind::WORDS), "what kind of fact";
+        "place" required: Shape::Words, "where the manual prints it";
+        "prints" required: Shape::Words, "what it prints";
+        "reads" required: Shape::Words, "what the specification says";
+        "because" required: Shape::Words, "why";
+    }
+}
+
+keys! {
+    /// A section of the manual.
+    SECTION = "a section" {
+        "section": Shape::Text, "number, as printed; parts such as the imprint have none";
+        "title" required: Shape::Words, "heading";
+        "tables": Shape::List(&Shape::Map(&TABLE)), "tables in it, in order";
+    }
+}
+
+keys! {
+    /// A table of the manual.
+    TABLE = "a table" {
+        "number": Shape::Integer(1, 9999), "number, as printed";
+        "title": Shape::Words, "caption";
+        "overview": INDICES, "one row per object";
+        "objects": INDICES, "the objects' entries in detail";
+        "bits": Shape::Text, "bits of a named type";
+        "values": Shape::Text, "values of a named type";
+        "errors": Shape::OneOrMore(&Shape::Text), "error codes, or `all`";
+        "reactions": Shape::OneOrMore(&Shape::Text), "error codes with the device's reactions, or `all`";
+        "states": Shape::Text, "states of a state machine";
+        "transitions": Shape::Text, "transitions of a state machine";
+        "commands": Shape::Text, "commands of a state machine";
+        "ladder": Shape::Text, "entries of an ordering constraint with their defaults";
+        "pdos": Shape::Map(&TABLE_PDOS), "default PDOs of a device";
+        "rows": Shape::Map(&TABLE_ROWS), "rows of text";
+        "glossary": Shape::YesNo, "abbreviations";
+        "history": Shape::YesNo, "issues of the manual";
+    }
+}
+
+keys! {
+    /// `pdos:` of a table.
+    TABLE_PDOS = "a PDO table" {
+        "device" required: Shape::Text, "key of the device";
+        "direction" required: Shape::Choice(&["receive", "transmit"]), "direction";
+    }
+}
+
+keys! {
+    /// `rows:` of a table.
+    TABLE_ROWS = "a table of text" {
+        "columns" required: Shape::List(&Shape::Words), "column headings";
+        "rows" required: Shape::List(&Shape::List(&Shape::Words)), "cells";
+    }
+}

@@ -1,0 +1,40 @@
+//! The specification language for CANopen object dictionaries, its compiler and the resolved model.
+//!
+//! One YAML file describes every object of one or several devices. [`compile`] reads it together with the libraries it
+//! uses, checks it, and gives a [`model::System`] in which nothing is left open; backends print Rust, EDS, DCF and
+//! documentation from that. All mistakes of a file are reported in one run, each with its place (see [`diag`]).
+//!
+//! ```
+//! use od_spec::{compile, NoFiles, source::SourceMap};
+//!
+//! let mut sources = SourceMap::new();
+//! let root = sources.add("lamp.od.yaml", "
+//! od-spec: 1
+//! title: Lamp
+//! uses: [cia301]
+//! devices:
+//!   lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+//! objects:
+//!   0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100}
+//! ");
+//! let compiled = compile(&mut sources, root, &mut NoFiles);
+//! let lamp = &compiled.system.expect("no errors").devices[0];
+//! assert_eq!(lamp.objects.len(), 5); // 1000h, 1001h, 1017h, 1018h, 2000h
+//! ```
+
+pub mod ascii;
+mod ast;
+mod check;
+mod compile;
+mod decode;
+pub mod diag;
+pub mod expr;
+pub mod keys;
+pub mod model;
+mod parameters;
+mod resolve;
+pub mod source;
+pub mod yaml;
+
+pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
+pub use parameters::{Assignment, ParameterValues, assign};

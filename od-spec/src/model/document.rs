@@ -1,0 +1,204 @@
+//! The printed manual: its revision, its chapters and tables, and what it says otherwise.
+
+use std::collections::BTreeMap;
+
+use super::{Date, Direction, EntryId, Index, Text};
+
+/// The printed manual that a specification stands for.
+#[derive(Debug, Clone, Default)]
+pub struct Document {
+    /// Title of the manual.
+    pub source: Option<String>,
+    /// More about it.
+    pub about: Text,
+    /// Issue that the specification holds.
+    pub revision: Option<Issue>,
+    /// Earlier issues, oldest first.
+    pub history: Vec<Issue>,
+    /// Abbreviations.
+    pub glossary: BTreeMap<String, Text>,
+    /// Chapters and sections with their tables, in order.
+    pub sections: Vec<Section>,
+}
+
+/// One issue of the manual.
+#[derive(Debug, Clone)]
+pub struct Issue {
+    /// Its number, as printed.
+    pub number: String,
+    /// Its date.
+    pub date: Date,
+    /// What changed.
+    pub about: Text,
+}
+
+/// A chapter or section.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// Number, as printed: `4.1.1`; empty for parts without one.
+    pub number: String,
+    /// Heading.
+    pub title: Text,
+    /// Tables that stand in it.
+    pub tables: Vec<Table>,
+}
+
+/// A table of the manual.
+#[derive(Debug, Clone)]
+pub struct Table {
+    /// Number, as printed; `None` for tables without one.
+    pub number: Option<u16>,
+    /// Caption.
+    pub title: Text,
+    /// What fills it.
+    pub content: TableContent,
+}
+
+/// What fills a table.
+#[derive(Debug, Clone)]
+pub enum TableContent {
+    /// One row per object: index, object type, name, type, access, storage.
+    Overview(Vec<Index>),
+    /// The objects' entries in detail.
+    Objects(Vec<Index>),
+    /// Bits of a named type.
+    Bits(String),
+    /// Values of a named type.
+    Values(String),
+    /// Error codes.
+    Errors(Vec<u16>),
+    /// Error codes with the device's reactions.
+    Reactions(Vec<u16>),
+    /// States of a state machine.
+    States(String),
+    /// Transitions of a state machine.
+    Transitions(String),
+    /// Commands of a state machine.
+    Commands(String),
+    /// The entries of an ordering constraint with their defaults.
+    Ladder(String),
+    /// Default PDOs.
+    Pdos(PdoTable),
+    /// Rows of text.
+    Rows {
+        /// Column headings.
+        columns: Vec<Text>,
+        /// Cells.
+        rows: Vec<Vec<Text>>,
+    },
+    /// Abbreviations.
+    Glossary,
+    /// Issues of the manual.
+    History,
+}
+
+/// The default PDOs of one device and direction.
+#[derive(Debug, Clone)]
+pub struct PdoTable {
+    /// Key of the device.
+    pub device: String,
+    /// Direction.
+    pub direction: Direction,
+}
+
+/// A place where the printed manual says something else than the specification, or nothing at all.
+#[derive(Debug, Clone)]
+pub struct Erratum {
+    /// Objects or entries it is about; empty for none in particular.
+    pub at: Vec<ErratumPlace>,
+    /// Devices it is about; empty for all.
+    pub devices: Vec<String>,
+    /// What kind of fact.
+    pub kind: ErratumKind,
+    /// Where the manual prints it.
+    pub place: Text,
+    /// What it prints.
+    pub prints: Text,
+    /// What the specification says.
+    pub reads: Text,
+    /// Why.
+    pub because: Text,
+}
+
+/// What an erratum is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ErratumPlace {
+    /// A whole object.
+    Object(Index),
+    /// One entry.
+    Entry(EntryId),
+}
+
+impl ErratumPlace {
+    /// The object.
+    pub const fn index(self) -> Index {
+        match self {
+            ErratumPlace::Object(index) => index,
+            ErratumPlace::Entry(id) => id.index,
+        }
+    }
+}
+
+macro_rules! erratum_kinds {
+    ($($(#[$meta:meta])* $variant:ident = $word:literal,)+) => {
+        /// What kind of fact an erratum corrects.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum ErratumKind { $($(#[$meta])* $variant,)+ }
+
+        impl ErratumKind {
+            /// The words of a specification.
+            pub const WORDS: &'static [&'static str] = &[$($word,)+];
+
+            /// The word that a specification uses.
+            pub const fn word(self) -> &'static str {
+                match self { $(ErratumKind::$variant => $word,)+ }
+            }
+
+            /// The kind of a word.
+            pub fn from_word(word: &str) -> Option<Self> {
+                match word { $($word => Some(ErratumKind::$variant),)+ _ => None }
+            }
+        }
+    };
+}
+
+erratum_kinds! {
+    /// An index.
+    Index = "index",
+    /// A name.
+    Name = "name",
+    /// A data type.
+    Type = "type",
+    /// The sign of a type or value.
+    Sign = "sign",
+    /// An access right.
+    Access = "access",
+    /// VAR, ARRAY or RECORD.
+    ObjectType = "object-type",
+    /// A sub-index or the number of them.
+    SubIndex = "sub-index",
+    /// The number of elements or rows.
+    Count = "count",
+    /// A default value.
+    Default = "default",
+    /// A limit.
+    Limit = "limit",
+    /// A unit or scale.
+    Unit = "unit",
+    /// PDO mapping or its direction.
+    Pdo = "pdo",
+    /// Whether a value is stored.
+    Stored = "stored",
+    /// A bit table.
+    Bits = "bits",
+    /// A value table.
+    Values = "values",
+    /// A table's number, caption or headings.
+    Table = "table",
+    /// Running text.
+    Text = "text",
+    /// The manual is silent and a value had to be chosen.
+    Gap = "gap",
+    /// The manual departs from a CiA profile; the manual's word is kept.
+    Profile = "profile",
+}

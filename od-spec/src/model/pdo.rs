@@ -1,0 +1,85 @@
+//! PDOs: communication and mapping parameters.
+
+use super::{DataType, Direction, EntryId, Text, Value};
+use crate::source::Span;
+
+/// A PDO with its default communication and mapping parameters.
+#[derive(Debug, Clone)]
+pub struct Pdo {
+    /// Direction, seen from the device.
+    pub direction: Direction,
+    /// Number, 1 to 512; the communication object is `1400h` or `1800h` plus number minus one.
+    pub number: u16,
+    /// COB-ID entry with its flag bits: 31 not valid, 30 no RTR (TPDO).
+    pub cob_id: Value,
+    /// Whether the PDO exists after start-up.
+    pub valid: bool,
+    /// Transmission type (CiA 301 table 56).
+    pub transmission: u8,
+    /// Inhibit time in multiples of 100 µs, where the device has the entry.
+    pub inhibit_time: Option<u16>,
+    /// Event timer in ms, where the device has the entry.
+    pub event_timer: Option<u16>,
+    /// SYNC start value, where the device has the entry.
+    pub sync_start: Option<u8>,
+    /// Whether the mapping can be changed over the bus.
+    pub variable_mapping: bool,
+    /// Number of mapping entries the device offers.
+    pub capacity: u8,
+    /// What is mapped by default.
+    pub map: Vec<Mapped>,
+    /// Meaning.
+    pub about: Text,
+    /// Where it is written.
+    pub span: Span,
+}
+
+impl Pdo {
+    /// Index of the communication parameter object.
+    pub const fn communication_index(&self) -> u16 {
+        let base = match self.direction {
+            Direction::Receive => 0x1400,
+            Direction::Transmit => 0x1800,
+        };
+        base + self.number - 1
+    }
+
+    /// Index of the mapping parameter object.
+    pub const fn mapping_index(&self) -> u16 {
+        self.communication_index() + 0x200
+    }
+
+    /// Mapped bits in all.
+    pub fn bits(&self) -> u32 {
+        self.map.iter().map(|mapped| u32::from(mapped.bits)).sum()
+    }
+}
+
+/// One mapping entry.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mapped {
+    /// What is mapped.
+    pub target: PdoTarget,
+    /// Its width.
+    pub bits: u8,
+}
+
+/// What a mapping entry refers to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PdoTarget {
+    /// An entry of the dictionary.
+    Entry(EntryId),
+    /// A placeholder of a data type; RPDOs only.
+    Dummy(DataType),
+}
+
+impl Mapped {
+    /// The mapping parameter: index, sub-index, length (CiA 301 7.5.2.36).
+    pub const fn parameter(&self) -> u32 {
+        let (index, sub) = match self.target {
+            PdoTarget::Entry(id) => (id.index.0, id.sub.0),
+            PdoTarget::Dummy(data_type) => (data_type.code(), 0),
+        };
+        (index as u32) << 16 | (sub as u32) << 8 | self.bits as u32
+    }
+}

@@ -1,0 +1,65 @@
+//! Physical units with exact scales.
+
+use super::{Ratio, Text};
+
+/// A physical unit: what one raw step is worth.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unit {
+    /// Name in the specification, such as `decicelsius`.
+    pub name: String,
+    /// Symbol, such as `°C`.
+    pub symbol: String,
+    /// One raw step in `symbol`: 1/10 for a raw value in tenths of a degree.
+    pub scale: Ratio,
+    /// One `symbol` in terms of another symbol: a millivolt is 1/1000 V.
+    pub base: Option<Base>,
+    /// Meaning.
+    pub about: Text,
+}
+
+/// The relation of a unit's symbol to a more basic one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Base {
+    /// The basic symbol.
+    pub symbol: String,
+    /// Basic symbols per symbol of the unit.
+    pub factor: Ratio,
+}
+
+impl Unit {
+    /// The basic symbol in which values are compared: the base's, or else the unit's own.
+    pub fn base_symbol(&self) -> &str {
+        self.base.as_ref().map_or(&self.symbol, |base| &base.symbol)
+    }
+
+    /// One raw step in the basic symbol; `None` if the fraction does not fit 128 bits.
+    pub fn step(&self) -> Option<Ratio> {
+        self.base.as_ref().map_or(Some(self.scale), |base| self.scale.checked_mul(base.factor))
+    }
+
+    /// One raw step in the given symbol, if the unit knows it.
+    pub fn step_in(&self, symbol: &str) -> Option<Ratio> {
+        if symbol == self.symbol {
+            Some(self.scale)
+        } else if symbol == self.base_symbol() {
+            self.step()
+        } else {
+            None
+        }
+    }
+
+    /// A raw value as the manual writes it: `50.0 °C`.
+    pub fn show(&self, raw: i128) -> String {
+        let value = Ratio::whole(raw).checked_mul(self.scale);
+        let places = self.scale.decimal_places();
+        match value.and_then(|value| value.to_decimal(places?)) {
+            Some(number) => format!("{number} {}", self.symbol),
+            None => format!("{raw} × {} {}", self.scale, self.symbol),
+        }
+    }
+
+    /// What one raw step is, for a column heading: `mV`, `0.1 °C`.
+    pub fn step_text(&self) -> String {
+        if self.scale == Ratio::ONE { self.symbol.clone() } else { format!("{} {}", self.scale, self.symbol) }
+    }
+}

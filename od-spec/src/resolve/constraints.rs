@@ -1,0 +1,171 @@
+//! Conditions between entries, tried on the defaults.
+
+use crate::ast::{ConstraintDecl, Spec};
+use crate::decode::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::expr::{EntryRef, Expr, Outcome, Values};
+use crate::model::{Constraint, Dictionary, EntryId, Ratio};
+use crate::source::Spanned;
+
+use super::types::words;
+
+pub(super) fn resolve(root: &Spec, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Vec<Constraint> {
+    for decl in &root.objects {
+        check_write_conditions(decl, devices, diagnostics);
+    }
+    root.constraints.iter().filter_map(|decl| constraint(decl, devices, diagnostics)).collect()
+}
+
+/// `writable-when` names entries of the same device.
+fn check_write_conditions(decl: &crate::ast::ObjectDecl, devices: &[Dictionary], diagnostics: &mut Diagnostics) {
+    let members = decl.record.iter().flat_map(|record| &record.members);
+    let elements = decl.array.iter().flat_map(|array| &array.elements);
+    let entries = members.chain(elements).map(|(_, entry)| entry).chain([&decl.entry]);
+    for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
+        let here = |device: &&Dictionary| device.objects.contains_key(&decl.index.value);
+        for device in devices.iter().filter(here) {
+            check_known(condition, std::slice::from_ref(&device), diagnostics);
+        }
+    }
+}
+
+/// Reports entries that none of the devices has; `true` when there are none such.
+fn check_known(condition: &Spanned<Expr>, devices: &[&Dictionary], diagnostics: &mut Diagnostics) -> bool {
+    let mut known = true;
+    for entry in condition.value.entries() {
+        let named = |device: &&&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
+        if let Some(key) = &entry.device
+            && !devices.iter().any(|device| device.key == *key)
+        {
+            let keys = devices.iter().map(|device| device.key.as_str());
+            let help = nearest(key, keys).map_or("name a device of the specification".to_owned(), |word| {
+                format!("did you mean `{word}`?")
+            });
+            diagnostics
+                .push(Diagnostic::new(Code::UnknownDevice, condition.span, format!("there is no device `{key}`")).help(help));
+            known = false;
+        } else if !devices.iter().filter(named).any(|device| device.entry(entry.id).is_some()) {
+            diagnostics.push(
+                Diagnostic::new(Code::UnknownEntry, condition.span, format!("there is no entry {entry}"))
+                    .help("correct the index or sub-index in the condition"),
+            );
+            known = false;
+        }
+    }
+    known
+}
+
+fn constraint(decl: &ConstraintDecl, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Option<Constraint> {
+    let require = decl.require.as_ref()?;
+    let all: Vec<&Dictionary> = devices.iter().collect();
+    let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
+    if !conditions.iter().all(|condition| check_known(condition, &all, diagnostics)) {
+        return None;
+    }
+    let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();
+    let unprefixed = || entries.iter().filter(|entry| entry.device.is_none());
+    // Entries without a device are those of each device that has all of them.
+    let own: Vec<&Dictionary> = devices
+        .iter()
+        .filter(|device| decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key)))
+        .filter(|device| unprefixed().all(|entry| device.entry(entry.id).is_some()))
+        .collect();
+    if own.is_empty() && unprefixed().next().is_some() {
+        diagnostics.push(
+            Diagnostic::new(Code::ConstraintDevices, require.span, "no single device has all these entries")
+                .help("write `device:` before the entries, such as `pmc:0x6510.4`"),
+        );
+        return None;
+    }
+    let prefixed = entries.iter().filter_map(|entry| entry.device.clone());
+    let mut keys: Vec<String> = prefixed.collect();
+    if unprefixed().next().is_some() {
+        keys.extend(own.iter().map(|device| device.key.clone()));
+    }
+    keys.sort();
+    keys.dedup();
+    let constraint = Constraint {
+        name: decl.name.value.clone(),
+        about: words(&decl.about),
+        require: require.value.clone(),
+        when: decl.when.as_ref().map(|when| when.value.clone()),
+        devices: keys,
+        span: require.span,
+    };
+    let candidates = if own.is_empty() { vec![*all.first()?] } else { own };
+    for device in candidates {
+        if let Outcome::Fails { left, op, right } = check(&constraint, &Defaults { device, devices }) {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::ConstraintBroken,
+                    require.span,
+                    format!("the defaults of `{}` break `{}`", device.key, constraint.name),
+                )
+                .label(format!("{} is {}, {} is {}: not {}", left.0, left.1, right.0, right.1, op.sign()))
+                .help("correct a default or the condition; values are compared in physical units"),
+            );
+            break;
+        }
+    }
+    Some(constraint)
+}
+
+/// Whether a constraint holds; one whose `when` does not hold, or cannot be decided, holds.
+pub(crate) fn check(constraint: &Constraint, values: &dyn Values) -> Outcome {
+    if let Some(when) = &constraint.when
+        && when.evaluate(values) != Outcome::Holds
+    {
+        return Outcome::Holds;
+    }
+    constraint.require.evaluate(values)
+}
+
+/// Raw values of entries, to be seen in physical units.
+pub(crate) trait Lookup {
+    /// The device that an entry without `device:` belongs to.
+    fn device(&self) -> &Dictionary;
+    /// A device by key.
+    fn other(&self, key: &str) -> Option<&Dictionary>;
+    /// The raw value of an entry of a device.
+    fn raw_value(&self, device: &Dictionary, id: EntryId) -> Option<i128> {
+        device.entry(id)?.default.as_ref()?.integer()
+    }
+
+    /// The device that holds a named entry.
+    fn holder(&self, entry: &EntryRef) -> Option<&Dictionary> {
+        match &entry.device {
+            Some(key) => self.other(key),
+            None => Some(self.device()),
+        }
+    }
+}
+
+/// The defaults of all devices, seen from one of them.
+pub(super) struct Defaults<'a> {
+    pub device: &'a Dictionary,
+    pub devices: &'a [Dictionary],
+}
+
+impl Lookup for Defaults<'_> {
+    fn device(&self) -> &Dictionary {
+        self.device
+    }
+    fn other(&self, key: &str) -> Option<&Dictionary> {
+        self.devices.iter().find(|device| device.key == key)
+    }
+}
+
+impl<T: Lookup> Values for T {
+    fn value(&self, entry: &EntryRef) -> Option<Ratio> {
+        let raw = Ratio::whole(self.raw(entry)?);
+        let unit = self.holder(entry)?.entry(entry.id)?.unit.as_ref();
+        match unit {
+            Some(unit) => raw.checked_mul(unit.step()?),
+            None => Some(raw),
+        }
+    }
+
+    fn raw(&self, entry: &EntryRef) -> Option<i128> {
+        self.raw_value(self.holder(entry)?, entry.id)
+    }
+}

@@ -1,0 +1,217 @@
+//! Which declarations make up a device: its own objects, laid over a library's where `from:` says so, and the objects
+//! that its features bring.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::scope::unknown;
+use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{Index, Origin, SubIndex};
+use crate::source::Spanned;
+
+/// A declaration that is ready to be resolved for one device.
+pub(super) struct Declared {
+    pub decl: ObjectDecl,
+    pub origin: Origin,
+    pub profile: Option<String>,
+    pub differs: Vec<String>,
+}
+
+/// All declarations of a device by index.
+pub(super) fn of_device(
+    root: &Spec,
+    libraries: &[Spec],
+    device: &DeviceDecl,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<Index, Declared> {
+    let mut declared = BTreeMap::new();
+    for decl in &root.objects {
+        let here = decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value));
+        if !here {
+            continue;
+        }
+        let one = match &decl.from {
+            Some(from) => from_library(decl, from, libraries, diagnostics),
+            None => Some(Declared { decl: decl.clone(), origin: Origin::Manual, profile: None, differs: Vec::new() }),
+        };
+        if let Some(one) = one {
+            declared.insert(decl.index.value, one);
+        }
+    }
+    for (library, feature) in features(libraries, device, diagnostics) {
+        for index in &feature.objects {
+            let Some(decl) = library.objects.iter().find(|decl| decl.index == *index) else {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::NotInLibrary,
+                        index.span,
+                        format!("feature `{}` names {}, which the library does not define", feature.name.value, index.value),
+                    )
+                    .help("define the object in the library, or correct the index"),
+                );
+                continue;
+            };
+            declared.entry(index.value).or_insert_with(|| Declared {
+                decl: decl.clone(),
+                origin: Origin::Profile,
+                profile: library.profile.as_ref().map(|name| name.value.clone()),
+                differs: Vec::new(),
+            });
+        }
+    }
+    declared
+}
+
+/// The features of a device: those that every device has, those it names, and those they need.
+fn features<'a>(
+    libraries: &'a [Spec],
+    device: &DeviceDecl,
+    diagnostics: &mut Diagnostics,
+) -> Vec<(&'a Spec, &'a FeatureDecl)> {
+    let all = || libraries.iter().flat_map(|library| library.features.iter().map(move |feature| (library, feature)));
+    let mut wanted: Vec<Name> = Vec::new();
+    for (_, feature) in all().filter(|(_, feature)| feature.implied) {
+        wanted.push(feature.name.clone());
+    }
+    wanted.extend(device.features.iter().cloned());
+    let mut seen: BTreeSet<String> = BTreeSet::new();
+    let mut found = Vec::new();
+    while let Some(name) = wanted.pop() {
+        if !seen.insert(name.value.clone()) {
+            continue;
+        }
+        match all().find(|(_, feature)| feature.name.value == name.value) {
+            Some((library, feature)) => {
+                wanted.extend(feature.needs.iter().cloned());
+                found.push((library, feature));
+            }
+            None => {
+                let known = all().map(|(_, feature)| feature.name.value.as_str());
+                let otherwise = if libraries.is_empty() {
+                    "add `uses: [cia301]` to the specification; features come from libraries"
+                } else {
+                    "see the library's `features:` for their names"
+                };
+                diagnostics.push(unknown(Code::UnknownFeature, &name, "feature", known, otherwise));
+            }
+        }
+    }
+    found
+}
+
+fn from_library(
+    decl: &ObjectDecl,
+    from: &Name,
+    libraries: &[Spec],
+    diagnostics: &mut Diagnostics,
+) -> Option<Declared> {
+    let names = libraries.iter().filter_map(|library| library.profile.as_ref());
+    let Some(library) = libraries.iter().find(|l| l.profile.as_ref().is_some_and(|name| name.value == from.value))
+    else {
+        let known = names.map(|name| name.value.as_str());
+        diagnostics.push(unknown(
+            Code::UnknownLibrary,
+            from,
+            "library",
+            known,
+            "name the library in `uses:` at the top of the file",
+        ));
+        return None;
+    };
+    let Some(below) = library.objects.iter().find(|below| below.index == decl.index) else {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::NotInLibrary,
+                from.span,
+                format!("library `{}` does not define {}", from.value, decl.index.value),
+            )
+            .help("write the object in full, without `from:`"),
+        );
+        return None;
+    };
+    let (merged, differs) = lay_over(decl, below);
+    Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), differs })
+}
+
+/// The declaration over the library's, and the facts in which they differ.
+fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) {
+    let mut differs = Vec::new();
+    let mut note = |prefix: &str, facts: Vec<&'static str>| {
+        for fact in facts.into_iter().filter(|fact| !matches!(*fact, "about" | "since" | "stored" | "eds")) {
+            let fact = fact.trim_end_matches("_name").replace('_', "-");
+            differs.push(format!("{prefix}{fact}"));
+        }
+    };
+    note("", over.entry.differences(&below.entry));
+    let array = match (&over.array, &below.array) {
+        (Some(over), Some(below)) => {
+            note("elements: ", over.entry.differences(&below.entry));
+            if over.count.is_some() && over.count != below.count {
+                note("", vec!["count"]);
+            }
+            Some(ArrayDecl {
+                span: over.span,
+                count: over.count.or(below.count),
+                entry: over.entry.over(&below.entry),
+                elements: merge_members(&over.elements, &below.elements, &mut note),
+            })
+        }
+        // An object that says it is something else than the library's object is that.
+        (over_array, below_array) => {
+            over_array.clone().or_else(|| below_array.clone().filter(|_| over.record.is_none()))
+        }
+    };
+    let record = match (&over.record, &below.record) {
+        (Some(over), Some(below)) => {
+            Some(RecordDecl { span: over.span, members: merge_members(&over.members, &below.members, &mut note) })
+        }
+        (over_record, below_record) => {
+            over_record.clone().or_else(|| below_record.clone().filter(|_| over.array.is_none()))
+        }
+    };
+    let sub0 = match (&over.sub0, &below.sub0) {
+        (Some(over), Some(below)) => {
+            note("sub-index 0: ", over.differences(below));
+            Some(over.over(below))
+        }
+        (over, below) => over.clone().or_else(|| below.clone()),
+    };
+    if over.array.is_some() != below.array.is_some() && (over.array.is_some() || over.record.is_some()) {
+        note("", vec!["object-type"]);
+    }
+    let merged = ObjectDecl {
+        index: over.index,
+        on: over.on.clone(),
+        from: over.from.clone(),
+        alias: over.alias.clone(),
+        outside: over.outside,
+        rounding: over.rounding,
+        array,
+        record,
+        sub0,
+        omit: over.omit.clone(),
+        entry: over.entry.over(&below.entry),
+    };
+    (merged, differs)
+}
+
+type Members = Vec<(Spanned<SubIndex>, EntryDecl)>;
+
+fn merge_members(over: &Members, below: &Members, note: &mut impl FnMut(&str, Vec<&'static str>)) -> Members {
+    let mut merged: BTreeMap<SubIndex, (Spanned<SubIndex>, EntryDecl)> =
+        below.iter().map(|(sub, entry)| (sub.value, (*sub, entry.clone()))).collect();
+    for (sub, entry) in over {
+        let laid = match merged.get(&sub.value) {
+            Some((_, below)) => {
+                note(&format!("sub-index {}: ", sub.value), entry.differences(below));
+                entry.over(below)
+            }
+            None => {
+                note(&format!("sub-index {}: ", sub.value), vec!["added"]);
+                entry.clone()
+            }
+        };
+        merged.insert(sub.value, (*sub, laid));
+    }
+    merged.into_values().collect()
+}

@@ -1,0 +1,337 @@
+//! Devices and their dictionaries.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::decls::{self, Declared};
+use super::entries::{self, Surroundings};
+use super::scope::{Scope, unknown};
+use super::types::words;
+use super::{objects, pdos, refs, to_u8, to_u16, to_u32};
+use crate::ast::{DeviceDecl, Name, Spec};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{
+    Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index, Object, ObjectKind, Outside,
+    Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
+};
+
+/// Bit rates of CiA 301 in kbit/s.
+const BIT_RATES: [i128; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+
+pub(super) fn resolve(
+    root: &Spec,
+    libraries: &[Spec],
+    scope: &Scope,
+    vendor: &Vendor,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Dictionary> {
+    check_device_keys(root, diagnostics);
+    root.devices
+        .iter()
+        .map(|device| {
+            let mut built = Builder {
+                around: Surroundings {
+                    scope,
+                    safe_eds: device.eds_defaults.as_ref().is_none_or(|word| word.value == "safe"),
+                },
+                objects: BTreeMap::new(),
+                broken: BTreeSet::new(),
+            };
+            let declared = decls::of_device(root, libraries, device, diagnostics);
+            built.plain_objects(&declared, diagnostics);
+            built.aliases(&declared, diagnostics);
+            let info = info(device, diagnostics);
+            built.identity(&info, vendor);
+            let list = root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
+            let pdos = pdos::resolve(list, &info, &mut built.objects, &built.broken, diagnostics);
+            Dictionary {
+                key: device.key.value.clone(),
+                name: device.name.as_ref().map_or(String::new(), |name| name.value.clone()),
+                file: file(device, vendor),
+                info,
+                about: words(&device.about),
+                objects: built.objects,
+                pdos,
+            }
+        })
+        .collect()
+}
+
+/// Every device key that is used must be declared.
+fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
+    let known: Vec<&str> = root.devices.iter().map(|device| device.key.value.as_str()).collect();
+    let lists = [
+        root.objects.iter().filter_map(|decl| decl.on.as_ref()).collect::<Vec<_>>(),
+        root.errors.iter().filter_map(|decl| decl.on.as_ref()).collect(),
+        root.machines.iter().filter_map(|decl| decl.on.as_ref()).collect(),
+        root.constraints.iter().filter_map(|decl| decl.on.as_ref()).collect(),
+        root.errata.iter().filter_map(|decl| decl.on.as_ref()).collect(),
+    ];
+    let used = lists.into_iter().flatten().flatten().chain(root.pdos.iter().map(|(key, _)| key));
+    for key in used.filter(|key| !known.contains(&key.value.as_str())) {
+        diagnostics.push(unknown(Code::UnknownDevice, key, "device", known.iter().copied(), "define it under `devices:`"));
+    }
+}
+
+struct Builder<'a> {
+    around: Surroundings<'a>,
+    objects: BTreeMap<Index, Object>,
+    broken: BTreeSet<Index>,
+}
+
+impl Builder<'_> {
+    fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared>, diagnostics: &mut Diagnostics) {
+        for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
+            if pdos::is_pdo_index(*index) {
+                diagnostics.push(
+                    Diagnostic::new(Code::PdoByHand, one.decl.index.span, format!("{index} is a PDO parameter object"))
+                        .help("describe the PDO under `pdos:`; its objects are made from that"),
+                );
+                continue;
+            }
+            match objects::resolve(one, self.around, diagnostics) {
+                Some(object) => {
+                    self.objects.insert(*index, object);
+                }
+                None => {
+                    self.broken.insert(*index);
+                }
+            }
+        }
+        self.broken.extend(declared.iter().filter(|(_, one)| one.decl.alias.is_some()).map(|(index, _)| *index));
+    }
+
+    fn aliases(&mut self, declared: &BTreeMap<Index, Declared>, diagnostics: &mut Diagnostics) {
+        let names = refs::Names::new(self.objects.values());
+        for (index, one) in declared {
+            let Some(reference) = &one.decl.alias else { continue };
+            let exists = |id: EntryId| self.entry(id).is_some();
+            if let Some((_, target)) = declared
+                .get_key_value(&crate::decode::lexical::entry_by_index(&reference.value).map_or(*index, |(id, _)| id.index))
+                .filter(|(_, target)| target.decl.alias.is_some())
+            {
+                diagnostics.push(
+                    Diagnostic::new(Code::AliasOfAlias, reference.span, format!("{} is an alias itself", target.decl.index.value))
+                        .with(target.decl.index.span, "an alias")
+                        .help("refer to the entry that holds the value"),
+                );
+                continue;
+            }
+            let is_broken = |index: Index| self.broken.contains(&index);
+            let Some(id) = names.find(reference, exists, is_broken, diagnostics) else { continue };
+            if let Some(object) = self.alias(one, reference, id, diagnostics) {
+                self.broken.remove(index);
+                self.objects.insert(*index, object);
+            }
+        }
+    }
+
+    fn entry(&self, id: EntryId) -> Option<&Entry> {
+        self.objects.get(&id.index)?.entry(id.sub)
+    }
+
+    fn alias(&self, one: &Declared, reference: &Name, id: EntryId, diagnostics: &mut Diagnostics) -> Option<Object> {
+        let decl = &one.decl;
+        let target_object = self.objects.get(&id.index)?;
+        let target = target_object.entry(id.sub)?;
+        if decl.array.is_some() || decl.record.is_some() || decl.entry.stored.is_some() || decl.entry.default.is_some() {
+            diagnostics.push(
+                Diagnostic::new(Code::ConflictingKeys, decl.index.span, "an alias has no storage or value of its own")
+                    .help("remove `array`, `record`, `stored` and `default`; they are the target's"),
+            );
+            return None;
+        }
+        let mut whole = decl.entry.clone();
+        whole.access.get_or_insert(crate::source::Spanned::new((target.access, target.locked), reference.span));
+        whole.pdo.get_or_insert(crate::source::Spanned::new(target.pdo, reference.span));
+        let default_name = if target_object.is_structured() {
+            format!("{} {} 16bit", target_object.name, target.name)
+        } else {
+            format!("{} 16bit", target_object.name)
+        };
+        let name = whole.name.as_ref().map_or(default_name, |name| name.value.clone());
+        let mut entry = entries::resolve(&whole, SubIndex(0), name.clone(), self.around, diagnostics)?;
+        let factor = check_alias(&entry, decl.entry.type_name.as_ref(), target, id, reference, diagnostics)?;
+        if entry.unit.is_none() {
+            entry.unit.clone_from(&target.unit);
+        }
+        if entry.writable_when.is_none() {
+            entry.writable_when.clone_from(&target.writable_when);
+        }
+        let alias = Alias {
+            target: id,
+            factor,
+            rounding: decl.rounding.map_or(Rounding::Down, |rounding| rounding.value),
+            outside: decl.outside.map_or(Outside::Saturate, |outside| outside.value),
+        };
+        let show = |raw: i128| convert(raw, alias.factor, alias.rounding, alias.outside, entry.data_type);
+        entry.default = match &target.default {
+            Some(Value::Integer(raw)) => show(*raw).map(Value::Integer),
+            _ => None,
+        };
+        entry.eds = entries::alias_policy(&entry, target, &decl.entry, self.around.safe_eds);
+        entry.stored = Storage::No;
+        entry.alias = Some(alias);
+        Some(Object {
+            index: decl.index.value,
+            name,
+            kind: ObjectKind::Var,
+            origin: one.origin,
+            profile: one.profile.clone(),
+            differs: one.differs.clone(),
+            category: decl.entry.category.map(|category| category.value),
+            since: decl.entry.since.as_ref().map(|since| since.value.clone()),
+            about: words(&decl.entry.about),
+            entries: vec![entry],
+            span: decl.index.span,
+        })
+    }
+
+    /// Fills in what the device itself decides: 1000h, 1008h, 1018h.
+    fn identity(&mut self, info: &DeviceInfo, vendor: &Vendor) {
+        let numbers = [
+            (0x1000, 0, info.device_type),
+            (0x1018, 1, vendor.number),
+            (0x1018, 2, info.product),
+            (0x1018, 3, info.product_revision),
+        ];
+        let numbers = numbers.map(|(index, sub, number)| (index, sub, Value::Integer(i128::from(number))));
+        let name = [(0x1008, 0, Value::Text(info.product_name.clone()))];
+        for (index, sub, value) in numbers.into_iter().chain(name) {
+            let entry = self
+                .objects
+                .get_mut(&Index(index))
+                .and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == SubIndex(sub)));
+            if let Some(entry) = entry.filter(|entry| entry.default.is_none()) {
+                entry.default = Some(value);
+            }
+        }
+    }
+}
+
+/// Checks that an alias can show its target, and gives the raw factor between them.
+fn check_alias(
+    alias: &Entry,
+    type_name: Option<&Name>,
+    target: &Entry,
+    id: EntryId,
+    reference: &Name,
+    diagnostics: &mut Diagnostics,
+) -> Option<Ratio> {
+    let place = type_name.map_or(reference.span, |name| name.span);
+    let mut refuse = |message: String, help: &str| {
+        diagnostics.push(
+            Diagnostic::new(Code::BadAlias, place, message).with(reference.span, "its target").help(help.to_owned()),
+        );
+        None
+    };
+    let (own, other) = (alias.data_type, target.data_type);
+    if !own.is_integer() || !other.is_integer() {
+        return refuse(format!("{own} cannot show {id}, which is {other}"), "an alias and its target are integers");
+    }
+    if own.is_signed() != other.is_signed() {
+        return refuse(
+            format!("{own} cannot show {id}, which is {other}: one has a sign, the other has not"),
+            "take a type with the same sign as the target",
+        );
+    }
+    let rescaled = alias.unit.is_some() && alias.unit != target.unit;
+    let (width, target_width) = (own.bits().unwrap_or(0), other.bits().unwrap_or(0));
+    if width > target_width || (width == target_width && !rescaled) {
+        return refuse(
+            format!("{own} is not narrower than {id}, which is {other}"),
+            "an alias shows its target in a narrower type, or in another unit",
+        );
+    }
+    if !rescaled {
+        return Some(Ratio::ONE);
+    }
+    let factor = match (entries::step(alias.unit.as_ref()), entries::step(target.unit.as_ref())) {
+        (Some((symbol, step)), Some((target_symbol, target_step))) if symbol == target_symbol => {
+            target_step.checked_div(step)
+        }
+        _ => None,
+    };
+    factor.or_else(|| {
+        refuse(
+            format!("the alias is in {}, its target in {}: they do not convert", unit_name(alias), unit_name(target)),
+            "give both units the same `base`, or leave out the alias' unit",
+        )
+    })
+}
+
+fn unit_name(entry: &Entry) -> String {
+    entry.unit.as_ref().map_or("no unit".to_owned(), |unit| format!("`{}`", unit.name))
+}
+
+fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
+    let text = |name: &Option<Name>| name.as_ref().map(|name| name.value.clone());
+    let number = |value: &Option<crate::source::Spanned<i128>>| value.as_ref().map_or(0, |value| to_u32(value.value));
+    let flag = |value: &Option<crate::source::Spanned<bool>>, unless: bool| value.as_ref().map_or(unless, |v| v.value);
+    let product_name = text(&device.product_name).or_else(|| text(&device.name)).unwrap_or_default();
+    let mut bit_rates = Vec::new();
+    for rate in &device.bit_rates {
+        if BIT_RATES.contains(&rate.value) {
+            bit_rates.push(to_u16(rate.value));
+        } else {
+            diagnostics.push(
+                Diagnostic::new(Code::BadBitRate, rate.span, format!("{} kbit/s is not a CANopen bit rate", rate.value))
+                    .help("CiA 301 has 10, 20, 50, 125, 250, 500, 800 and 1000 kbit/s"),
+            );
+        }
+    }
+    if device.bit_rates.is_empty() {
+        diagnostics.push(
+            Diagnostic::new(Code::NoBitRate, device.key.span, format!("device `{}` supports no bit rate", device.key.value))
+                .help("add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without"),
+        );
+    }
+    bit_rates.sort_unstable();
+    bit_rates.dedup();
+    let mut dummies = Vec::new();
+    for name in &device.dummies {
+        match DataType::from_name(&name.value).filter(|data_type| data_type.is_dummy()) {
+            Some(data_type) => dummies.push(data_type),
+            None => {
+                let known = DataType::ALL.into_iter().filter(|t| t.is_dummy()).map(DataType::name);
+                let otherwise = "placeholders are boolean, integer8/16/32 and unsigned8/16/32";
+                diagnostics.push(unknown(Code::UnknownType, name, "placeholder type", known, otherwise));
+            }
+        }
+    }
+    dummies.sort_by_key(|data_type| data_type.code());
+    dummies.dedup();
+    DeviceInfo {
+        order_code: text(&device.order_code).unwrap_or_else(|| product_name.clone()),
+        product_name,
+        product: number(&device.product),
+        product_revision: number(&device.product_revision),
+        bit_rates,
+        device_type: number(&device.device_type),
+        granularity: device.granularity.as_ref().map_or(8, |value| to_u8(value.value)),
+        boot_up_master: flag(&device.boot_up_master, false),
+        boot_up_slave: flag(&device.boot_up_slave, true),
+        group_messaging: flag(&device.group_messaging, false),
+        lss: flag(&device.lss, false),
+        dummies,
+    }
+}
+
+fn file(device: &DeviceDecl, vendor: &Vendor) -> FileInfo {
+    let eds = device.eds.as_ref();
+    let text = |name: Option<&Name>| name.map(|name| name.value.clone());
+    // An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
+    let epoch = DateTime { date: Date { year: 2000, month: 1, day: 1 }, hour: 0, minute: 0 };
+    let created = eds.and_then(|eds| eds.created).map_or(epoch, |created| created.value);
+    let created_by = text(eds.and_then(|eds| eds.created_by.as_ref())).unwrap_or_else(|| vendor.name.clone());
+    FileInfo {
+        description: text(eds.and_then(|eds| eds.description.as_ref()))
+            .or_else(|| text(device.name.as_ref()))
+            .unwrap_or_default(),
+        created,
+        modified: eds.and_then(|eds| eds.modified).map_or(created, |modified| modified.value),
+        modified_by: text(eds.and_then(|eds| eds.modified_by.as_ref())).unwrap_or_else(|| created_by.clone()),
+        created_by,
+        version: eds.and_then(|eds| eds.version).map_or(1, |version| to_u8(version.value)),
+        revision: eds.and_then(|eds| eds.revision).map_or(0, |revision| to_u8(revision.value)),
+    }
+}

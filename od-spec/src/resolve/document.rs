@@ -1,0 +1,208 @@
+//! The printed manual: issues, sections, tables, errata.
+
+use std::collections::BTreeMap;
+
+use super::refs::Names;
+use super::scope::unknown;
+use super::types::words;
+use super::to_u16;
+use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
+use crate::decode::lexical;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{
+    Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table, TableContent, TypeKind,
+};
+use crate::source::{Span, Spanned};
+
+pub(super) fn resolve(root: &Spec) -> Document {
+    let source = root.source.as_ref();
+    Document {
+        source: source.and_then(|source| {
+            let title = source.title.as_ref()?.value.clone();
+            Some(match &source.edition {
+                Some(edition) => format!("{title}, {}", edition.value),
+                None => title,
+            })
+        }),
+        about: source.map(|source| words(&source.about)).unwrap_or_default(),
+        revision: root.revision.as_ref().and_then(issue),
+        history: root.history.iter().filter_map(issue).collect(),
+        glossary: root.glossary.iter().map(|(name, text)| (name.value.clone(), text.clone())).collect(),
+        sections: root
+            .sections
+            .iter()
+            .map(|decl| Section {
+                number: decl.number.as_ref().map_or(String::new(), |number| number.value.clone()),
+                title: words(&decl.title),
+                tables: decl.tables.iter().filter_map(table).collect(),
+            })
+            .collect(),
+    }
+}
+
+fn issue(decl: &IssueDecl) -> Option<Issue> {
+    let (number, date) = (decl.number.as_ref()?.value.clone(), decl.date.as_ref()?.value);
+    Some(Issue { number, date, about: words(&decl.about) })
+}
+
+fn table(decl: &TableDecl) -> Option<Table> {
+    let indices = |list: &[Spanned<Index>]| list.iter().map(|index| index.value).collect();
+    let content = match &decl.contents.first()?.value {
+        ContentDecl::Overview(list) => TableContent::Overview(indices(list)),
+        ContentDecl::Objects(list) => TableContent::Objects(indices(list)),
+        ContentDecl::Bits(name) => TableContent::Bits(name.value.clone()),
+        ContentDecl::Values(name) => TableContent::Values(name.value.clone()),
+        ContentDecl::Errors(list) => TableContent::Errors(error_codes(list)),
+        ContentDecl::Reactions(list) => TableContent::Reactions(error_codes(list)),
+        ContentDecl::States(name) => TableContent::States(name.value.clone()),
+        ContentDecl::Transitions(name) => TableContent::Transitions(name.value.clone()),
+        ContentDecl::Commands(name) => TableContent::Commands(name.value.clone()),
+        ContentDecl::Ladder(name) => TableContent::Ladder(name.value.clone()),
+        ContentDecl::Pdos(device, direction) => {
+            let (device, direction) = (device.as_ref()?.value.clone(), direction.as_ref()?.value);
+            TableContent::Pdos(PdoTable { device, direction })
+        }
+        ContentDecl::Rows(columns, rows) => TableContent::Rows {
+            columns: columns.clone(),
+            rows: rows.iter().map(|row| row.value.clone()).collect(),
+        },
+        ContentDecl::Glossary => TableContent::Glossary,
+        ContentDecl::History => TableContent::History,
+    };
+    let number = decl.number.as_ref().map(|number| to_u16(number.value));
+    Some(Table { number, title: words(&decl.title), content })
+}
+
+/// Codes of a list; `all` is the empty list.
+fn error_codes(list: &[Name]) -> Vec<u16> {
+    list.iter().filter_map(|code| lexical::error_codes(&code.value)).flat_map(|(first, last)| first..=last).collect()
+}
+
+pub(super) fn errata(root: &Spec, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Vec<Erratum> {
+    let mut errata = Vec::new();
+    for decl in &root.errata {
+        let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
+        let about: Vec<&Dictionary> = devices.iter().filter(|d| on.is_empty() || on.contains(&d.key)).collect();
+        let mut at = Vec::new();
+        for reference in &decl.at {
+            if let Some(place) = place(reference, &about, diagnostics) {
+                at.push(place);
+            }
+        }
+        let Some(kind) = decl.kind else { continue };
+        errata.push(Erratum {
+            at,
+            devices: on,
+            kind: kind.value,
+            place: words(&decl.place),
+            prints: words(&decl.prints),
+            reads: words(&decl.reads),
+            because: words(&decl.because),
+        });
+    }
+    errata
+}
+
+fn place(reference: &Name, devices: &[&Dictionary], diagnostics: &mut Diagnostics) -> Option<ErratumPlace> {
+    if let Some((id, has_sub)) = lexical::entry_by_index(&reference.value) {
+        let known = devices.iter().any(|device| {
+            if has_sub { device.entry(id).is_some() } else { device.objects.contains_key(&id.index) }
+        });
+        if known {
+            return Some(if has_sub { ErratumPlace::Entry(id) } else { ErratumPlace::Object(id.index) });
+        }
+    }
+    // By name, or wrong: the name lookup reports it.
+    let names = Names::new(devices.iter().flat_map(|device| device.objects.values()));
+    let id = names.find(reference, |_| false, |_| false, diagnostics)?;
+    Some(if id.sub.0 == 0 { ErratumPlace::Object(id.index) } else { ErratumPlace::Entry(id) })
+}
+
+/// Checks what the tables refer to.
+pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
+    let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
+    for decl in root.sections.iter().flat_map(|section| &section.tables) {
+        if let Some(number) = &decl.number
+            && let Some(before) = numbers.insert(number.value, number.span)
+        {
+            diagnostics.push(
+                Diagnostic::new(Code::DuplicateValue, number.span, format!("table {} stands twice", number.value))
+                    .label("again here")
+                    .with(before, "first here")
+                    .help("each numbered table of the manual stands once"),
+            );
+        }
+        match decl.contents.as_slice() {
+            [content] => check_content(&content.value, system, diagnostics),
+            _ => diagnostics.push(
+                Diagnostic::new(Code::ConflictingKeys, decl.span, "a table is filled by exactly one key")
+                    .help("write one of `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
+            ),
+        }
+    }
+}
+
+fn check_content(content: &ContentDecl, system: &System, diagnostics: &mut Diagnostics) {
+    let mut known = |name: &Name, what: &str, names: Vec<&str>, help: &str| {
+        if !names.contains(&name.value.as_str()) {
+            diagnostics.push(unknown(Code::UnknownReference, name, what, names, help));
+        }
+    };
+    match content {
+        ContentDecl::Overview(list) | ContentDecl::Objects(list) => {
+            for index in list {
+                if !system.devices.iter().any(|device| device.objects.contains_key(&index.value)) {
+                    diagnostics.push(
+                        Diagnostic::new(Code::UnknownEntry, index.span, format!("there is no object {}", index.value))
+                            .help("correct the index, or define the object"),
+                    );
+                }
+            }
+        }
+        ContentDecl::Bits(name) => {
+            let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Bits(_)));
+            known(name, "bit field", types.map(|named| named.name.as_str()).collect(), "define it under `types:`");
+        }
+        ContentDecl::Values(name) => {
+            let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Enum(_)));
+            known(name, "enum", types.map(|named| named.name.as_str()).collect(), "define it under `types:`");
+        }
+        ContentDecl::States(name) | ContentDecl::Transitions(name) | ContentDecl::Commands(name) => {
+            let machines = system.machines.keys().map(String::as_str).collect();
+            known(name, "state machine", machines, "define it under `state-machines:`");
+        }
+        ContentDecl::Ladder(name) => {
+            let constraints = system.constraints.iter().map(|constraint| constraint.name.as_str()).collect();
+            known(name, "constraint", constraints, "define it under `constraints:`");
+        }
+        ContentDecl::Pdos(Some(name), _) => {
+            let devices = system.devices.iter().map(|device| device.key.as_str()).collect();
+            known(name, "device", devices, "define it under `devices:`");
+        }
+        ContentDecl::Errors(list) | ContentDecl::Reactions(list) => {
+            for code in list.iter().filter(|code| code.value != "all") {
+                let range = lexical::error_codes(&code.value);
+                let has = |code: u16| system.errors.binary_search_by_key(&code, |error| error.code).is_ok();
+                if !range.is_some_and(|(first, last)| (first..=last).all(has)) {
+                    diagnostics.push(
+                        Diagnostic::new(Code::UnknownReference, code.span, format!("there is no error code `{}`", code.value))
+                            .help("define it under `errors:`, or write `all`"),
+                    );
+                }
+            }
+        }
+        ContentDecl::Rows(columns, rows) => {
+            for row in rows.iter().filter(|row| row.value.len() != columns.len()) {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::CountMismatch,
+                        row.span,
+                        format!("this row has {} cells, the table has {} columns", row.value.len(), columns.len()),
+                    )
+                    .help("write one cell per column; `\"\"` for an empty one"),
+                );
+            }
+        }
+        ContentDecl::Pdos(None, _) | ContentDecl::Glossary | ContentDecl::History => {}
+    }
+}

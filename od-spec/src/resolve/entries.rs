@@ -1,0 +1,290 @@
+//! One entry: type, access, unit, values, policy.
+
+use std::sync::Arc;
+
+use super::scope::{Scope, unknown};
+use super::types::words;
+use super::values::{self, Expected};
+use crate::ast::{BitErrorDecl, EntryDecl, Name, SpecialDecl};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{
+    Access, DataType, EdsPolicy, Entry, NamedType, PdoMapping, SpecialValue, Storage, SubIndex, TypeKind, Unit, Value,
+};
+use crate::source::Spanned;
+
+/// What entries are resolved against.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings<'a> {
+    pub scope: &'a Scope,
+    /// Withhold the defaults of locked and stored entries from the EDS.
+    pub safe_eds: bool,
+}
+
+/// Resolves an entry; `None` when it is too broken to stand for anything.
+pub(super) fn resolve(
+    decl: &EntryDecl,
+    sub: SubIndex,
+    name: String,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Entry> {
+    let (data_type, named_type) = entry_type(decl, around.scope, diagnostics)?;
+    let Some(access) = &decl.access else {
+        diagnostics.push(
+            Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `access`")
+                .help("add `access: ro`, `wo`, `rw`, `rwr`, `rww` or `const`, here or where the entry inherits from"),
+        );
+        return None;
+    };
+    let Spanned { value: (access, locked), span: access_span } = *access;
+    if locked && !access.is_writable() {
+        diagnostics.push(
+            Diagnostic::new(Code::LockedReadOnly, access_span, format!("`{}` cannot be locked", access.word()))
+                .help("`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`"),
+        );
+    }
+    let unit = decl.unit.as_ref().and_then(|unit| around.scope.unit(unit, diagnostics));
+    let expected = Expected { data_type, named: named_type.as_deref(), unit: unit.as_deref() };
+    let special = special_values(decl.special.as_ref(), data_type, diagnostics);
+    let (low, high) = limits(decl, expected, diagnostics);
+    let default = values::read_into(decl.default.as_ref(), expected, diagnostics);
+    let stored = decl.stored.map_or(Storage::No, |stored| stored.value);
+    let entry = Entry {
+        sub,
+        name,
+        data_type,
+        access,
+        locked,
+        pdo: mapping(decl, data_type, access, diagnostics),
+        default,
+        low,
+        high,
+        special,
+        stored,
+        alias: None,
+        category: decl.category.map(|category| category.value),
+        since: decl.since.as_ref().map(|since| since.value.clone()),
+        writable_when: decl.writable_when.as_ref().map(|condition| condition.value.clone()),
+        bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
+        eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
+        about: words(&decl.about),
+        span: decl.span,
+        named_type,
+        unit,
+    };
+    check_default(&entry, decl.default.as_ref(), diagnostics);
+    check_const(&entry, decl, diagnostics);
+    Some(Entry { eds: eds_policy(&entry, decl, around.safe_eds), ..entry })
+}
+
+/// The data type and the named type of an entry.
+pub(super) fn entry_type(
+    decl: &EntryDecl,
+    scope: &Scope,
+    diagnostics: &mut Diagnostics,
+) -> Option<(DataType, Option<Arc<NamedType>>)> {
+    let Some(name) = &decl.type_name else {
+        diagnostics.push(
+            Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `type`")
+                .help("add `type:` with a data type or a named type, here or where the entry inherits from"),
+        );
+        return None;
+    };
+    if let Some(data_type) = DataType::from_name(&name.value) {
+        return Some((data_type, None));
+    }
+    if let Some(named) = scope.types.get(&name.value) {
+        return Some((named.base, Some(Arc::clone(named))));
+    }
+    if !scope.is_broken(&name.value) {
+        let named = scope.types.keys().map(String::as_str);
+        let known = named.chain(DataType::ALL.iter().map(|data_type| data_type.name()));
+        diagnostics.push(unknown(
+            Code::UnknownType,
+            name,
+            "type",
+            known,
+            "write a data type such as `unsigned16`, or define the name under `types:`",
+        ));
+    }
+    None
+}
+
+fn mapping(decl: &EntryDecl, data_type: DataType, access: Access, diagnostics: &mut Diagnostics) -> PdoMapping {
+    let Some(Spanned { value: pdo, span }) = decl.pdo else {
+        return PdoMapping::None;
+    };
+    if pdo == PdoMapping::None {
+        return pdo;
+    }
+    if !data_type.is_mappable() {
+        diagnostics.push(
+            Diagnostic::new(Code::TypeNotMappable, span, format!("{data_type} cannot travel in a PDO"))
+                .help("remove `pdo:`; only types of fixed length can be mapped"),
+        );
+        return PdoMapping::None;
+    }
+    let allowed = match access {
+        Access::Const | Access::Ro | Access::Rwr => &[PdoMapping::Transmit][..],
+        Access::Wo | Access::Rww => &[PdoMapping::Receive],
+        Access::Rw => &[PdoMapping::Receive, PdoMapping::Transmit, PdoMapping::Both],
+    };
+    if !allowed.contains(&pdo) {
+        let words = allowed.iter().map(|pdo| format!("`pdo: {}`", pdo.word())).collect::<Vec<_>>().join(" or ");
+        let mut diagnostic = Diagnostic::new(
+            Code::MappingAgainstAccess,
+            span,
+            format!("an entry that is `{}` cannot be mapped as `{}`", access.word(), pdo.word()),
+        )
+        .help(format!("write {words}, or correct the access"))
+        .note("CiA 306 4.6.3.2: a TPDO carries what can be read, an RPDO what can be written");
+        if let Some(access) = &decl.access {
+            diagnostic = diagnostic.with(access.span, "the access");
+        }
+        diagnostics.push(diagnostic);
+        return PdoMapping::None;
+    }
+    pdo
+}
+
+fn special_values(
+    list: Option<&Spanned<Vec<SpecialDecl>>>,
+    data_type: DataType,
+    diagnostics: &mut Diagnostics,
+) -> Vec<SpecialValue> {
+    let Some(list) = list else { return Vec::new() };
+    let mut values = Vec::new();
+    for decl in &list.value {
+        if let Err(diagnostic) = values::fits(decl.value.value, decl.value.span, data_type, &decl.value.value.to_string())
+        {
+            diagnostics.push(*diagnostic);
+        } else if let Some(name) = &decl.name {
+            let about = words(&decl.about);
+            values.push(SpecialValue { value: decl.value.value, name: name.value.clone(), about });
+        }
+    }
+    values.sort_by_key(|special| special.value);
+    values
+}
+
+fn limits(decl: &EntryDecl, expected: Expected<'_>, diagnostics: &mut Diagnostics) -> (Option<i128>, Option<i128>) {
+    let mut limit = |text: Option<&Name>| {
+        let text = text?;
+        if !expected.data_type.is_integer() {
+            diagnostics.push(
+                Diagnostic::new(Code::LimitOnType, text.span, format!("{} has no limits", expected.data_type))
+                    .help("remove the limit; only integers have limits"),
+            );
+            return None;
+        }
+        values::read_into(Some(text), expected, diagnostics)?.integer()
+    };
+    let (low, high) = (limit(decl.min.as_ref()), limit(decl.max.as_ref()));
+    if let (Some(low), Some(high), Some(min), Some(max)) = (low, high, &decl.min, &decl.max) {
+        if low > high {
+            diagnostics.push(
+                Diagnostic::new(Code::LimitsSwapped, min.span, format!("the low limit {low} is above the high limit {high}"))
+                    .label("low limit")
+                    .with(max.span, "high limit")
+                    .help("swap or correct the two"),
+            );
+            return (None, None);
+        }
+    }
+    (low, high)
+}
+
+fn check_default(entry: &Entry, text: Option<&Name>, diagnostics: &mut Diagnostics) {
+    let (Some(text), Some(value)) = (text, &entry.default) else { return };
+    let nodes = if matches!(value, Value::NodeId(_)) { [1, 127].as_slice() } else { &[1] };
+    for node in nodes {
+        let Some(raw) = value.integer_for(*node) else { continue };
+        if !entry.allows(raw) {
+            let show = |limit: Option<i128>, open: &str| {
+                limit.map_or(open.to_owned(), |raw| crate::model::format_value(entry, &Value::Integer(raw)))
+            };
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::DefaultOutsideLimits,
+                    text.span,
+                    format!("the default {} is outside the limits", crate::model::format_value(entry, value)),
+                )
+                .label(format!("allowed: {} to {}", show(entry.low, "lowest"), show(entry.high, "highest")))
+                .help("correct the default or the limits, or make the value `special`"),
+            );
+            return;
+        }
+    }
+}
+
+fn check_const(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {
+    if entry.access != Access::Const {
+        return;
+    }
+    if let Some(stored) = &decl.stored
+        && entry.stored != Storage::No
+    {
+        diagnostics.push(
+            Diagnostic::new(Code::ConstStored, stored.span, "a constant is not stored: it never changes")
+                .help("remove `stored:`, or correct the access"),
+        );
+    }
+}
+
+fn bit_errors(
+    list: Option<&Spanned<Vec<BitErrorDecl>>>,
+    named: Option<&NamedType>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<(u8, Vec<u16>)> {
+    let Some(list) = list else { return Vec::new() };
+    let fields = match named.map(|named| &named.kind) {
+        Some(TypeKind::Bits(fields)) => fields.as_slice(),
+        _ => &[],
+    };
+    let mut errors = Vec::new();
+    for decl in &list.value {
+        let (first, last) = decl.bits.value;
+        if !fields.iter().any(|field| (field.first, field.last) == (first, last)) {
+            diagnostics.push(
+                Diagnostic::new(Code::UnknownBit, decl.bits.span, "the entry's type has no such bit")
+                    .help("name a bit, or the whole run of bits, of the entry's bit field type"),
+            );
+            continue;
+        }
+        errors.push((first, decl.codes.iter().map(|code| super::to_u16(code.value)).collect()));
+    }
+    errors.sort();
+    errors
+}
+
+/// What the EDS shows. A locked entry is read-only to a PLC; the defaults of locked and stored entries stay out of a
+/// `safe` EDS, because some PLCs write every writable entry that has a default at each boot.
+fn eds_policy(entry: &Entry, decl: &EntryDecl, safe: bool) -> EdsPolicy {
+    let kept = entry.locked
+        || matches!(entry.stored, Storage::Application | Storage::Manufacturer | Storage::Remanent);
+    let access = match (entry.access, entry.pdo) {
+        _ if entry.locked => Access::Ro,
+        (Access::Rw, PdoMapping::Receive) => Access::Rww,
+        (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
+        (access, _) => access,
+    };
+    let own = decl.eds.as_ref().map(|eds| &eds.value);
+    EdsPolicy {
+        access: own.and_then(|eds| eds.access).unwrap_or(access),
+        default: own.and_then(|eds| eds.default).unwrap_or(!(safe && kept && entry.access.is_writable())),
+        no_write: entry.locked || own.is_some_and(|eds| eds.no_write),
+        no_scan: own.is_some_and(|eds| eds.no_scan),
+    }
+}
+
+/// The policy of a view of another entry: whatever protects the target protects the view.
+pub(super) fn alias_policy(alias: &Entry, target: &Entry, decl: &EntryDecl, safe: bool) -> EdsPolicy {
+    let as_target = Entry { locked: target.locked, stored: target.stored, ..alias.clone() };
+    let policy = eds_policy(&as_target, decl, safe);
+    EdsPolicy { no_write: policy.no_write || target.eds.no_write, ..policy }
+}
+
+/// The unit of an entry, for messages and alias factors.
+pub(super) fn step(unit: Option<&Arc<Unit>>) -> Option<(String, crate::model::Ratio)> {
+    unit.and_then(|unit| Some((unit.base_symbol().to_owned(), unit.step()?)))
+}

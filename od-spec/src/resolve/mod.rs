@@ -1,0 +1,84 @@
+//! From what is written to what is meant: names looked up, defaults filled in, arrays expanded, values typed.
+
+mod constraints;
+mod decls;
+mod devices;
+mod document;
+mod entries;
+mod errors;
+mod machines;
+mod objects;
+mod pdos;
+mod refs;
+mod scope;
+mod types;
+pub(crate) mod values;
+
+use crate::ast::Spec;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{System, Vendor};
+use crate::source::Span;
+
+pub(crate) use constraints::{Lookup, check as check_constraint};
+pub(crate) use refs::lookup;
+use scope::Scope;
+
+/// Builds the model from a specification and the libraries it uses. Mistakes go to `diagnostics`; with an error
+/// among them the model is incomplete and must not be used.
+pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> System {
+    let scope = Scope::new(root, libraries, diagnostics);
+    let languages = match root.languages.as_slice() {
+        [] => vec!["en".to_owned()],
+        list => list.iter().map(|language| language.value.clone()).collect(),
+    };
+    let vendor = Vendor {
+        name: root.vendor.as_ref().and_then(|vendor| vendor.name.as_ref()).map_or(String::new(), |n| n.value.clone()),
+        number: root.vendor.as_ref().and_then(|vendor| vendor.number.as_ref()).map_or(0, |n| to_u32(n.value)),
+    };
+    if root.profile.is_none() && root.devices.is_empty() {
+        diagnostics.push(
+            Diagnostic::new(Code::NoDevice, start(root.span), "the specification describes no device")
+                .help("add `devices:` with at least one device, such as `drive: {name: My drive}`"),
+        );
+    }
+    let devices = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
+    let mut system = System {
+        title: root.title.as_ref().map_or(String::new(), |title| title.value.clone()),
+        languages,
+        document: document::resolve(root),
+        vendor,
+        units: scope.units,
+        types: scope.types,
+        errors: errors::resolve(root, diagnostics),
+        machines: std::collections::BTreeMap::new(),
+        constraints: Vec::new(),
+        errata: Vec::new(),
+        devices,
+    };
+    system.machines = machines::resolve(root, &system.devices, diagnostics);
+    system.constraints = constraints::resolve(root, &system.devices, diagnostics);
+    system.errata = document::errata(root, &system.devices, diagnostics);
+    document::check(root, &system, diagnostics);
+    crate::check::run(&system, diagnostics);
+    system
+}
+
+/// The first line of a file-wide span: enough to show where the file starts.
+fn start(span: Span) -> Span {
+    span.part(0, 1)
+}
+
+/// A number that its key table limits to 32 bits.
+fn to_u32(value: i128) -> u32 {
+    u32::try_from(value).unwrap_or_default()
+}
+
+/// A number that its key table limits to 16 bits.
+fn to_u16(value: i128) -> u16 {
+    u16::try_from(value).unwrap_or_default()
+}
+
+/// A number that its key table limits to 8 bits.
+fn to_u8(value: i128) -> u8 {
+    u8::try_from(value).unwrap_or_default()
+}

@@ -1,0 +1,233 @@
+//! One object: VAR, ARRAY, RECORD, DOMAIN.
+
+use super::decls::Declared;
+use super::entries::{self, Surroundings};
+use super::types::words;
+use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{
+    Access, DataType, EdsPolicy, Entry, Object, ObjectKind, PdoMapping, Storage, SubIndex, Text, Value,
+};
+
+/// Resolves a declaration; `None` when nothing usable is left of it.
+pub(super) fn resolve(declared: &Declared, around: Surroundings<'_>, diagnostics: &mut Diagnostics) -> Option<Object> {
+    let decl = &declared.decl;
+    let Some(name) = &decl.entry.name else {
+        diagnostics.push(
+            Diagnostic::new(Code::MissingKey, decl.index.span, format!("object {} needs the key `name`", decl.index.value))
+                .help("add `name:`, as the manual's heading spells it"),
+        );
+        return None;
+    };
+    let shapes = [
+        decl.array.as_ref().map(|array| ("array", array.span)),
+        decl.record.as_ref().map(|record| ("record", record.span)),
+    ];
+    let (kind, entries) = match (&decl.array, &decl.record) {
+        (Some(_), Some(_)) => {
+            let [Some((_, array)), Some((_, record))] = shapes else { return None };
+            diagnostics.push(
+                Diagnostic::new(Code::ConflictingKeys, record, "an object is either an array or a record")
+                    .with(array, "the array")
+                    .help("keep one of `array:` and `record:`"),
+            );
+            return None;
+        }
+        (Some(array), None) => (ObjectKind::Array, elements(decl, array, around, diagnostics)?),
+        (None, Some(record)) => (ObjectKind::Record, members(decl, record, around, diagnostics)?),
+        (None, None) => {
+            let entry = entries::resolve(&decl.entry, SubIndex(0), name.value.clone(), around, diagnostics)?;
+            let kind = if entry.data_type == DataType::Domain { ObjectKind::Domain } else { ObjectKind::Var };
+            (kind, vec![entry])
+        }
+    };
+    Some(Object {
+        index: decl.index.value,
+        name: name.value.clone(),
+        kind,
+        origin: declared.origin,
+        profile: declared.profile.clone(),
+        differs: declared.differs.clone(),
+        category: decl.entry.category.map(|category| category.value),
+        since: decl.entry.since.as_ref().map(|since| since.value.clone()),
+        about: words(&decl.entry.about),
+        entries,
+        span: decl.index.span,
+    })
+}
+
+/// What elements and members take from their object.
+fn inherited(object: &EntryDecl) -> EntryDecl {
+    EntryDecl {
+        type_name: object.type_name.clone(),
+        unit: object.unit.clone(),
+        access: object.access,
+        pdo: object.pdo,
+        stored: object.stored,
+        writable_when: object.writable_when.clone(),
+        eds: object.eds.clone(),
+        ..EntryDecl::empty(object.span)
+    }
+}
+
+/// Refuses keys that say something about one value on an object that has several.
+fn refuse_value_keys(object: &EntryDecl, what: &str, diagnostics: &mut Diagnostics) {
+    let keys = [("default", &object.default), ("min", &object.min), ("max", &object.max)];
+    for (key, text) in keys.iter().filter_map(|(key, value)| value.as_ref().map(|value| (key, value))) {
+        diagnostics.push(
+            Diagnostic::new(Code::ConflictingKeys, text.span, format!("`{key}` stands beside `{what}`"))
+                .help(format!("move `{key}` to the entries that it is meant for")),
+        );
+    }
+}
+
+fn elements(
+    decl: &ObjectDecl,
+    array: &ArrayDecl,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Entry>> {
+    refuse_value_keys(&decl.entry, "array", diagnostics);
+    let highest = array.elements.last().map(|(sub, _)| sub.value.0);
+    let count = match (&array.count, highest) {
+        (Some(count), Some(highest)) if i128::from(highest) > count.value => {
+            let (sub, _) = array.elements.last()?;
+            diagnostics.push(
+                Diagnostic::new(Code::CountMismatch, sub.span, format!("element {highest} of an array of {}", count.value))
+                    .with(count.span, "the count")
+                    .help("raise the count, or correct the sub-index"),
+            );
+            return None;
+        }
+        (Some(count), _) => super::to_u8(count.value),
+        (None, Some(highest)) => highest,
+        (None, None) => {
+            diagnostics.push(
+                Diagnostic::new(Code::MissingKey, array.span, "an array needs the key `count` or `elements`")
+                    .help("add `count:`, the number of elements"),
+            );
+            return None;
+        }
+    };
+    let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
+    let common = EntryDecl { name: None, ..array.entry.over(&inherited(&decl.entry)) };
+    let mut list = Vec::new();
+    for sub in (1..=count).filter(|sub| !omitted(*sub)) {
+        let own = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
+        let merged = own.map_or_else(|| common.clone(), |own| own.over(&common));
+        let pattern = array.entry.name.as_ref().map(|pattern| pattern.value.replace("{n}", &sub.to_string()));
+        let Some(name) = merged.name.as_ref().map(|name| name.value.clone()).or(pattern) else {
+            diagnostics.push(
+                Diagnostic::new(Code::MissingKey, array.span, format!("element {sub} of this array has no name"))
+                    .help("add `name: \"… {n}\"` to the array, or name the element under `elements:`"),
+            );
+            return None;
+        };
+        if let Some(element) = entries::resolve(&merged, SubIndex(sub), name, around, diagnostics) {
+            list.push(element);
+        }
+    }
+    if let Some(first) = list.first().map(|element| element.data_type)
+        && let Some(other) = list.iter().find(|element| element.data_type != first)
+    {
+        diagnostics.push(
+            Diagnostic::new(Code::MixedArray, other.span, format!("element {} is {}, the first is {first}", other.sub, other.data_type))
+                .help("all elements of an array have one data type; make the object a record")
+                .note("CiA 301 table 37: ARRAY"),
+        );
+    }
+    finish(decl, list, around, diagnostics)
+}
+
+fn members(
+    decl: &ObjectDecl,
+    record: &RecordDecl,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Entry>> {
+    refuse_value_keys(&decl.entry, "record", diagnostics);
+    let common = inherited(&decl.entry);
+    let mut list = Vec::new();
+    for (sub, member) in &record.members {
+        if decl.omit.iter().any(|omit| omit.value == i128::from(sub.value.0)) {
+            continue;
+        }
+        let Some(name) = &member.name else {
+            diagnostics.push(
+                Diagnostic::new(Code::MissingKey, sub.span, format!("member {} needs the key `name`", sub.value))
+                    .help("add `name:`, as the manual's table spells it"),
+            );
+            continue;
+        };
+        let merged = member.over(&common);
+        if let Some(entry) = entries::resolve(&merged, sub.value, name.value.clone(), around, diagnostics) {
+            list.push(entry);
+        }
+    }
+    finish(decl, list, around, diagnostics)
+}
+
+/// Puts sub-index 0 in front.
+fn finish(
+    decl: &ObjectDecl,
+    mut list: Vec<Entry>,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Entry>> {
+    let Some(highest) = list.last().map(|entry| entry.sub) else {
+        diagnostics.push(
+            Diagnostic::new(Code::EmptyObject, decl.index.span, format!("{} has no entry beside sub-index 0", decl.index.value))
+                .help("an array or record has at least one element or member"),
+        );
+        return None;
+    };
+    let mut names = std::collections::BTreeMap::new();
+    for entry in &list {
+        if let Some(before) = names.insert(entry.name.as_str(), entry) {
+            diagnostics.push(
+                Diagnostic::new(Code::DuplicateName, entry.span, format!("two entries are named `{}`", entry.name))
+                    .label(format!("sub-index {}", entry.sub))
+                    .with(before.span, format!("sub-index {}", before.sub))
+                    .help("give each entry of an object a name of its own"),
+            );
+        }
+    }
+    let own = decl.sub0.as_ref();
+    let span = own.map_or(decl.index.span, |own| own.span);
+    let mut sub0 = Entry {
+        sub: SubIndex(0),
+        name: "number of elements".to_owned(),
+        data_type: DataType::Unsigned8,
+        named_type: None,
+        access: Access::Ro,
+        locked: false,
+        pdo: PdoMapping::None,
+        default: Some(Value::Integer(i128::from(highest.0))),
+        low: None,
+        high: None,
+        unit: None,
+        special: Vec::new(),
+        stored: Storage::No,
+        alias: None,
+        category: None,
+        since: None,
+        writable_when: None,
+        bit_errors: Vec::new(),
+        eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
+        about: Text::default(),
+        span,
+    };
+    if let Some(own) = own {
+        let usual = EntryDecl {
+            type_name: Some(crate::source::Spanned::new("unsigned8".to_owned(), span)),
+            access: Some(crate::source::Spanned::new((Access::Ro, false), span)),
+            ..EntryDecl::empty(span)
+        };
+        let name = own.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());
+        let given = entries::resolve(&own.over(&usual), SubIndex(0), name, around, diagnostics)?;
+        let default = given.default.clone().or(sub0.default);
+        sub0 = Entry { default, ..given };
+    }
+    list.insert(0, sub0);
+    Some(list)
+}

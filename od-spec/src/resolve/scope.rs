@@ -1,0 +1,114 @@
+//! Units and named types of a specification and its libraries.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::types;
+use crate::ast::{Name, Spec, UnitDecl};
+use crate::decode::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{Base, NamedType, Ratio, Unit};
+use crate::source::Span;
+
+/// What names mean.
+pub(super) struct Scope {
+    pub units: BTreeMap<String, Arc<Unit>>,
+    pub types: BTreeMap<String, Arc<NamedType>>,
+    /// Declared names whose declaration was broken: a use of them says nothing new.
+    broken: Vec<String>,
+}
+
+impl Scope {
+    pub(super) fn new(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Self {
+        let mut scope = Self { units: BTreeMap::new(), types: BTreeMap::new(), broken: Vec::new() };
+        let mut places: BTreeMap<String, Span> = BTreeMap::new();
+        for spec in libraries.iter().chain([root]) {
+            for decl in &spec.units {
+                match unit(decl) {
+                    Some(unit) => {
+                        let unit = Arc::new(unit);
+                        let before = scope.units.insert(decl.name.value.clone(), Arc::clone(&unit));
+                        let same = before.is_none_or(|before| Unit { about: unit.about.clone(), ..(*before).clone() } == *unit);
+                        check_unique(&decl.name, "unit", same, &mut places, diagnostics);
+                    }
+                    None => scope.broken.push(decl.name.value.clone()),
+                }
+            }
+        }
+        places.clear();
+        for spec in libraries.iter().chain([root]) {
+            for decl in &spec.types {
+                match types::resolve(decl, diagnostics) {
+                    Some(named) => {
+                        let before = scope.types.insert(decl.name.value.clone(), Arc::new(named));
+                        check_unique(&decl.name, "type", before.is_none(), &mut places, diagnostics);
+                    }
+                    None => scope.broken.push(decl.name.value.clone()),
+                }
+            }
+        }
+        scope
+    }
+
+    /// Whether a name was declared, but not well enough to be used.
+    pub(super) fn is_broken(&self, name: &str) -> bool {
+        self.broken.iter().any(|broken| broken == name)
+    }
+
+    pub(super) fn unit(&self, name: &Name, diagnostics: &mut Diagnostics) -> Option<Arc<Unit>> {
+        let unit = self.units.get(&name.value);
+        if unit.is_none() && !self.is_broken(&name.value) {
+            diagnostics.push(unknown(
+                Code::UnknownUnit,
+                name,
+                "unit",
+                self.units.keys().map(String::as_str),
+                "define it under `units:`",
+            ));
+        }
+        unit.cloned()
+    }
+}
+
+/// A message about a name that stands for nothing.
+pub(super) fn unknown<'a>(
+    code: Code,
+    name: &Name,
+    what: &str,
+    known: impl IntoIterator<Item = &'a str>,
+    otherwise: &str,
+) -> Diagnostic {
+    let diagnostic = Diagnostic::new(code, name.span, format!("there is no {what} `{}`", name.value));
+    match nearest(&name.value, known) {
+        Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+        None => diagnostic.help(otherwise.to_owned()),
+    }
+}
+
+fn check_unique(
+    name: &Name,
+    what: &str,
+    fine: bool,
+    places: &mut BTreeMap<String, Span>,
+    diagnostics: &mut Diagnostics,
+) {
+    let before = places.insert(name.value.clone(), name.span);
+    if let (false, Some(before)) = (fine, before) {
+        diagnostics.push(
+            Diagnostic::new(Code::DuplicateName, name.span, format!("{what} `{}` has two meanings", name.value))
+                .label("defined otherwise here")
+                .with(before, "first here")
+                .help("give one of the two another name"),
+        );
+    }
+}
+
+fn unit(decl: &UnitDecl) -> Option<Unit> {
+    Some(Unit {
+        name: decl.name.value.clone(),
+        symbol: decl.symbol.as_ref()?.value.clone(),
+        scale: decl.scale.as_ref().map_or(Ratio::ONE, |scale| scale.value),
+        base: decl.base.as_ref().map(|base| Base { symbol: base.value.1.clone(), factor: base.value.0 }),
+        about: decl.about.as_ref().map(|about| about.value.clone()).unwrap_or_default(),
+    })
+}

@@ -1,0 +1,198 @@
+//! Enums and bit fields.
+
+use std::collections::BTreeMap;
+
+use super::to_u16;
+use crate::ast::{BitDecl, TypeDecl, ValueDecl, Words};
+use crate::decode::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Text, TypeKind};
+use crate::source::{Span, Spanned};
+
+/// Resolves a type; `None` when it is too broken to be used.
+pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<NamedType> {
+    let name = decl.base.as_ref()?;
+    let Some(base) = DataType::from_name(&name.value).filter(|base| base.is_integer()) else {
+        let integers = DataType::ALL.into_iter().filter(|data_type| data_type.is_integer()).map(DataType::name);
+        diagnostics.push(
+            Diagnostic::new(Code::BadBaseType, name.span, format!("`{}` cannot carry values or bits", name.value))
+                .help(match nearest(&name.value, integers) {
+                    Some(word) if word != name.value => format!("did you mean `{word}`?"),
+                    _ => "write an integer type such as `unsigned16`".to_owned(),
+                }),
+        );
+        return None;
+    };
+    let (low, high) = base.range()?;
+    let kind = match (&decl.values, &decl.bits) {
+        (Some(list), None) => TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics)),
+        (None, Some(list)) => TypeKind::Bits(bits(decl, list, base, diagnostics)?),
+        _ => {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::ConflictingKeys,
+                    decl.name.span,
+                    format!("type `{}` needs either `values` or `bits`", decl.name.value),
+                )
+                .help("`values:` makes it an enum, `bits:` a bit field"),
+            );
+            return None;
+        }
+    };
+    Some(NamedType { name: decl.name.value.clone(), base, about: words(&decl.about), kind })
+}
+
+/// A text or none.
+pub(super) fn words(words: &Words) -> Text {
+    words.as_ref().map(|words| words.value.clone()).unwrap_or_default()
+}
+
+fn values(
+    list: &[ValueDecl],
+    (low, high): (i128, i128),
+    carrier: &str,
+    diagnostics: &mut Diagnostics,
+) -> Vec<EnumValue> {
+    let mut names: BTreeMap<&str, Span> = BTreeMap::new();
+    let mut values = Vec::new();
+    for decl in list {
+        let value = decl.value.value;
+        if !(low..=high).contains(&value) {
+            diagnostics.push(
+                Diagnostic::new(Code::ValueDoesNotFit, decl.value.span, format!("{value} does not fit {carrier}"))
+                    .label(format!("allowed: {low} to {high}"))
+                    .help("correct the value or take a wider type"),
+            );
+            continue;
+        }
+        let Some(name) = &decl.name else { continue };
+        unique_name(&name.value, name.span, &mut names, diagnostics);
+        values.push(EnumValue {
+            value,
+            name: name.value.clone(),
+            supported: decl.supported.is_none_or(|supported| supported.value),
+            about: words(&decl.about),
+        });
+    }
+    values.sort_by_key(|value| value.value);
+    values
+}
+
+fn unique_name<'a>(name: &'a str, span: Span, names: &mut BTreeMap<&'a str, Span>, diagnostics: &mut Diagnostics) {
+    if let Some(before) = names.insert(name, span) {
+        diagnostics.push(
+            Diagnostic::new(Code::DuplicateName, span, format!("the name `{name}` stands twice in this type"))
+                .label("again here")
+                .with(before, "first here")
+                .help("give each value or bit a name of its own"),
+        );
+    }
+}
+
+fn bits(decl: &TypeDecl, list: &[BitDecl], base: DataType, diagnostics: &mut Diagnostics) -> Option<Vec<BitField>> {
+    let width = u8::try_from(base.bits()?).ok()?;
+    let mut owner: Vec<Option<Span>> = vec![None; usize::from(width)];
+    let mut names: BTreeMap<&str, Span> = BTreeMap::new();
+    let mut fields = Vec::new();
+    for bit in list {
+        let Spanned { value: (first, last), span } = bit.bits;
+        if last >= width {
+            diagnostics.push(
+                Diagnostic::new(Code::ValueDoesNotFit, span, format!("{base} has no bit {last}"))
+                    .label(format!("bits 0 to {}", width - 1))
+                    .help("correct the bit number or take a wider type"),
+            );
+            continue;
+        }
+        let range = usize::from(first)..=usize::from(last);
+        if let Some(before) = owner[range.clone()].iter().flatten().next() {
+            diagnostics.push(
+                Diagnostic::new(Code::OverlappingBits, span, "these bits overlap with others")
+                    .label("overlaps")
+                    .with(*before, "taken here")
+                    .help("each bit belongs to one field"),
+            );
+            continue;
+        }
+        owner[range].fill(Some(span));
+        if let Some(name) = &bit.name {
+            unique_name(&name.value, name.span, &mut names, diagnostics);
+        }
+        fields.push(field(bit, diagnostics));
+    }
+    fill(decl, &owner, &mut fields, diagnostics);
+    fields.sort_by_key(|field| field.first);
+    Some(fields)
+}
+
+fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
+    let (first, last) = bit.bits.value;
+    if bit.usage == BitUsage::Used && bit.name.is_none() && bit.modes.is_empty() {
+        diagnostics.push(
+            Diagnostic::new(Code::MissingKey, bit.bits.span, "a bit needs the key `name`")
+                .help("name it, or write `reserved` or `unused`"),
+        );
+    }
+    let highest = (1i128 << (last - first + 1)) - 1;
+    BitField {
+        first,
+        last,
+        usage: bit.usage,
+        name: bit.name.as_ref().map_or(String::new(), |name| name.value.clone()),
+        about: words(&bit.about),
+        errors: bit.errors.iter().map(|code| to_u16(code.value)).collect(),
+        clamp: bit.clamp.as_ref().map(|clamp| clamp.value.clone()),
+        active: u8::from(bit.active.is_none_or(|active| active.value == 1)),
+        edge: bit.edge,
+        priority: bit.priority.as_ref().map(|priority| priority.value.clone()),
+        values: values(&bit.values, (0, highest), "these bits", diagnostics),
+        modes: bit
+            .modes
+            .iter()
+            .filter_map(|(mode, name, about)| Some((mode.value.clone(), name.as_ref()?.value.clone(), words(about))))
+            .collect(),
+    }
+}
+
+/// Gives the bits that nobody listed the usage that `rest` names.
+fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, diagnostics: &mut Diagnostics) {
+    let mut free = Vec::new();
+    let mut at = 0;
+    while at < owner.len() {
+        let length = owner[at..].iter().take_while(|bit| bit.is_none()).count();
+        if length > 0 {
+            free.push((at, at + length - 1));
+        }
+        at += length.max(1);
+    }
+    let Some(usage) = decl.rest else {
+        if let Some((first, last)) = free.first() {
+            let run = if first == last { format!("bit {first}") } else { format!("bits {first}..{last}") };
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::BitsMissing,
+                    decl.name.span,
+                    format!("type `{}` does not say what {run} mean", decl.name.value),
+                )
+                .help("list them as `reserved` or `unused`, or add `rest: reserved`"),
+            );
+        }
+        return;
+    };
+    fields.extend(free.into_iter().filter_map(|(first, last)| {
+        Some(BitField {
+            first: u8::try_from(first).ok()?,
+            last: u8::try_from(last).ok()?,
+            usage,
+            name: String::new(),
+            about: Text::default(),
+            errors: Vec::new(),
+            clamp: None,
+            active: 1,
+            edge: None,
+            priority: None,
+            values: Vec::new(),
+            modes: Vec::new(),
+        })
+    }));
+}

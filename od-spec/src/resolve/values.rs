@@ -1,0 +1,201 @@
+//! Values of entries: raw numbers, physical values, enum names, strings, node-ID formulas.
+
+use crate::ast::Name;
+use crate::decode::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
+use crate::source::Span;
+use crate::yaml::scalar::{self, NumberError};
+
+/// What a value is read against.
+#[derive(Clone, Copy)]
+pub(crate) struct Expected<'a> {
+    pub data_type: DataType,
+    pub named: Option<&'a NamedType>,
+    pub unit: Option<&'a Unit>,
+}
+
+/// Reads a value that is written at `span`.
+pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
+    let bad = |message: String, help: &str| Err(Box::new(Diagnostic::new(Code::BadValue, span, message).help(help)));
+    match expected.data_type {
+        DataType::Boolean => match (scalar::yes_no(text), text) {
+            (Some(value), _) => Ok(Value::Integer(i128::from(value))),
+            (None, "0" | "1") => Ok(Value::Integer(i128::from(text == "1"))),
+            _ => bad(format!("found `{text}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
+        },
+        DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(Value::Real(value)),
+            _ => bad(format!("found `{text}`, expected a finite number"), "write a decimal number such as `0.5`"),
+        },
+        DataType::VisibleString if text.bytes().all(|byte| (0x20..=0x7E).contains(&byte)) => {
+            Ok(Value::Text(text.to_owned()))
+        }
+        DataType::VisibleString => bad(
+            "a VISIBLE_STRING holds printable ASCII characters only".to_owned(),
+            "remove or replace the other characters, or take `unicode-string`",
+        ),
+        DataType::UnicodeString => Ok(Value::Text(text.to_owned())),
+        DataType::OctetString => match octets(text) {
+            Some(bytes) => Ok(Value::Bytes(bytes)),
+            None => bad(format!("found `{text}`, expected bytes"), "write pairs of hexadecimal digits: `01A1053C`"),
+        },
+        DataType::TimeOfDay | DataType::TimeDifference | DataType::Domain => bad(
+            format!("an entry of type {} has no value that could be written here", expected.data_type),
+            "leave the key out",
+        ),
+        _ => integer(text, span, expected),
+    }
+}
+
+/// `01 A1 05`, with or without blanks.
+fn octets(text: &str) -> Option<Vec<u8>> {
+    let digits: Vec<u32> = text.chars().filter(|c| *c != ' ').map(|c| c.to_digit(16)).collect::<Option<_>>()?;
+    let (pairs, rest) = digits.as_chunks::<2>();
+    if !rest.is_empty() {
+        return None;
+    }
+    pairs.iter().map(|[high, low]| u8::try_from(high << 4 | low).ok()).collect()
+}
+
+fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
+    if let Some(formula) = text.strip_prefix("$NODEID") {
+        let offset = match formula.trim() {
+            "" => Some(0),
+            rest => rest.strip_prefix('+').and_then(|digits| scalar::integer(digits.trim()).ok()),
+        };
+        let Some(offset) = offset.and_then(|offset| u64::try_from(offset).ok()) else {
+            return Err(Box::new(
+                Diagnostic::new(Code::BadFormula, span, format!("cannot read the formula `{text}`"))
+                    .help("write `$NODEID`, or `$NODEID + 0x180`")
+                    .note("CiA 306 4.3: a formula is $NODEID and at most one added number"),
+            ));
+        };
+        fits(i128::from(offset) + 127, span, expected.data_type, &format!("`{text}` for node 127"))?;
+        return Ok(Value::NodeId(offset));
+    }
+    let values = match expected.named.map(|named| &named.kind) {
+        Some(TypeKind::Enum(values)) => values.as_slice(),
+        _ => &[],
+    };
+    if let Some(value) = values.iter().find(|value| value.name == text) {
+        return Ok(Value::Integer(value.value));
+    }
+    let raw = match scalar::integer(text) {
+        Ok(raw) => raw,
+        Err(NumberError::NotANumber) => match split_physical(text) {
+            Some((number, symbol)) => physical(number, symbol, span, expected.unit)?,
+            None if !values.is_empty() => {
+                let names = values.iter().map(|value| value.name.as_str());
+                let diagnostic =
+                    Diagnostic::new(Code::UnknownEnumValue, span, format!("`{text}` is not a value of this enum"));
+                return Err(Box::new(match nearest(text, names.clone()) {
+                    Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+                    None => diagnostic.help(format!("its values are {}", list(names))),
+                }));
+            }
+            None => {
+                return Err(Box::new(
+                    Diagnostic::new(Code::BadValue, span, format!("found `{text}`, expected a value of type {}", expected.data_type))
+                        .help(match expected.unit {
+                            Some(unit) => format!("write a raw number, or a physical value such as `{}`", unit.show(10)),
+                            None => NumberError::NotANumber.help().to_owned(),
+                        }),
+                ));
+            }
+        },
+        Err(error) => {
+            return Err(Box::new(
+                Diagnostic::new(Code::BadNumber, span, format!("found `{text}`, expected an integer")).help(error.help()),
+            ));
+        }
+    };
+    fits(raw, span, expected.data_type, &format!("{raw}"))?;
+    if !values.is_empty() && !values.iter().any(|value| value.value == raw) {
+        return Err(Box::new(
+            Diagnostic::new(Code::UnknownEnumValue, span, format!("{raw} is not a value of this enum"))
+                .help(format!("its values are {}", list(values.iter().map(|value| value.name.as_str())))),
+        ));
+    }
+    Ok(Value::Integer(raw))
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Checks that a raw value fits the data type.
+pub(crate) fn fits(raw: i128, span: Span, data_type: DataType, what: &str) -> Result<(), Box<Diagnostic>> {
+    let (low, high) = data_type.range().unwrap_or((i128::MIN, i128::MAX));
+    if (low..=high).contains(&raw) {
+        return Ok(());
+    }
+    let note = (data_type.is_signed() && raw > high && raw <= 2 * high + 1)
+        .then(|| format!("as a bit pattern this would be {}; write signed values in decimal", raw - 2 * high - 2));
+    let diagnostic = Diagnostic::new(Code::ValueDoesNotFit, span, format!("{what} does not fit {data_type}"))
+        .label(format!("allowed: {low} to {high}"))
+        .help("correct the value or the type");
+    Err(Box::new(match note {
+        Some(note) => diagnostic.note(note),
+        None => diagnostic,
+    }))
+}
+
+/// `50.0 °C` → number and symbol.
+fn split_physical(text: &str) -> Option<(Ratio, &str)> {
+    let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))?;
+    let number = scalar::decimal(&text[..end])?;
+    Some((number, text[end..].trim_start()))
+}
+
+fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Result<i128, Box<Diagnostic>> {
+    let Some(unit) = unit else {
+        return Err(Box::new(
+            Diagnostic::new(Code::WrongSymbol, span, format!("`{symbol}` has no meaning here: the entry has no unit"))
+                .help("add `unit:` to the entry, or write a raw number"),
+        ));
+    };
+    let Some(step) = unit.step_in(symbol) else {
+        let base = unit.base_symbol();
+        let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };
+        return Err(Box::new(
+            Diagnostic::new(Code::WrongSymbol, span, format!("`{symbol}` is not the symbol of unit `{}`", unit.name))
+                .help(format!("write the value in `{}`{known}", unit.symbol)),
+        ));
+    };
+    let steps = number.checked_div(step).ok_or_else(|| {
+        Box::new(
+            Diagnostic::new(Code::ValueDoesNotFit, span, "the value is too large to be computed exactly")
+                .help("correct the value"),
+        )
+    })?;
+    steps.to_whole().ok_or_else(|| {
+        let below = steps.floor();
+        Box::new(
+            Diagnostic::new(Code::InexactValue, span, "the value does not fit the unit's scale")
+                .label(format!("{} steps of {step} {symbol}", steps))
+                .help(format!(
+                    "write {} (raw {below}) or {} (raw {}), or a raw value",
+                    unit.show(below),
+                    unit.show(below + 1),
+                    below + 1
+                )),
+        )
+    })
+}
+
+/// Reads a value and sends what is wrong to `diagnostics`.
+pub(super) fn read_into(
+    text: Option<&Name>,
+    expected: Expected<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Value> {
+    let text = text?;
+    match read(&text.value, text.span, expected) {
+        Ok(value) => Some(value),
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            None
+        }
+    }
+}

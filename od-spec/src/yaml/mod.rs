@@ -1,0 +1,379 @@
+//! YAML text to a tree in which every node knows its place.
+//!
+//! This is the only file that names the YAML crate. Scalars stay text here: what a scalar means is
+//! decided by the place that expects it (see [`scalar`]), so that `no`, `1.10` and `0x6040` never
+//! change their meaning behind the author's back.
+
+pub mod scalar;
+
+use std::collections::BTreeMap;
+
+use granit_parser::{Event, Parser, ScalarStyle};
+
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::source::{FileId, SourceFile, Span, Spanned};
+
+/// Deepest nesting that is read.
+const MAX_DEPTH: usize = 64;
+/// Most nodes that `*alias` references may add to a document.
+const MAX_ALIAS_NODES: usize = 200_000;
+
+/// A value and its place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Node {
+    /// The place; for an alias, the `*name`.
+    pub span: Span,
+    /// The value.
+    pub kind: NodeKind,
+}
+
+/// What a [`Node`] is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NodeKind {
+    /// Nothing: an empty value, `~` or `null`.
+    Null,
+    /// Text; `plain` when it was written without quotes.
+    Scalar {
+        /// The text, after quotes and escapes.
+        text: String,
+        /// Written without quotes.
+        plain: bool,
+    },
+    /// A sequence.
+    List(Vec<Node>),
+    /// A mapping, in the order of the text; keys are unique as texts.
+    Map(Vec<(Spanned<String>, Node)>),
+    /// Something that was reported already.
+    Broken,
+}
+
+impl Node {
+    /// What to call this node in a message.
+    pub fn describe(&self) -> String {
+        match &self.kind {
+            NodeKind::Null => "nothing".to_owned(),
+            NodeKind::Scalar { text, .. } => format!("`{}`", shorten(text)),
+            NodeKind::List(_) => "a list".to_owned(),
+            NodeKind::Map(_) => "a map".to_owned(),
+            NodeKind::Broken => "something broken".to_owned(),
+        }
+    }
+
+    /// The text of a scalar.
+    pub fn text(&self) -> Option<Spanned<&str>> {
+        match &self.kind {
+            NodeKind::Scalar { text, .. } => Some(Spanned::new(text, self.span)),
+            _ => None,
+        }
+    }
+
+    /// The entries of a map; none for anything else.
+    pub fn entries(&self) -> &[(Spanned<String>, Node)] {
+        match &self.kind {
+            NodeKind::Map(entries) => entries,
+            _ => &[],
+        }
+    }
+
+    /// The items of a list; none for anything else.
+    pub fn items(&self) -> &[Node] {
+        match &self.kind {
+            NodeKind::List(items) => items,
+            _ => &[],
+        }
+    }
+
+    /// The value of a key.
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        self.entries().iter().find(|(name, _)| name.value == key).map(|(_, node)| node)
+    }
+
+    fn count(&self) -> usize {
+        match &self.kind {
+            NodeKind::List(items) => 1 + items.iter().map(Node::count).sum::<usize>(),
+            NodeKind::Map(entries) => 1 + entries.iter().map(|(_, node)| node.count()).sum::<usize>(),
+            _ => 1,
+        }
+    }
+
+    fn depth(&self) -> usize {
+        match &self.kind {
+            NodeKind::List(items) => 1 + items.iter().map(Node::depth).max().unwrap_or(0),
+            NodeKind::Map(entries) => 1 + entries.iter().map(|(_, node)| node.depth()).max().unwrap_or(0),
+            _ => 0,
+        }
+    }
+}
+
+/// Cuts a long text for a message.
+pub(crate) fn shorten(text: &str) -> String {
+    if text.chars().count() <= 60 {
+        return text.to_owned();
+    }
+    text.chars().take(57).chain("...".chars()).collect()
+}
+
+/// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.
+pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Option<Node> {
+    let options = granit_parser::options! { emit_comments: false, emit_unresolved_aliases: true };
+    let mut builder = Builder {
+        id,
+        text: file.text(),
+        diagnostics,
+        stack: Vec::new(),
+        anchors: BTreeMap::new(),
+        alias_nodes: 0,
+        root: None,
+        documents: 0,
+    };
+    for event in Parser::new_from_str_with_options(file.text(), options) {
+        let proceed = match event {
+            Ok((event, span)) => builder.event(event, span),
+            Err(error) => {
+                let at = error.marker().byte_offset().unwrap_or_default();
+                let span = builder.point(at);
+                builder.diagnostics.push(
+                    Diagnostic::new(Code::YamlSyntax, span, format!("this is not YAML: {}", error.kind()))
+                        .help("check indentation, quotes, and that `: ` and ` #` inside a text are quoted"),
+                );
+                return None;
+            }
+        };
+        if !proceed {
+            return None;
+        }
+    }
+    match builder.root {
+        Some(Node { kind: NodeKind::Null, .. }) | None => {
+            let span = builder.point(0);
+            diagnostics.push(
+                Diagnostic::new(Code::EmptyDocument, span, "the file holds no specification")
+                    .help("start with `od-spec: 1`; `odgen explain OD0110` shows the smallest specification"),
+            );
+            None
+        }
+        root => root,
+    }
+}
+
+/// A collection that is being read.
+enum Open {
+    List { start: Span, anchor: usize, items: Vec<Node> },
+    Map { start: Span, anchor: usize, entries: Vec<(Spanned<String>, Node)>, seen: BTreeMap<String, Span>, key: Key },
+}
+
+enum Key {
+    /// The next node is a key.
+    Expected,
+    /// The next node is the value of this key.
+    Read(Spanned<String>),
+    /// The next node is the value of a key that was reported; it is dropped.
+    Dropped,
+}
+
+struct Builder<'a> {
+    id: FileId,
+    text: &'a str,
+    diagnostics: &'a mut Diagnostics,
+    stack: Vec<Open>,
+    anchors: BTreeMap<usize, Node>,
+    alias_nodes: usize,
+    root: Option<Node>,
+    documents: usize,
+}
+
+impl Builder<'_> {
+    /// Takes one event; `false` stops the reading.
+    fn event(&mut self, event: Event<'_>, span: granit_parser::Span) -> bool {
+        let span = self.span(span);
+        match event {
+            Event::DocumentStart(..) => {
+                self.documents += 1;
+                if self.documents > 1 {
+                    self.diagnostics.push(
+                        Diagnostic::new(Code::SeveralDocuments, span, "a second YAML document starts here")
+                            .help("a specification is one document: remove `---`, or split the file"),
+                    );
+                    return false;
+                }
+            }
+            Event::Scalar(text, style, anchor, tag) => {
+                self.refuse_tag(tag.is_some(), span);
+                let plain = style == ScalarStyle::Plain;
+                let kind = if plain && matches!(&*text, "" | "~" | "null") {
+                    NodeKind::Null
+                } else {
+                    NodeKind::Scalar { text: text.into_owned(), plain }
+                };
+                let span = if plain { span } else { self.trimmed(span) };
+                self.add(Node { span, kind }, anchor);
+            }
+            Event::SequenceStart(_, anchor, tag) => {
+                self.refuse_tag(tag.is_some(), span);
+                self.stack.push(Open::List { start: span, anchor, items: Vec::new() });
+                return self.depth_is_fine(span);
+            }
+            Event::MappingStart(_, anchor, tag) => {
+                self.refuse_tag(tag.is_some(), span);
+                let (entries, seen) = (Vec::new(), BTreeMap::new());
+                self.stack.push(Open::Map { start: span, anchor, entries, seen, key: Key::Expected });
+                return self.depth_is_fine(span);
+            }
+            Event::SequenceEnd | Event::MappingEnd => self.close(span),
+            Event::Alias(anchor) => return self.alias(anchor, span),
+            Event::UnresolvedAlias(name) => {
+                self.diagnostics.push(
+                    Diagnostic::new(Code::UnknownAnchor, span, format!("no anchor `&{name}` stands before this alias"))
+                        .label("nothing to refer to")
+                        .help(format!("write `&{name}` before the value that is to be repeated here")),
+                );
+                self.add(Node { span, kind: NodeKind::Broken }, 0);
+            }
+            _ => {}
+        }
+        true
+    }
+
+    fn refuse_tag(&mut self, tagged: bool, span: Span) {
+        if tagged {
+            self.diagnostics.push(
+                Diagnostic::new(Code::YamlTag, span, "YAML tags (`!name`) have no meaning here")
+                    .help("remove the tag; the place decides how a value is read"),
+            );
+        }
+    }
+
+    fn depth_is_fine(&mut self, span: Span) -> bool {
+        self.stack.len() <= MAX_DEPTH || self.too_deep(span)
+    }
+
+    fn too_deep(&mut self, span: Span) -> bool {
+        self.diagnostics.push(
+            Diagnostic::new(Code::TooDeep, span, format!("more than {MAX_DEPTH} levels of lists and maps"))
+                .help("no specification needs this depth; is a bracket missing?"),
+        );
+        false
+    }
+
+    fn alias(&mut self, anchor: usize, span: Span) -> bool {
+        let Some(target) = self.anchors.get(&anchor) else {
+            // The anchor is on a collection that is still open, or on something that was dropped.
+            self.diagnostics.push(
+                Diagnostic::new(Code::UnknownAnchor, span, "this alias refers to a value that contains it")
+                    .label("the anchored value is not complete yet"),
+            );
+            self.add(Node { span, kind: NodeKind::Broken }, 0);
+            return true;
+        };
+        self.alias_nodes += target.count();
+        if self.alias_nodes > MAX_ALIAS_NODES {
+            self.diagnostics.push(
+                Diagnostic::new(
+                    Code::AliasBomb,
+                    span,
+                    format!("aliases expand to more than {MAX_ALIAS_NODES} values"),
+                )
+                .label("expansion stopped here")
+                .help("aliases of aliases multiply; write the values out, or name a type once"),
+            );
+            return false;
+        }
+        if self.stack.len() + target.depth() > MAX_DEPTH {
+            return self.too_deep(span);
+        }
+        let node = Node { span, kind: target.kind.clone() };
+        self.add(node, 0);
+        true
+    }
+
+    /// Hands a complete node to the collection it stands in.
+    fn add(&mut self, node: Node, anchor: usize) {
+        if anchor != 0 {
+            self.anchors.insert(anchor, node.clone());
+        }
+        match self.stack.last_mut() {
+            None => self.root = Some(node),
+            Some(Open::List { items, .. }) => items.push(node),
+            Some(Open::Map { entries, seen, key, .. }) => match std::mem::replace(key, Key::Expected) {
+                Key::Read(name) => entries.push((name, node)),
+                Key::Dropped => {}
+                Key::Expected => *key = read_key(node, seen, self.diagnostics),
+            },
+        }
+    }
+
+    fn close(&mut self, end: Span) {
+        let Some(open) = self.stack.pop() else { return };
+        let (start, anchor, kind, last) = match open {
+            Open::List { start, anchor, items, .. } => {
+                let last = items.last().map(|node| node.span);
+                (start, anchor, NodeKind::List(items), last)
+            }
+            Open::Map { start, anchor, entries, .. } => {
+                let last = entries.last().map(|(_, node)| node.span);
+                (start, anchor, NodeKind::Map(entries), last)
+            }
+        };
+        // A block collection's end event stands at the next token; its last child tells where it really ends.
+        let span = if end.end > end.start { start.to(end) } else { start.to(last.unwrap_or(start)) };
+        self.add(Node { span, kind }, anchor);
+    }
+
+    fn span(&self, span: granit_parser::Span) -> Span {
+        let range = span.byte_range().unwrap_or(0..0);
+        self.range(range.start, range.end)
+    }
+
+    /// A block scalar's span runs on to the next key: cut the white space.
+    fn trimmed(&self, span: Span) -> Span {
+        let text = self.text.get(span.start as usize..span.end as usize).unwrap_or_default();
+        span.part(0, text.trim_end().len())
+    }
+
+    fn range(&self, start: usize, end: usize) -> Span {
+        let clamp = |at: usize| {
+            let mut at = at.min(self.text.len());
+            while !self.text.is_char_boundary(at) {
+                at -= 1;
+            }
+            u32::try_from(at).unwrap_or(u32::MAX)
+        };
+        Span { file: self.id, start: clamp(start), end: clamp(end.max(start)) }
+    }
+
+    fn point(&self, at: usize) -> Span {
+        let length = self.text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+        self.range(at, at + length)
+    }
+}
+
+fn read_key(node: Node, seen: &mut BTreeMap<String, Span>, diagnostics: &mut Diagnostics) -> Key {
+    let span = node.span;
+    let NodeKind::Scalar { text, .. } = node.kind else {
+        if !matches!(node.kind, NodeKind::Broken) {
+            diagnostics.push(
+                Diagnostic::new(Code::BadKey, span, format!("a key must be a word or a number, found {}", node.describe()))
+                    .help("write `key: value`; inside `{}` put keys that hold `: ` in quotes"),
+            );
+        }
+        return Key::Dropped;
+    };
+    if text == "<<" {
+        diagnostics.push(
+            Diagnostic::new(Code::BadKey, span, "merge keys (`<<`) are not part of the language")
+                .help("name a type or take an object with `from:` instead"),
+        );
+        return Key::Dropped;
+    }
+    if let Some(first) = seen.get(&text) {
+        diagnostics.push(
+            Diagnostic::new(Code::DuplicateKey, span, format!("key `{}` stands twice in this map", shorten(&text)))
+                .label("again here")
+                .with(*first, "first here")
+                .help("remove one of the two, or join their values"),
+        );
+        return Key::Dropped;
+    }
+    seen.insert(text.clone(), span);
+    Key::Read(Spanned::new(text, span))
+}
