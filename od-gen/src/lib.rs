@@ -1,1 +1,55 @@
-//! x
+//! Generators: from the resolved model to the files that tools and people use.
+//!
+//! Every backend is a pure function from the model to bytes, so that the same specification gives the same files on every
+//! machine. Files are written in one place, [`files`]: all of them or none.
+
+pub mod eds;
+pub mod files;
+pub mod json;
+pub mod source;
+
+use od_spec::model::{Dictionary, System};
+
+/// A file to be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Artifact {
+    /// Path below the output directory, with `/` between its parts.
+    pub path: String,
+    /// Contents.
+    pub bytes: Vec<u8>,
+    /// What the file is for, in a few words.
+    pub purpose: &'static str,
+}
+
+/// What [`artifacts`] makes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Selection<'a> {
+    /// Keys of the devices; empty for all.
+    pub devices: &'a [String],
+    /// Also a DCF of each device for this node-ID.
+    pub node: Option<u8>,
+}
+
+/// The files of one specification: an EDS per device, perhaps a DCF, and the JSON dump under the name `stem`.
+pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
+    let wanted =
+        |device: &&Dictionary| selection.devices.is_empty() || selection.devices.contains(&device.key);
+    let mut list = Vec::new();
+    for device in system.devices.iter().filter(wanted) {
+        let path = format!("eds/{}.eds", device.key);
+        list.push(Artifact {
+            bytes: eds::write_eds(system, device),
+            path,
+            purpose: "import this into the PLC tool",
+        });
+        if let Some(node) = selection.node {
+            let commissioning = eds::Commissioning::of_node(device, node);
+            let path = format!("eds/{}.dcf", device.key);
+            let bytes = eds::write_dcf(system, device, &commissioning, &format!("{}.dcf", device.key));
+            list.push(Artifact { bytes, path, purpose: "the same, configured for one node" });
+        }
+    }
+    let bytes = json::dump(system, selection.devices).into_bytes();
+    list.push(Artifact { bytes, path: format!("{stem}.json"), purpose: "the resolved model, for programs" });
+    list
+}

@@ -2,8 +2,8 @@
 
 use crate::expr::Expr;
 use crate::model::{
-    Access, BitPattern, BitUsage, Category, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, PdoMapping,
-    Ratio, Rounding, Storage, SubIndex, Text,
+    Access, BitPattern, BitUsage, Category, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside,
+    PdoMapping, Ratio, Rounding, Storage, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -15,6 +15,8 @@ pub(crate) type Name = Spanned<String>;
 pub(crate) struct Spec {
     pub file: FileId,
     pub span: Span,
+    /// A key of the top level was refused, or `devices:` is no map: devices may be meant by it.
+    pub unsure: bool,
     pub profile: Option<Name>,
     pub title: Option<Name>,
     pub languages: Vec<Name>,
@@ -101,6 +103,8 @@ pub(crate) struct UnitDecl {
 
 #[derive(Debug)]
 pub(crate) struct TypeDecl {
+    /// A key of the type or of its bits was refused.
+    pub unsure: bool,
     pub name: Name,
     pub base: Option<Name>,
     pub about: Words,
@@ -176,18 +180,24 @@ macro_rules! entry_decl {
         #[derive(Debug, Clone)]
         pub(crate) struct EntryDecl {
             pub span: Span,
+            /// Something here was refused: what seems to be missing may be meant by it.
+            pub unsure: bool,
             $(pub $field: Option<Spanned<$type>>,)+
         }
 
         impl EntryDecl {
             /// Nothing written.
             pub(crate) const fn empty(span: Span) -> Self {
-                Self { span, $($field: None,)+ }
+                Self { span, unsure: false, $($field: None,)+ }
             }
 
             /// What is written here, and where nothing is, what is written below.
             pub(crate) fn over(&self, below: &EntryDecl) -> EntryDecl {
-                EntryDecl { span: self.span, $($field: self.$field.clone().or_else(|| below.$field.clone()),)+ }
+                EntryDecl {
+                    span: self.span,
+                    unsure: self.unsure || below.unsure,
+                    $($field: self.$field.clone().or_else(|| below.$field.clone()),)+
+                }
             }
 
             /// Names of the facts written here that differ from those below.
@@ -328,6 +338,8 @@ pub(crate) struct SectionDecl {
 
 #[derive(Debug)]
 pub(crate) struct TableDecl {
+    /// A key was refused.
+    pub unsure: bool,
     pub span: Span,
     pub number: Option<Spanned<i128>>,
     pub title: Words,

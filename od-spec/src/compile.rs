@@ -6,7 +6,7 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::System;
 use crate::resolve;
 use crate::source::{FileId, SourceMap, Span};
-use crate::yaml;
+use crate::yaml::{self, shorten};
 
 /// Libraries that come with the compiler: name and text.
 pub const LIBRARIES: &[(&str, &str)] = &[("cia301", include_str!("../profiles/cia301.od.yaml"))];
@@ -56,7 +56,8 @@ fn build(
 ) -> Option<System> {
     let node = yaml::parse(root, sources.file(root), diagnostics)?;
     let spec = decode(&node, diagnostics);
-    let libraries = libraries(sources, &spec, loader, diagnostics);
+    // Without a library, everything that it would have brought would be reported as missing.
+    let libraries = libraries(sources, &spec, loader, diagnostics)?;
     Some(resolve::resolve(&spec, &libraries, diagnostics))
 }
 
@@ -65,10 +66,23 @@ fn libraries(
     root: &Spec,
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
-) -> Vec<Spec> {
-    let mut libraries = Vec::new();
+) -> Option<Vec<Spec>> {
+    let (mut libraries, mut complete) = (Vec::new(), true);
     let from = sources.file(root.file).name().to_owned();
-    for name in &root.uses {
+    for (at, name) in root.uses.iter().enumerate() {
+        if let Some(first) = root.uses[..at].iter().find(|other| other.value == name.value) {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::DuplicateName,
+                    name.span,
+                    format!("library `{}` is used twice", shorten(&name.value)),
+                )
+                .label("again here")
+                .with(first.span, "first here")
+                .help("remove one of the two"),
+            );
+            continue;
+        }
         let built_in = LIBRARIES.iter().find(|(library, _)| *library == name.value);
         let id = match built_in {
             Some((library, text)) => sources.add(format!("<{library}>"), *text),
@@ -76,22 +90,31 @@ fn libraries(
                 Ok(id) => id,
                 Err(diagnostic) => {
                     diagnostics.push(*diagnostic);
+                    complete = false;
                     continue;
                 }
             },
         };
-        let Some(node) = yaml::parse(id, sources.file(id), diagnostics) else { continue };
+        let Some(node) = yaml::parse(id, sources.file(id), diagnostics) else {
+            complete = false;
+            continue;
+        };
         let library = decode(&node, diagnostics);
         if library.profile.is_none() || !library.uses.is_empty() {
             diagnostics.push(
-                Diagnostic::new(Code::NotALibrary, name.span, format!("`{}` is no library", name.value))
-                    .help("a library has `profile: NAME` at its top level and no `uses:` of its own"),
+                Diagnostic::new(
+                    Code::NotALibrary,
+                    name.span,
+                    format!("`{}` is no library", shorten(&name.value)),
+                )
+                .help("a library has `profile: NAME` at its top level and no `uses:` of its own"),
             );
+            complete = false;
             continue;
         }
         libraries.push(library);
     }
-    libraries
+    complete.then_some(libraries)
 }
 
 fn load(
@@ -108,7 +131,12 @@ fn load(
             None => "name a built-in library (`cia301`), or a file relative to this one".to_owned(),
         };
         Box::new(
-            Diagnostic::new(Code::MissingLibrary, span, format!("cannot read library `{path}`: {reason}")).help(help),
+            Diagnostic::new(
+                Code::MissingLibrary,
+                span,
+                format!("cannot read library `{}`: {reason}", shorten(path)),
+            )
+            .help(help),
         )
     };
     let bytes = loader.load(path, from).map_err(|reason| missing(&reason))?;
@@ -125,7 +153,7 @@ pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> 
         return Err(Box::new(
             Diagnostic::without_place(
                 Code::TooLarge,
-                format!("{name} has {} MiB; the limit is {} MiB", bytes.len() >> 20, LARGEST_FILE >> 20),
+                format!("`{name}` has {} MiB; the limit is {} MiB", bytes.len() >> 20, LARGEST_FILE >> 20),
             )
             .help("is this the right file?"),
         ));
@@ -139,7 +167,7 @@ pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> 
         Box::new(
             Diagnostic::without_place(
                 Code::NotUtf8,
-                format!("{name}:{line}:{column}: found byte {byte:#04x}, expected UTF-8 text"),
+                format!("`{name}:{line}:{column}` holds the byte {byte:#04X}, expected UTF-8 text"),
             )
             .help("convert the file, for example with `iconv -f latin1 -t utf-8`"),
         )

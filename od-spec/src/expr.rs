@@ -15,6 +15,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use crate::model::{EntryId, Index, Ratio, SubIndex};
+use crate::yaml::shorten;
 
 /// Nesting of parentheses and minus signs that is read.
 const MAX_DEPTH: usize = 32;
@@ -26,6 +27,8 @@ pub struct Expr {
     pub text: String,
     /// All must hold.
     pub comparisons: Vec<Comparison>,
+    /// Where in the text the entries are named, in the order of [`Expr::entries`].
+    pub places: Vec<std::ops::Range<usize>>,
 }
 
 /// A chain such as `a < b <= c`.
@@ -175,7 +178,11 @@ impl Expr {
                     (Some(a), Some(b)) => match a.compare(b) {
                         Some(order) if op.accepts(order) => {}
                         Some(_) => {
-                            return Outcome::Fails { left: (left.to_string(), a), op: *op, right: (right.to_string(), b) };
+                            return Outcome::Fails {
+                                left: (left.to_string(), a),
+                                op: *op,
+                                right: (right.to_string(), b),
+                            };
                         }
                         None => outcome = Outcome::Unknown,
                     },
@@ -189,7 +196,7 @@ impl Expr {
 
     /// Reads a condition. An error is a byte range in `text` and what is wrong there.
     pub fn parse(text: &str) -> Result<Expr, (std::ops::Range<usize>, String)> {
-        let mut parser = Parser { text, at: 0, depth: 0 };
+        let mut parser = Parser { text, at: 0, depth: 0, places: Vec::new() };
         let mut comparisons = vec![parser.comparison()?];
         while parser.word("and") {
             comparisons.push(parser.comparison()?);
@@ -198,7 +205,7 @@ impl Expr {
         if parser.at < text.len() {
             return Err(parser.unexpected("`and` or the end"));
         }
-        Ok(Expr { text: text.to_owned(), comparisons })
+        Ok(Expr { text: text.to_owned(), comparisons, places: parser.places })
     }
 }
 
@@ -257,6 +264,7 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     depth: usize,
+    places: Vec<std::ops::Range<usize>>,
 }
 
 type Parsed<T> = Result<T, (std::ops::Range<usize>, String)>;
@@ -298,9 +306,19 @@ impl<'a> Parser<'a> {
 
     fn unexpected(&self, expected: &str) -> (std::ops::Range<usize>, String) {
         let rest = self.rest();
-        let length = rest.find(char::is_whitespace).unwrap_or(rest.len());
-        let found = if length == 0 { "the end".to_owned() } else { format!("`{}`", &rest[..length]) };
+        let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
+        let word = rest.starts_with(is_word);
+        let length =
+            rest.find(|c: char| if word { !is_word(c) } else { c.is_whitespace() }).unwrap_or(rest.len());
+        let found =
+            if length == 0 { "the end".to_owned() } else { format!("`{}`", shorten(&rest[..length])) };
         (self.at..self.at + length, format!("found {found}, expected {expected}"))
+    }
+
+    /// The same about a token that began earlier.
+    fn unexpected_from(&mut self, start: usize, expected: &str) -> (std::ops::Range<usize>, String) {
+        self.at = start;
+        self.unexpected(expected)
     }
 
     fn comparison(&mut self) -> Parsed<Comparison> {
@@ -386,8 +404,9 @@ impl<'a> Parser<'a> {
                 return Err(self.unexpected("`,` and a bit number"));
             }
             self.blank();
+            let start = self.at;
             let bit = self.digits(10).and_then(|digits| digits.parse().ok()).filter(|bit| *bit < 64);
-            let bit = bit.ok_or_else(|| self.unexpected("a bit number below 64"))?;
+            let bit = bit.ok_or_else(|| self.unexpected_from(start, "a bit number below 64"))?;
             return if self.take(")") { Ok(Term::Bit(entry, bit)) } else { Err(self.unexpected("`)`")) };
         }
         if !name.is_empty() || self.rest().starts_with("0x") || self.rest().starts_with("0X") {
@@ -406,30 +425,37 @@ impl<'a> Parser<'a> {
 
     fn reference(&mut self) -> Parsed<EntryRef> {
         self.blank();
+        let start_of_all = self.at;
         let name = self.name();
         let device = if name.is_empty() {
             None
         } else {
+            let start = self.at;
             self.at += name.len();
             if !self.take(":") {
-                self.at -= name.len();
+                self.at = start;
                 return Err(self.unexpected("an entry by index, such as `0x6040`, or `device:0x6040`"));
             }
             Some(name.to_owned())
         };
         self.blank();
+        let start_of_id = self.at;
         if !(self.take("0x") || self.take("0X")) {
             return Err(self.unexpected("an index such as `0x6040`"));
         }
         let index = self.digits(16).and_then(|digits| u16::from_str_radix(digits, 16).ok());
-        let index = index.ok_or_else(|| self.unexpected("an index of at most four hexadecimal digits"))?;
+        let index = index.ok_or_else(|| {
+            self.unexpected_from(start_of_id, "an index of at most four hexadecimal digits")
+        })?;
         let mut sub = 0;
         if self.rest().starts_with('.') {
             self.at += 1;
             let radix = if self.take("0x") { 16 } else { 10 };
+            let start = self.at;
             let digits = self.digits(radix).and_then(|digits| u8::from_str_radix(digits, radix).ok());
-            sub = digits.ok_or_else(|| self.unexpected("a sub-index, 0 to 255"))?;
+            sub = digits.ok_or_else(|| self.unexpected_from(start, "a sub-index, 0 to 255"))?;
         }
+        self.places.push(start_of_all..self.at);
         Ok(EntryRef { device, id: EntryId { index: Index(index), sub: SubIndex(sub) } })
     }
 
@@ -488,11 +514,11 @@ mod tests {
             ("0x1000", 6, "a comparison"),
             ("0x1000 <", 8, "a number"),
             ("0x1000 < controlword", 9, "an entry by index"),
-            ("0x10000 < 1", 7, "at most four"),
+            ("0x10000 < 1", 0, "at most four"),
             ("(0x1000 < 1", 8, "`)`"),
             ("1 < 2 or", 6, "`and`"),
             ("bit(0x1000) == 1", 10, "`,`"),
-            ("bit(0x1000, 64) == 1", 14, "below 64"),
+            ("bit(0x1000, 64) == 1", 12, "below 64"),
         ] {
             let (range, message) = Expr::parse(text).unwrap_err();
             assert_eq!(range.start, start, "{text}: {message}");

@@ -29,12 +29,16 @@ mod compile;
 mod decode;
 pub mod diag;
 pub mod expr;
+mod json_schema;
 pub mod keys;
 pub mod model;
 mod parameters;
+mod reference;
 mod resolve;
 pub mod source;
 pub mod yaml;
 
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
+pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign};
+pub use reference::reference;

@@ -28,11 +28,16 @@ pub fn assign(
         match read(device, setting) {
             Ok((id, value)) => {
                 // An alias and its target are one value.
-                let holder = device.entry(id).and_then(|entry| entry.alias.as_ref()).map_or(id, |alias| alias.target);
+                let holder =
+                    device.entry(id).and_then(|entry| entry.alias.as_ref()).map_or(id, |alias| alias.target);
                 if let Some(before) = places.insert(holder, setting.span) {
                     diagnostics.push(
                         Diagnostic::new(Code::SetTwice, setting.span, format!("{holder} is set twice"))
-                            .label("again here")
+                            .label(if holder == id {
+                                "again here".to_owned()
+                            } else {
+                                format!("again here, as {id}")
+                            })
                             .with(before, "first here")
                             .help("keep one of the two"),
                     );
@@ -53,26 +58,31 @@ fn read(device: &Dictionary, setting: &Assignment) -> Result<(EntryId, Value), B
     let span = setting.span;
     let Some((name, text)) = setting.value.split_once('=') else {
         return Err(Box::new(
-            Diagnostic::new(Code::BadAssignment, span, format!("found `{}`, expected ENTRY=VALUE", setting.value))
-                .help("write an index or a name, `=`, and a value: `607D.2=9000`"),
+            Diagnostic::new(
+                Code::BadAssignment,
+                span,
+                format!("found `{}`, expected ENTRY=VALUE", setting.value),
+            )
+            .help("write an index or a name, `=`, and a value: `607D.2=9000`"),
         ));
     };
     let value_span = span.part(name.len() + 1, setting.value.len());
     let name_span = span.part(0, name.len());
     let (name, text) = (name.trim(), text.trim());
     let id = resolve::lookup(device, name).map_err(|nearest| {
-        let diagnostic = Diagnostic::new(
-            Code::UnknownEntry,
-            name_span,
-            format!("`{}` has no entry `{name}`", device.key),
-        );
+        let diagnostic =
+            Diagnostic::new(Code::UnknownEntry, name_span, format!("`{}` has no entry `{name}`", device.key));
         Box::new(match nearest {
             Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-            None => diagnostic.help("write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"),
+            None => diagnostic
+                .help("write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"),
         })
     })?;
     let entry = device.entry(id).ok_or_else(|| {
-        Box::new(Diagnostic::new(Code::UnknownEntry, name_span, format!("there is no entry {id}")).help("correct it"))
+        Box::new(
+            Diagnostic::new(Code::UnknownEntry, name_span, format!("there is no entry {id}"))
+                .help("correct it"),
+        )
     })?;
     check_access(id, entry, name_span)?;
     let unit = entry.unit.as_deref();
@@ -83,7 +93,8 @@ fn read(device: &Dictionary, setting: &Assignment) -> Result<(EntryId, Value), B
 }
 
 fn check_access(id: EntryId, entry: &Entry, span: Span) -> Result<(), Box<Diagnostic>> {
-    let refuse = |code, message: String, help: &str| Err(Box::new(Diagnostic::new(code, span, message).help(help)));
+    let refuse =
+        |code, message: String, help: &str| Err(Box::new(Diagnostic::new(code, span, message).help(help)));
     if !entry.access.is_writable() {
         return refuse(
             Code::NotWritable,
@@ -109,23 +120,19 @@ fn check_access(id: EntryId, entry: &Entry, span: Span) -> Result<(), Box<Diagno
 }
 
 fn check_limits(id: EntryId, entry: &Entry, value: &Value, span: Span) -> Result<(), Box<Diagnostic>> {
-    let show = |raw: Option<i128>, open: &str| {
-        raw.map_or(open.to_owned(), |raw| format_value(entry, &Value::Integer(raw)))
-    };
     match value {
         Value::Integer(raw) if entry.data_type != DataType::Boolean && !entry.allows(*raw) => Err(Box::new(
             Diagnostic::new(
                 Code::ValueOutsideLimits,
                 span,
                 format!(
-                    "{id} ({}): {} is outside {} to {}",
+                    "{id} ({}): {} is outside {}",
                     entry.name,
                     format_value(entry, value),
-                    show(entry.low, "lowest"),
-                    show(entry.high, "highest")
+                    resolve::allowed(entry)
                 ),
             )
-            .help("the device would refuse the value"),
+            .help("write a value within the limits; the device refuses any other"),
         )),
         _ => Ok(()),
     }
@@ -168,7 +175,8 @@ fn check_conditions(
             configured.values.insert(alias.target, target.floor());
         }
     }
-    for constraint in system.constraints.iter().filter(|constraint| constraint.devices.contains(&device.key)) {
+    for constraint in system.constraints.iter().filter(|constraint| constraint.devices.contains(&device.key))
+    {
         let touched = constraint.require.entries().into_iter().find_map(|entry| {
             let own = entry.device.as_ref().is_none_or(|key| *key == device.key);
             places.get(&entry.id).filter(|_| own)
@@ -176,23 +184,31 @@ fn check_conditions(
         let Some(span) = touched else { continue };
         if let Outcome::Fails { left, op, right } = resolve::check_constraint(constraint, &configured) {
             diagnostics.push(
-                Diagnostic::new(Code::ConstraintBroken, *span, format!("the settings break `{}`", constraint.name))
-                    .label(format!("{} is {}, {} is {}: not {}", left.0, left.1, right.0, right.1, op.sign()))
-                    .with(constraint.span, "the constraint")
-                    .help("set values that meet the condition; entries that are not set have their defaults"),
+                Diagnostic::new(
+                    Code::ConstraintBroken,
+                    *span,
+                    format!("the settings break `{}`", constraint.name),
+                )
+                .label(format!("{} is {}, {} is {}: not {}", left.0, left.1, right.0, right.1, op.sign()))
+                .with(constraint.span, "the constraint")
+                .help("set values that meet the condition; entries that are not set have their defaults"),
             );
         }
     }
     for (id, span) in places {
-        let Some(condition) = device.entry(*id).and_then(|entry| entry.writable_when.as_ref()) else { continue };
+        let Some(condition) = device.entry(*id).and_then(|entry| entry.writable_when.as_ref()) else {
+            continue;
+        };
         if let Outcome::Fails { .. } = condition.evaluate(&configured) {
             diagnostics.push(
                 Diagnostic::new(
                     Code::ConditionUnmet,
                     *span,
-                    format!("the device accepts {id} only while {}", condition.text),
+                    format!("the device accepts {id} only while `{}`", condition.text),
                 )
-                .help("a download at boot will be refused unless the device is brought into that state first"),
+                .help(
+                    "a download at boot will be refused unless the device is brought into that state first",
+                ),
             );
         }
     }

@@ -30,7 +30,9 @@ impl Span {
 
     /// A part of this span, given in bytes relative to its start.
     pub fn part(self, start: usize, end: usize) -> Span {
-        let at = |offset: usize| self.start.saturating_add(u32::try_from(offset).unwrap_or(u32::MAX)).min(self.end);
+        let at = |offset: usize| {
+            self.start.saturating_add(u32::try_from(offset).unwrap_or(u32::MAX)).min(self.end)
+        };
         Span { file: self.file, start: at(start), end: at(end) }
     }
 }
@@ -169,6 +171,11 @@ impl SourceMap {
     /// All files, in the order they were added.
     pub fn files(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
         (0u32..).map(FileId).zip(&self.files)
+    }
+
+    /// The span of a whole file.
+    pub fn whole(&self, id: FileId) -> Span {
+        Span { file: id, start: 0, end: u32::try_from(self.file(id).text.len()).unwrap_or(u32::MAX) }
     }
 
     /// The text that a span covers.

@@ -1,16 +1,16 @@
 //! A device has heartbeat or node guarding (CiA 301, categories of 100Ch and 1017h).
 
-use super::mandatory_objects_exist::first_place;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{Dictionary, Index};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     let has = |index: u16| device.objects.contains_key(&Index(index));
-    if let (false, false, Some(span)) = (has(0x1017), has(0x100C) && has(0x100D), first_place(device)) {
+    let guarding = has(0x100C) && has(0x100D);
+    if !guarding && !has(0x1017) {
         diagnostics.push(
             Diagnostic::new(
                 Code::NoErrorControl,
-                span,
+                device.span,
                 format!("`{}` has neither heartbeat (1017h) nor node guarding (100Ch, 100Dh)", device.key),
             )
             .help("add the feature `heartbeat producer` of `cia301`"),

@@ -9,8 +9,12 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
         && identity.entry(SubIndex(4)).is_none()
     {
         diagnostics.push(
-            Diagnostic::new(Code::LssWithoutSerial, identity.span, format!("`{}` supports LSS, but 1018h has no serial number", device.key))
-                .help("add sub-index 4 to 1018h, or remove `lss: yes`"),
+            Diagnostic::new(
+                Code::LssWithoutSerial,
+                identity.span,
+                format!("`{}` supports LSS, but 1018h has no serial number", device.key),
+            )
+            .help("add sub-index 4 to 1018h, or remove `lss: yes`"),
         );
     }
 }

@@ -14,7 +14,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
                 Diagnostic::new(
                     Code::NoPdo,
                     entry.span,
-                    format!("{id} can be mapped into a {}, but `{}` has none", direction.pdo(), device.key),
+                    format!("{id} can be mapped into {}s, but `{}` has none", direction.pdo(), device.key),
                 )
                 .help(format!("describe the device's {}s under `pdos:`", direction.pdo())),
             );

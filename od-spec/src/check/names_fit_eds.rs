@@ -1,13 +1,15 @@
 //! Names can be written into an EDS that every tool reads alike.
 
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::model::Dictionary;
+use crate::model::{Dictionary, Entry, Value};
 use crate::source::Span;
+use crate::yaml::shorten;
 
 /// Longest `ParameterName` (CiA 306 4.6.3.2).
 const LONGEST: usize = 241;
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
+    check_header(device, diagnostics);
     for object in device.objects.values() {
         check_name(&object.name, object.span, diagnostics);
         if object.is_structured() {
@@ -15,16 +17,82 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
                 check_name(&entry.name, entry.span, diagnostics);
             }
         }
+        for entry in &object.entries {
+            check_text_default(entry, diagnostics);
+        }
     }
+}
+
+/// A string cannot be quoted in an EDS: blanks at its ends and comment characters would be lost.
+fn check_text_default(entry: &Entry, diagnostics: &mut Diagnostics) {
+    let Some(Value::Text(text)) = entry.default.as_ref().filter(|_| entry.eds.default) else { return };
+    let problem = if text.trim() != text {
+        "blanks at the start or end of the default are lost in an EDS".to_owned()
+    } else if let Some(c) = text.chars().find(|c| is_unfit(*c)) {
+        format!("the default holds {}, which EDS readers misread", describe(c))
+    } else {
+        return;
+    };
+    diagnostics.push(
+        Diagnostic::new(Code::NotForEds, entry.span, problem).help(
+            "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`",
+        ),
+    );
+}
+
+/// Texts of `[FileInfo]` and `[DeviceInfo]` with the length that CiA 306 4.4 and 4.5 give them.
+fn check_header(device: &Dictionary, diagnostics: &mut Diagnostics) {
+    let texts = [
+        ("description", &device.file.description, 243),
+        ("created-by", &device.file.created_by, 245),
+        ("modified-by", &device.file.modified_by, 244),
+        ("product-name", &device.info.product_name, 243),
+        ("order-code", &device.info.order_code, 245),
+    ];
+    for (at, (key, text, longest)) in texts.into_iter().enumerate() {
+        if texts[..at].iter().any(|(_, other, _)| *other == text) {
+            continue; // one is taken from the other
+        }
+        let length = crate::ascii::transliterate(text).len();
+        let problem = if length > longest {
+            format!("has {length} characters, an EDS holds {longest}")
+        } else if let Some(c) = text.chars().find(|c| is_unfit(*c)) {
+            format!("holds {}, which EDS readers misread", describe(c))
+        } else {
+            continue;
+        };
+        diagnostics.push(
+            Diagnostic::new(
+                Code::NotForEds,
+                device.span,
+                format!("`{key}` of device `{}` {problem}", device.key),
+            )
+            .help("choose another text"),
+        );
+    }
+}
+
+/// Characters that several readers do not take as part of a value.
+fn is_unfit(c: char) -> bool {
+    matches!(c, ';' | '#' | '=') || c.is_control()
+}
+
+/// A character in a message.
+fn describe(c: char) -> String {
+    if c.is_control() { "a control character".to_owned() } else { format!("`{c}`") }
 }
 
 fn check_name(name: &str, span: Span, diagnostics: &mut Diagnostics) {
     let problem = if name.trim().is_empty() {
         "the name is empty".to_owned()
     } else if crate::ascii::transliterate(name).len() > LONGEST {
-        format!("the name has {} characters, an EDS holds {LONGEST}", name.chars().count())
-    } else if let Some(c) = name.chars().find(|c| matches!(c, ';' | '#' | '=') || c.is_control()) {
-        format!("the name holds {c:?}, which EDS readers take for a comment or key")
+        format!(
+            "the name `{}` has {} characters, an EDS holds {LONGEST}",
+            shorten(name),
+            name.chars().count()
+        )
+    } else if let Some(c) = name.chars().find(|c| is_unfit(*c)) {
+        format!("the name `{}` holds {}, which EDS readers misread", shorten(name), describe(c))
     } else {
         return;
     };

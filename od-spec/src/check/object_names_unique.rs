@@ -4,19 +4,24 @@ use std::collections::BTreeMap;
 
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::Dictionary;
+use crate::yaml::shorten;
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     let mut names = BTreeMap::new();
     for object in device.objects.values() {
         if let Some(before) = names.insert(object.name.as_str(), object) {
+            // What comes from a library is right: the message is about the other one.
+            let own = if object.span.file == device.span.file { object } else { before };
+            let other = if own.index == object.index { before } else { object };
+            let name = shorten(&object.name);
             diagnostics.push(
                 Diagnostic::new(
                     Code::DuplicateName,
-                    object.span,
-                    format!("{} and {} of `{}` are both named `{}`", before.index, object.index, device.key, object.name),
+                    own.span,
+                    format!("{} and {} of `{}` are both named `{name}`", before.index, object.index, device.key),
                 )
-                .label(object.index.to_string())
-                .with(before.span, before.index.to_string())
+                .label(own.index.to_string())
+                .with(other.span, other.index.to_string())
                 .help("give one of the two another name; PDO mappings and generated code refer to objects by name"),
             );
         }

@@ -53,7 +53,8 @@ pub(crate) fn date(text: &str) -> Option<Date> {
     let mut parts = text.split('-');
     let mut part = |width: usize| {
         let digits = parts.next()?;
-        (digits.len() == width && digits.bytes().all(|b| b.is_ascii_digit())).then(|| digits.parse::<u16>().ok())?
+        (digits.len() == width && digits.bytes().all(|b| b.is_ascii_digit()))
+            .then(|| digits.parse::<u16>().ok())?
     };
     let (year, month, day) = (part(4)?, part(2)?, part(2)?);
     let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);

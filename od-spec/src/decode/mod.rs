@@ -10,6 +10,7 @@ mod shape;
 mod spec;
 
 pub(crate) use nearest::nearest;
+pub(crate) use shape::inside;
 
 use crate::ast::Spec;
 use crate::diag::Diagnostics;
@@ -18,6 +19,6 @@ use crate::yaml::Node;
 
 /// Reads a specification or library.
 pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
-    shape::check_map(root, &keys::SPEC, diagnostics);
+    shape::check_map(root, &keys::SPEC, shape::start(root), diagnostics);
     spec::read(root, diagnostics)
 }

@@ -2,8 +2,8 @@
 
 use crate::ast::{Name, Words};
 use crate::model::{Index, Text};
-use crate::source::Spanned;
-use crate::yaml::{Node, NodeKind, scalar};
+use crate::source::{Span, Spanned};
+use crate::yaml::{MERGE, Node, NodeKind, scalar};
 
 use super::lexical;
 
@@ -23,6 +23,12 @@ impl<'a> Reader<'a> {
         self.node.get(key).map(|node| self.at(node))
     }
 
+    /// The place of a key, and its value.
+    pub(super) fn keyed(self, key: &str) -> Option<(Span, Self)> {
+        let (name, node) = self.node.entries().iter().find(|(name, _)| name.value == key)?;
+        Some((name.span, self.at(node)))
+    }
+
     /// The values of a list, or the one value that stands in its place.
     pub(super) fn items(self, key: &str) -> impl Iterator<Item = Self> {
         let nodes = match self.node.get(key) {
@@ -36,7 +42,8 @@ impl<'a> Reader<'a> {
     /// The entries of a map with data in its keys.
     pub(super) fn entries(self, key: &str) -> impl Iterator<Item = (Spanned<&'a str>, Self)> {
         let entries = self.node.get(key).map(Node::entries).unwrap_or_default();
-        entries.iter().map(move |(name, node)| (Spanned::new(name.value.as_str(), name.span), self.at(node)))
+        let entries = entries.iter().filter(|(name, _)| name.value != MERGE);
+        entries.map(move |(name, node)| (Spanned::new(name.value.as_str(), name.span), self.at(node)))
     }
 
     /// Reads the scalar itself.
@@ -86,7 +93,9 @@ impl<'a> Reader<'a> {
 
     pub(super) fn own_words(self) -> Option<Text> {
         let by_language: Vec<(&str, &Node)> = match &self.node.kind {
-            NodeKind::Map(entries) => entries.iter().map(|(name, node)| (name.value.as_str(), node)).collect(),
+            NodeKind::Map(entries) => {
+                entries.iter().map(|(name, node)| (name.value.as_str(), node)).collect()
+            }
             _ => vec![(self.language, self.node)],
         };
         let texts = by_language.into_iter().filter_map(|(language, node)| {

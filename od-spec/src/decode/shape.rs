@@ -3,36 +3,41 @@
 use super::{lexical, nearest};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::expr::Expr;
-use crate::keys::{KeyKind, Keys, Shape};
+use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::model::Access;
-use crate::source::Spanned;
-use crate::yaml::{Node, NodeKind, scalar, shorten};
+use crate::source::{Span, Spanned};
+use crate::yaml::{MERGE, Node, NodeKind, scalar, shorten};
 
-/// Checks a map with fixed keys and everything below it.
-pub(super) fn check_map(node: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+/// Checks a map with fixed keys and everything below it. `owner` is the place that stands for the whole map: the key it
+/// belongs to.
+pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut Diagnostics) {
     let NodeKind::Map(entries) = &node.kind else {
-        wrong_kind(node, &format!("{}: a map of keys", keys.name), diagnostics);
+        wrong_kind(node, &format!("the keys of {}", keys.name), diagnostics);
         return;
     };
+    let missing = |key: &&Key| key.required && !entries.iter().any(|(name, _)| name.value == key.name);
+    let missing: Vec<&Key> = keys.keys.iter().filter(missing).collect();
+    let mut misspelt = Vec::new();
     for (name, value) in entries {
         match keys.keys.iter().find(|key| key.name == name.value) {
-            Some(key) => check(value, key.shape, diagnostics),
-            None => unknown_key(name, keys, diagnostics),
+            Some(key) => check(value, key.shape, name.span, diagnostics),
+            None if name.value == MERGE => {}
+            None => {
+                misspelt.extend(nearest(&name.value, missing.iter().map(|key| key.name)));
+                unknown_key(name, value, keys, diagnostics);
+            }
         }
     }
-    for key in keys.keys.iter().filter(|key| key.required) {
-        if !entries.iter().any(|(name, _)| name.value == key.name) {
-            let place = entries.first().map_or(node.span, |(name, _)| name.span);
-            diagnostics.push(
-                Diagnostic::new(Code::MissingKey, place, format!("{} needs the key `{}`", keys.name, key.name))
-                    .label(format!("in {} that starts here", keys.name.split_once(' ').map_or(keys.name, |(_, n)| n)))
-                    .help(format!("add `{}:`, {}", key.name, key.about)),
-            );
-        }
+    for key in missing.iter().filter(|key| !misspelt.contains(&key.name)) {
+        let what = if key.about == key.name { String::new() } else { format!(" ({})", key.about) };
+        diagnostics.push(
+            Diagnostic::new(Code::MissingKey, owner, format!("{} needs the key `{}`", keys.name, key.name))
+                .help(format!("add `{}:`{what}", key.name)),
+        );
     }
 }
 
-fn unknown_key(name: &Spanned<String>, keys: &Keys, diagnostics: &mut Diagnostics) {
+fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
     let known = keys.keys.iter().map(|key| key.name);
     let diagnostic = Diagnostic::new(
         Code::UnknownKey,
@@ -41,9 +46,13 @@ fn unknown_key(name: &Spanned<String>, keys: &Keys, diagnostics: &mut Diagnostic
     );
     diagnostics.push(match nearest(&name.value, known.clone()) {
         Some(word) => diagnostic.label("unknown").help(format!("did you mean `{word}`?")),
-        None => diagnostic
-            .label("unknown")
-            .help(format!("its keys are {}", known.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", "))),
+        None if value.kind == NodeKind::Null => diagnostic
+            .label("a key without a value")
+            .help("inside `{}` put a text that holds a comma in quotes"),
+        None => diagnostic.label("unknown").help(format!(
+            "its keys are {}",
+            known.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ")
+        )),
     });
 }
 
@@ -52,36 +61,49 @@ fn wrong_kind(node: &Node, expected: &str, diagnostics: &mut Diagnostics) {
         return;
     }
     diagnostics.push(
-        Diagnostic::new(Code::WrongKind, node.span, format!("found {}, expected {expected}", node.describe()))
-            .help(format!("write {expected}")),
+        Diagnostic::new(
+            Code::WrongKind,
+            node.span,
+            format!("found {}, expected {expected}", node.describe()),
+        )
+        .help(format!("write {expected}")),
     );
 }
 
-fn check(node: &Node, shape: Shape, diagnostics: &mut Diagnostics) {
+fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
     match shape {
-        Shape::Map(keys) => check_map(node, keys, diagnostics),
+        Shape::Map(keys) => check_map(node, keys, owner, diagnostics),
         Shape::ShortOr(short, keys) => match node.kind {
-            NodeKind::Map(_) => check_map(node, keys, diagnostics),
-            _ => check(node, *short, diagnostics),
+            NodeKind::Map(_) => check_map(node, keys, owner, diagnostics),
+            _ => check(node, *short, owner, diagnostics),
         },
         Shape::Words => match &node.kind {
             NodeKind::Map(_) => check_keyed(node, KeyKind::Language, Shape::Text, diagnostics),
-            _ => check(node, Shape::Text, diagnostics),
+            _ => check(node, Shape::Text, owner, diagnostics),
         },
         Shape::MapOf(kind, value) => check_keyed(node, kind, *value, diagnostics),
         Shape::List(item) => match &node.kind {
-            NodeKind::List(items) => items.iter().for_each(|node| check(node, *item, diagnostics)),
+            NodeKind::List(items) => {
+                items.iter().for_each(|node| check(node, *item, start(node), diagnostics))
+            }
             _ => wrong_kind(node, "a list", diagnostics),
         },
         Shape::OneOrMore(item) => match &node.kind {
-            NodeKind::List(items) => items.iter().for_each(|node| check(node, *item, diagnostics)),
-            _ => check(node, *item, diagnostics),
+            NodeKind::List(items) => {
+                items.iter().for_each(|node| check(node, *item, start(node), diagnostics))
+            }
+            _ => check(node, *item, owner, diagnostics),
         },
         _ => match node.text() {
             Some(text) => check_scalar(text, shape, diagnostics),
             None => wrong_kind(node, expected(shape), diagnostics),
         },
     }
+}
+
+/// The place that stands for a value without a key of its own: a map's first key.
+pub(super) fn start(node: &Node) -> Span {
+    node.entries().first().map_or(node.span, |(name, _)| name.span)
 }
 
 fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagnostics) {
@@ -92,12 +114,14 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
         }
         return;
     };
-    for (name, node) in entries {
+    for (name, node) in entries.iter().filter(|(name, _)| name.value != MERGE) {
         let text = name.value.as_str();
         let integer = || scalar::integer(text).ok();
         let fits = match kind {
             KeyKind::Name => !text.is_empty(),
-            KeyKind::Language => text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-'),
+            KeyKind::Language => {
+                text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
+            }
             KeyKind::Index => lexical::index(text).is_some(),
             KeyKind::SubIndex => integer().is_some_and(|sub| (1..=254).contains(&sub)),
             KeyKind::Bits => lexical::bits(text).is_some(),
@@ -116,7 +140,7 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
                 .help(format!("keys of this map are {}", key_words(kind))),
             );
         }
-        check(node, value, diagnostics);
+        check(node, value, name.span, diagnostics);
     }
 }
 
@@ -166,20 +190,39 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                 )
                 .help(error.help()),
             ),
-            Ok(number) if !(low..=high).contains(&number) => diagnostics.push(
-                Diagnostic::new(Code::NumberOutOfRange, text.span, format!("{number} is outside {low} to {high}"))
-                    .help(format!("write a number from {low} to {high}")),
-            ),
+            Ok(number) if !(low..=high).contains(&number) => {
+                let range =
+                    if low == high { format!("{low}") } else { format!("a number from {low} to {high}") };
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::NumberOutOfRange,
+                        text.span,
+                        format!("found `{}`, expected {range}", shorten(value)),
+                    )
+                    .help(format!("write {range}")),
+                );
+            }
             Ok(_) => {}
         },
-        Shape::YesNo if scalar::yes_no(value).is_none() => unknown_word(text, &["yes", "no"], diagnostics),
+        Shape::YesNo if scalar::yes_no(value).is_none() => diagnostics.push(
+            Diagnostic::new(
+                Code::UnknownWord,
+                text.span,
+                format!("found `{}`, expected `yes` or `no`", shorten(value)),
+            )
+            .help("write `yes` or `no`"),
+        ),
         Shape::Choice(words) if !words.contains(&value) => unknown_word(text, words, diagnostics),
         Shape::Access if lexical::access(value).is_none() => unknown_word(text, Access::WORDS, diagnostics),
         Shape::Condition => {
             if let Err((range, message)) = Expr::parse(value) {
                 diagnostics.push(
-                    Diagnostic::new(Code::BadNotation, inside(text, &range), format!("cannot read this condition: {message}"))
-                        .help("conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`"),
+                    Diagnostic::new(
+                        Code::BadNotation,
+                        inside(text, &range),
+                        format!("cannot read this condition: {message}"),
+                    )
+                    .help("conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`"),
                 );
             }
         }
@@ -209,7 +252,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
 }
 
 /// The part of a scalar that a byte range of its text covers. Exact for plain one-line scalars, else the whole scalar.
-fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> crate::source::Span {
+pub(crate) fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> Span {
     let plain = (text.span.end - text.span.start) as usize;
     match plain.checked_sub(text.value.len()) {
         Some(0) => text.span.part(range.start, range.end.max(range.start + 1)),

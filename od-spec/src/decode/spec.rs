@@ -5,17 +5,20 @@ use std::collections::BTreeMap;
 use super::read::Reader;
 use super::{lexical, shape};
 use crate::ast::{
-    ArrayDecl, BitDecl, BitErrorDecl, CommandDecl, ConstraintDecl, ContentDecl, DeviceDecl, EdsDecl, EntryDecl,
-    ErratumDecl, ErrorDecl, FeatureDecl, FileDecl, IssueDecl, MachineDecl, Name, ObjectDecl, PdoDecl, RecordDecl,
-    SectionDecl, SourceDecl, Spec, SpecialDecl, TableDecl, TransitionDecl, TypeDecl, UnitDecl, ValueDecl, VendorDecl,
+    ArrayDecl, BitDecl, BitErrorDecl, CommandDecl, ConstraintDecl, ContentDecl, DeviceDecl, EdsDecl,
+    EntryDecl, ErratumDecl, ErrorDecl, FeatureDecl, FileDecl, IssueDecl, MachineDecl, Name, ObjectDecl,
+    PdoDecl, RecordDecl, SectionDecl, SourceDecl, Spec, SpecialDecl, TableDecl, TransitionDecl, TypeDecl,
+    UnitDecl, ValueDecl, VendorDecl,
 };
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::expr::Expr;
+use crate::keys::{self, Keys};
 use crate::model::{
-    Access, BitUsage, Category, Direction, Edge, ErratumKind, Outside, PdoMapping, Rounding, Storage, SubIndex,
+    Access, BitUsage, Category, Direction, Edge, ErratumKind, Outside, PdoMapping, Rounding, Storage,
+    SubIndex,
 };
 use crate::source::{Span, Spanned};
-use crate::yaml::{Node, scalar};
+use crate::yaml::{Node, NodeKind, scalar};
 
 pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     let languages = Reader { node: root, language: "en" }.texts("languages");
@@ -24,6 +27,10 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     Spec {
         file: root.span.file,
         span: root.span,
+        unsure: has_unknown_key(root, &keys::SPEC)
+            || root
+                .get("devices")
+                .is_some_and(|node| !matches!(node.kind, NodeKind::Map(_) | NodeKind::Null)),
         profile: top.text("profile"),
         title: top.text("title"),
         source: top.child("source").map(|r| SourceDecl {
@@ -43,9 +50,13 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         units: top.entries("units").map(|(name, r)| unit(name, r)).collect(),
         types: top.entries("types").map(|(name, r)| named_type(name, r, diagnostics)).collect(),
         features: top.entries("features").map(|(name, r)| feature(name, r)).collect(),
-        objects: numbered(top.entries("objects"), lexical::index, diagnostics, Code::DuplicateIndex, |index| {
-            index.to_string()
-        })
+        objects: numbered(
+            top.entries("objects"),
+            lexical::index,
+            diagnostics,
+            Code::DuplicateIndex,
+            |index| index.to_string(),
+        )
         .into_iter()
         .map(|(index, r)| object(index, r, diagnostics))
         .collect(),
@@ -57,6 +68,12 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         sections: top.items("document").map(section).collect(),
         languages,
     }
+}
+
+/// Whether a key was refused, or the node is no map at all.
+fn has_unknown_key(node: &Node, keys: &Keys) -> bool {
+    let known = |name: &str| keys.keys.iter().any(|key| key.name == name);
+    !matches!(node.kind, NodeKind::Map(_)) || node.entries().iter().any(|(name, _)| !known(&name.value))
 }
 
 fn owned(name: Spanned<&str>) -> Name {
@@ -149,27 +166,32 @@ fn usage(word: &str) -> Option<BitUsage> {
 
 fn named_type(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> TypeDecl {
     let has = |key: &str| r.node.get(key).is_some();
+    let broken_bits = r.entries("bits").any(|(key, _)| lexical::bits(key.value).is_none());
     TypeDecl {
+        unsure: broken_bits || has_unknown_key(r.node, &keys::TYPE),
         name: owned(name),
         base: r.text("base"),
         about: r.words("about"),
         values: has("values").then(|| values(r, diagnostics)),
-        bits: has("bits").then(|| r.entries("bits").filter_map(|(key, r)| bit(key, r, diagnostics)).collect()),
+        bits: has("bits")
+            .then(|| r.entries("bits").filter_map(|(key, r)| bit(key, r, diagnostics)).collect()),
         rest: r.value("rest", usage).map(|usage| usage.value),
     }
 }
 
 fn values(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<ValueDecl> {
     let integer = |text: &str| scalar::integer(text).ok();
-    numbered(r.entries("values"), integer, diagnostics, Code::DuplicateValue, |value| format!("value {value}"))
-        .into_iter()
-        .map(|(value, r)| ValueDecl {
-            value,
-            name: short(r, "name"),
-            supported: r.yes_no("supported"),
-            about: r.words("about"),
-        })
-        .collect()
+    numbered(r.entries("values"), integer, diagnostics, Code::DuplicateValue, |value| {
+        format!("value {value}")
+    })
+    .into_iter()
+    .map(|(value, r)| ValueDecl {
+        value,
+        name: short(r, "name"),
+        supported: r.yes_no("supported"),
+        about: r.words("about"),
+    })
+    .collect()
 }
 
 /// The scalar itself, or the text under a key.
@@ -198,7 +220,10 @@ fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Opti
         edge: r.value("edge", edge).map(|edge| edge.value),
         priority: r.text("priority"),
         values: values(r, diagnostics),
-        modes: r.entries("modes").map(|(mode, r)| (owned(mode), short(r, "name"), r.words("about"))).collect(),
+        modes: r
+            .entries("modes")
+            .map(|(mode, r)| (owned(mode), short(r, "name"), r.words("about")))
+            .collect(),
     })
 }
 
@@ -228,19 +253,18 @@ fn object(index: Spanned<crate::model::Index>, r: Reader<'_>, diagnostics: &mut 
         alias: r.text("alias"),
         outside: r.value("outside", Outside::from_word),
         rounding: r.value("rounding", Rounding::from_word),
-        array: r.child("array").map(|child| ArrayDecl {
-            span: child.node.span,
+        array: r.keyed("array").map(|(key, child)| ArrayDecl {
+            span: key,
             count: child.integer("count"),
-            entry: entry(child, child.node.span, diagnostics),
+            entry: entry(child, &keys::ARRAY, key, diagnostics),
             elements: members(child.entries("elements"), diagnostics),
         }),
-        record: r.child("record").map(|child| RecordDecl {
-            span: child.node.span,
-            members: members(r.entries("record"), diagnostics),
-        }),
-        sub0: r.child("sub0").map(|child| entry(child, child.node.span, diagnostics)),
+        record: r
+            .keyed("record")
+            .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
+        sub0: r.keyed("sub0").map(|(key, child)| entry(child, &keys::SUB0, key, diagnostics)),
         omit: r.integers("omit"),
-        entry: entry(r, index.span, diagnostics),
+        entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     }
 }
 
@@ -255,19 +279,23 @@ fn members<'a>(
     let mut members: Vec<_> =
         numbered(entries, sub, diagnostics, Code::DuplicateSubIndex, |sub| format!("sub-index {sub}"))
             .into_iter()
-            .map(|(sub, r)| (sub, entry(r, sub.span, diagnostics)))
+            .map(|(sub, r)| (sub, entry(r, &keys::ENTRY, sub.span, diagnostics)))
             .collect();
     members.sort_by_key(|(sub, _)| sub.value);
     members
 }
 
-fn entry(r: Reader<'_>, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
+fn entry(r: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
+    let access = r.value("access", lexical::access);
+    let unread = |key: &str| r.node.get(key).is_some_and(|node| node.text().is_none());
+    let no_access = access.is_none() && r.node.get("access").is_some();
     EntryDecl {
         span,
+        unsure: has_unknown_key(r.node, keys) || unread("name") || unread("type") || no_access,
         name: r.text("name"),
         type_name: r.text("type"),
         unit: r.text("unit"),
-        access: r.value("access", lexical::access),
+        access,
         pdo: r.value("pdo", PdoMapping::from_word),
         default: r.text("default"),
         min: r.text("min"),
@@ -307,10 +335,11 @@ fn entry(r: Reader<'_>, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl 
 fn special(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Spanned<Vec<SpecialDecl>>> {
     let child = r.child("special")?;
     let integer = |text: &str| scalar::integer(text).ok();
-    let list =
-        numbered(r.entries("special"), integer, diagnostics, Code::DuplicateValue, |value| format!("value {value}"))
-            .into_iter()
-            .map(|(value, r)| SpecialDecl { value, name: short(r, "name"), about: r.words("about") });
+    let list = numbered(r.entries("special"), integer, diagnostics, Code::DuplicateValue, |value| {
+        format!("value {value}")
+    })
+    .into_iter()
+    .map(|(value, r)| SpecialDecl { value, name: short(r, "name"), about: r.words("about") });
     Some(Spanned::new(list.collect(), child.node.span))
 }
 
@@ -326,7 +355,7 @@ fn pdos(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<PdoDecl> {
         list.extend(entries.into_iter().map(|(number, r)| PdoDecl {
             direction,
             number,
-            span: r.node.get("map").map_or(number.span, |map| map.span),
+            span: r.keyed("map").map_or(number.span, |(key, map)| place_of_list(key, map.node)),
             cob_id: r.text("cob-id"),
             valid: r.yes_no("valid"),
             no_rtr: r.yes_no("no-rtr"),
@@ -343,6 +372,13 @@ fn pdos(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<PdoDecl> {
     list
 }
 
+/// A list that stands in one line, else its key.
+fn place_of_list(key: Span, list: &Node) -> Span {
+    let one_line =
+        list.span.file == key.file && list.items().last().is_none_or(|last| last.span.end < list.span.end);
+    if one_line { list.span } else { key }
+}
+
 fn error(codes: Spanned<&str>, r: Reader<'_>) -> Option<ErrorDecl> {
     Some(ErrorDecl {
         codes: Spanned::new(lexical::error_codes(codes.value)?, codes.span),
@@ -356,9 +392,10 @@ fn error(codes: Spanned<&str>, r: Reader<'_>) -> Option<ErrorDecl> {
 
 fn machine(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> MachineDecl {
     let integer = |text: &str| scalar::integer(text).ok();
-    let transitions = numbered(r.entries("transitions"), integer, diagnostics, Code::DuplicateValue, |number| {
-        format!("transition {number}")
-    });
+    let transitions =
+        numbered(r.entries("transitions"), integer, diagnostics, Code::DuplicateValue, |number| {
+            format!("transition {number}")
+        });
     MachineDecl {
         name: owned(name),
         on: r.optional_texts("on"),
@@ -414,7 +451,11 @@ fn erratum(r: Reader<'_>) -> ErratumDecl {
 }
 
 fn section(r: Reader<'_>) -> SectionDecl {
-    SectionDecl { number: r.text("section"), title: r.words("title"), tables: r.items("tables").map(table).collect() }
+    SectionDecl {
+        number: r.text("section"),
+        title: r.words("title"),
+        tables: r.items("tables").map(table).collect(),
+    }
 }
 
 fn table(r: Reader<'_>) -> TableDecl {
@@ -438,7 +479,8 @@ fn table(r: Reader<'_>) -> TableDecl {
                 own.items("columns").filter_map(Reader::own_words).collect(),
                 own.items("rows")
                     .map(|row| {
-                        let cells = row.node.items().iter().map(|node| row.at(node).own_words().unwrap_or_default());
+                        let cells =
+                            row.node.items().iter().map(|node| row.at(node).own_words().unwrap_or_default());
                         Spanned::new(cells.collect(), row.node.span)
                     })
                     .collect(),
@@ -450,6 +492,7 @@ fn table(r: Reader<'_>) -> TableDecl {
         Some(Spanned::new(content, key.span))
     });
     TableDecl {
+        unsure: has_unknown_key(r.node, &keys::TABLE),
         span: r.node.entries().first().map_or(r.node.span, |(key, _)| key.span),
         number: r.integer("number"),
         title: r.words("title"),

@@ -120,8 +120,8 @@ codes! {
         "Objects lie from 1000h to BFFFh. 0001h to 0FFFh are data types, C000h and above are reserved (CiA 301 table 1). Configuration tools refuse a file with such an object."
     PdoByHand Error "OD0317" "a PDO parameter object written by hand":
         "The objects 1400h to 1BFFh are made from `pdos:`, where entries are named and lengths, directions and counts are worked out and checked."
-    NotForEds Error "OD0318" "a name that an EDS cannot hold":
-        "An EDS line has at most 255 characters, which leaves 241 for a name. `;`, `#` and `=` in a name are read as comments or keys by several PLC tools, so they are refused. Characters outside ASCII are transliterated."
+    NotForEds Error "OD0318" "a text that an EDS cannot hold":
+        "An EDS line has at most 255 characters, which leaves 241 for a name. `;`, `#` and `=` in names and texts are read as comments or keys by several PLC tools, so they are refused; blanks at the ends of a string are lost. Characters outside ASCII are transliterated."
 
     BadValue Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."

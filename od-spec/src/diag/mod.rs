@@ -50,12 +50,18 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
 }
 
+/// Names and values of a specification may hold anything; a message is one line.
+fn one_line(text: impl Into<String>) -> String {
+    let text = text.into();
+    if text.contains(char::is_control) { text.replace(char::is_control, " ") } else { text }
+}
+
 impl Diagnostic {
     /// A message about `span`.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
-            message: message.into(),
+            message: one_line(message),
             labels: vec![Label { span, text: String::new() }],
             help: None,
             notes: Vec::new(),
@@ -64,14 +70,14 @@ impl Diagnostic {
 
     /// A message that is about no place in a source text, such as a file that cannot be opened.
     pub fn without_place(code: Code, message: impl Into<String>) -> Self {
-        Self { code, message: message.into(), labels: Vec::new(), help: None, notes: Vec::new() }
+        Self { code, message: one_line(message), labels: Vec::new(), help: None, notes: Vec::new() }
     }
 
     /// Words at the primary place.
     #[must_use]
     pub fn label(mut self, text: impl Into<String>) -> Self {
         if let Some(first) = self.labels.first_mut() {
-            first.text = text.into();
+            first.text = one_line(text);
         }
         self
     }
@@ -79,21 +85,21 @@ impl Diagnostic {
     /// A further place.
     #[must_use]
     pub fn with(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.labels.push(Label { span, text: text.into() });
+        self.labels.push(Label { span, text: one_line(text) });
         self
     }
 
     /// What to do.
     #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Self {
-        self.help = Some(text.into());
+        self.help = Some(one_line(text));
         self
     }
 
     /// An explaining fact.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {
-        self.notes.push(text.into());
+        self.notes.push(one_line(text));
         self
     }
 
@@ -123,7 +129,8 @@ impl Diagnostics {
     /// Sorts by file, place and code, and drops repetitions.
     pub fn sort(&mut self) {
         self.list.sort_by(|a, b| {
-            let key = |d: &Diagnostic| (d.labels.first().map(|label| (label.span.file, label.span.start)), d.code);
+            let key =
+                |d: &Diagnostic| (d.labels.first().map(|label| (label.span.file, label.span.start)), d.code);
             key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
         });
         self.list.dedup();

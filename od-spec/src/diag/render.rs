@@ -52,7 +52,11 @@ pub fn summary(diagnostics: &Diagnostics) -> String {
         _ => Some(format!("{count} {word}s")),
     };
     let (errors, warnings) = diagnostics.count();
-    [plural(errors, "error"), plural(warnings, "warning")].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    [plural(errors, "error"), plural(warnings, "warning")]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 fn human(diagnostic: &Diagnostic, sources: &SourceMap, colour: bool) -> String {

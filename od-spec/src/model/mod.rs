@@ -13,7 +13,9 @@ mod value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-pub use document::{Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent};
+pub use document::{
+    Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent,
+};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
 pub use types::{
@@ -106,6 +108,8 @@ pub struct Dictionary {
     pub objects: BTreeMap<Index, Object>,
     /// PDOs, RPDOs first, by number.
     pub pdos: Vec<Pdo>,
+    /// Where the device is defined.
+    pub span: Span,
 }
 
 impl Dictionary {
@@ -117,7 +121,10 @@ impl Dictionary {
     /// All entries with their ids, ascending.
     pub fn entries(&self) -> impl Iterator<Item = (EntryId, &Object, &Entry)> {
         self.objects.values().flat_map(|object| {
-            object.entries.iter().map(move |entry| (EntryId { index: object.index, sub: entry.sub }, object, entry))
+            object
+                .entries
+                .iter()
+                .map(move |entry| (EntryId { index: object.index, sub: entry.sub }, object, entry))
         })
     }
 

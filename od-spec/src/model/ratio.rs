@@ -95,7 +95,8 @@ impl Ratio {
 
     /// The value with a fixed number of decimal places; `None` when that is not exact.
     pub fn to_decimal(self, places: usize) -> Option<String> {
-        let scaled = self.checked_mul(Self::whole(10i128.checked_pow(u32::try_from(places).ok()?)?))?.to_whole()?;
+        let scaled =
+            self.checked_mul(Self::whole(10i128.checked_pow(u32::try_from(places).ok()?)?))?.to_whole()?;
         let digits = scaled.unsigned_abs().to_string();
         let sign = if scaled < 0 { "-" } else { "" };
         if places == 0 {

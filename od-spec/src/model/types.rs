@@ -74,14 +74,37 @@ impl DataType {
     /// All types, in the order of their codes' families.
     pub const ALL: [DataType; 25] = {
         use DataType::{
-            Boolean, Domain, Integer8, Integer16, Integer24, Integer32, Integer40, Integer48, Integer56, Integer64,
-            OctetString, Real32, Real64, TimeDifference, TimeOfDay, UnicodeString, Unsigned8, Unsigned16, Unsigned24,
-            Unsigned32, Unsigned40, Unsigned48, Unsigned56, Unsigned64, VisibleString,
+            Boolean, Domain, Integer8, Integer16, Integer24, Integer32, Integer40, Integer48, Integer56,
+            Integer64, OctetString, Real32, Real64, TimeDifference, TimeOfDay, UnicodeString, Unsigned8,
+            Unsigned16, Unsigned24, Unsigned32, Unsigned40, Unsigned48, Unsigned56, Unsigned64,
+            VisibleString,
         };
         [
-            Boolean, Integer8, Integer16, Integer24, Integer32, Integer40, Integer48, Integer56, Integer64, Unsigned8,
-            Unsigned16, Unsigned24, Unsigned32, Unsigned40, Unsigned48, Unsigned56, Unsigned64, Real32, Real64,
-            VisibleString, OctetString, UnicodeString, TimeOfDay, TimeDifference, Domain,
+            Boolean,
+            Integer8,
+            Integer16,
+            Integer24,
+            Integer32,
+            Integer40,
+            Integer48,
+            Integer56,
+            Integer64,
+            Unsigned8,
+            Unsigned16,
+            Unsigned24,
+            Unsigned32,
+            Unsigned40,
+            Unsigned48,
+            Unsigned56,
+            Unsigned64,
+            Real32,
+            Real64,
+            VisibleString,
+            OctetString,
+            UnicodeString,
+            TimeOfDay,
+            TimeDifference,
+            Domain,
         ]
     };
 
@@ -164,7 +187,9 @@ impl DataType {
             DataType::Integer48 | DataType::Unsigned48 | DataType::TimeOfDay | DataType::TimeDifference => 48,
             DataType::Integer56 | DataType::Unsigned56 => 56,
             DataType::Integer64 | DataType::Unsigned64 | DataType::Real64 => 64,
-            DataType::VisibleString | DataType::OctetString | DataType::UnicodeString | DataType::Domain => return None,
+            DataType::VisibleString | DataType::OctetString | DataType::UnicodeString | DataType::Domain => {
+                return None;
+            }
         })
     }
 

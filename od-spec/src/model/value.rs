@@ -73,7 +73,13 @@ fn hex(data_type: DataType, raw: i128) -> String {
 }
 
 /// The raw value that an alias shows for a raw value of its target; `None` stands for an SDO abort.
-pub fn convert(target: i128, factor: Ratio, rounding: Rounding, outside: Outside, to: DataType) -> Option<i128> {
+pub fn convert(
+    target: i128,
+    factor: Ratio,
+    rounding: Rounding,
+    outside: Outside,
+    to: DataType,
+) -> Option<i128> {
     let exact = Ratio::whole(target).checked_mul(factor)?;
     let floor = exact.floor();
     let rounded = match (exact.to_whole(), rounding) {
@@ -118,7 +124,9 @@ mod tests {
     #[test]
     fn a_rescaling_alias_rounds_as_told() {
         let milli = Ratio::new(1, 1000).unwrap();
-        let to = |value, rounding| convert(value, milli, rounding, Outside::Saturate, DataType::Integer16).unwrap();
+        let to = |value, rounding| {
+            convert(value, milli, rounding, Outside::Saturate, DataType::Integer16).unwrap()
+        };
         assert_eq!(to(560_999, Rounding::Down), 560);
         assert_eq!(to(560_001, Rounding::Up), 561);
         assert_eq!(to(560_500, Rounding::Nearest), 561);

@@ -1,38 +1,56 @@
 //! Conditions between entries, tried on the defaults.
 
-use crate::ast::{ConstraintDecl, Spec};
-use crate::decode::nearest;
+use crate::ast::{ConstraintDecl, Name, Spec};
+use crate::decode::{inside, nearest};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::expr::{EntryRef, Expr, Outcome, Values};
 use crate::model::{Constraint, Dictionary, EntryId, Ratio};
 use crate::source::Spanned;
+use crate::yaml::shorten;
 
+use super::refs::Broken;
 use super::types::words;
 
-pub(super) fn resolve(root: &Spec, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Vec<Constraint> {
+pub(super) fn resolve(
+    root: &Spec,
+    devices: &[Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Constraint> {
     for decl in &root.objects {
-        check_write_conditions(decl, devices, diagnostics);
+        check_write_conditions(decl, devices, broken, diagnostics);
     }
-    root.constraints.iter().filter_map(|decl| constraint(decl, devices, diagnostics)).collect()
+    root.constraints.iter().filter_map(|decl| constraint(decl, devices, broken, diagnostics)).collect()
 }
 
 /// `writable-when` names entries of the same device.
-fn check_write_conditions(decl: &crate::ast::ObjectDecl, devices: &[Dictionary], diagnostics: &mut Diagnostics) {
+fn check_write_conditions(
+    decl: &crate::ast::ObjectDecl,
+    devices: &[Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) {
     let members = decl.record.iter().flat_map(|record| &record.members);
     let elements = decl.array.iter().flat_map(|array| &array.elements);
     let entries = members.chain(elements).map(|(_, entry)| entry).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
         let here = |device: &&Dictionary| device.objects.contains_key(&decl.index.value);
         for device in devices.iter().filter(here) {
-            check_known(condition, std::slice::from_ref(&device), diagnostics);
+            check_known(condition, std::slice::from_ref(&device), broken, diagnostics);
         }
     }
 }
 
 /// Reports entries that none of the devices has; `true` when there are none such.
-fn check_known(condition: &Spanned<Expr>, devices: &[&Dictionary], diagnostics: &mut Diagnostics) -> bool {
+fn check_known(
+    condition: &Spanned<Expr>,
+    devices: &[&Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> bool {
     let mut known = true;
-    for entry in condition.value.entries() {
+    for (entry, range) in condition.value.entries().into_iter().zip(&condition.value.places) {
+        let place = inside(Spanned::new(condition.value.text.as_str(), condition.span), range);
         let named = |device: &&&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
         if let Some(key) = &entry.device
             && !devices.iter().any(|device| device.key == *key)
@@ -41,25 +59,33 @@ fn check_known(condition: &Spanned<Expr>, devices: &[&Dictionary], diagnostics: 
             let help = nearest(key, keys).map_or("name a device of the specification".to_owned(), |word| {
                 format!("did you mean `{word}`?")
             });
-            diagnostics
-                .push(Diagnostic::new(Code::UnknownDevice, condition.span, format!("there is no device `{key}`")).help(help));
+            diagnostics.push(
+                Diagnostic::new(Code::UnknownDevice, place, format!("there is no device `{key}`")).help(help),
+            );
             known = false;
         } else if !devices.iter().filter(named).any(|device| device.entry(entry.id).is_some()) {
-            diagnostics.push(
-                Diagnostic::new(Code::UnknownEntry, condition.span, format!("there is no entry {entry}"))
-                    .help("correct the index or sub-index in the condition"),
-            );
+            if !broken.has(entry.id.index) {
+                diagnostics.push(
+                    Diagnostic::new(Code::UnknownEntry, place, format!("there is no entry {entry}"))
+                        .help("correct the index or sub-index in the condition"),
+                );
+            }
             known = false;
         }
     }
     known
 }
 
-fn constraint(decl: &ConstraintDecl, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Option<Constraint> {
+fn constraint(
+    decl: &ConstraintDecl,
+    devices: &[Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<Constraint> {
     let require = decl.require.as_ref()?;
     let all: Vec<&Dictionary> = devices.iter().collect();
     let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
-    if !conditions.iter().all(|condition| check_known(condition, &all, diagnostics)) {
+    if !conditions.iter().all(|condition| check_known(condition, &all, broken, diagnostics)) {
         return None;
     }
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();
@@ -71,6 +97,11 @@ fn constraint(decl: &ConstraintDecl, devices: &[Dictionary], diagnostics: &mut D
         .filter(|device| unprefixed().all(|entry| device.entry(entry.id).is_some()))
         .collect();
     if own.is_empty() && unprefixed().next().is_some() {
+        let known = |key: &Name| devices.iter().any(|device| device.key == key.value);
+        let unknown_device = decl.on.as_ref().is_some_and(|on| !on.iter().all(known));
+        if unknown_device || unprefixed().any(|entry| broken.has(entry.id.index)) {
+            return None;
+        }
         diagnostics.push(
             Diagnostic::new(Code::ConstraintDevices, require.span, "no single device has all these entries")
                 .help("write `device:` before the entries, such as `pmc:0x6510.4`"),
@@ -95,15 +126,33 @@ fn constraint(decl: &ConstraintDecl, devices: &[Dictionary], diagnostics: &mut D
     let candidates = if own.is_empty() { vec![*all.first()?] } else { own };
     for device in candidates {
         if let Outcome::Fails { left, op, right } = check(&constraint, &Defaults { device, devices }) {
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::ConstraintBroken,
-                    require.span,
-                    format!("the defaults of `{}` break `{}`", device.key, constraint.name),
-                )
-                .label(format!("{} is {}, {} is {}: not {}", left.0, left.1, right.0, right.1, op.sign()))
-                .help("correct a default or the condition; values are compared in physical units"),
-            );
+            let named = require.value.entries();
+            let is_link =
+                |pair: &[&EntryRef]| pair[0].to_string() == left.0 && pair[1].to_string() == right.0;
+            let link = named.windows(2).position(is_link);
+            let place = link.map_or(require.span, |at| {
+                let range = require.value.places[at].start..require.value.places[at + 1].end;
+                inside(Spanned::new(require.value.text.as_str(), require.span), &range)
+            });
+            let mut diagnostic = Diagnostic::new(
+                Code::ConstraintBroken,
+                place,
+                format!("the defaults of `{}` break `{}`", device.key, shorten(&constraint.name)),
+            )
+            .label(format!("not {}", op.sign()))
+            .help("correct a default or the condition; values are compared in physical units");
+            for (text, value) in [left, right] {
+                let entry = named.iter().find(|entry| entry.to_string() == text);
+                let defaults = Defaults { device, devices };
+                let span = entry.and_then(|entry| Some(defaults.holder(entry)?.entry(entry.id)?.span));
+                let said = format!("{text} is {value}");
+                diagnostic = match span {
+                    Some(span) => diagnostic.with(span, said),
+                    None if text == value.to_string() => diagnostic,
+                    None => diagnostic.note(said),
+                };
+            }
+            diagnostics.push(diagnostic);
             break;
         }
     }

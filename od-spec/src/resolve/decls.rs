@@ -32,7 +32,12 @@ pub(super) fn of_device(
         }
         let one = match &decl.from {
             Some(from) => from_library(decl, from, libraries, diagnostics),
-            None => Some(Declared { decl: decl.clone(), origin: Origin::Manual, profile: None, differs: Vec::new() }),
+            None => Some(Declared {
+                decl: decl.clone(),
+                origin: Origin::Manual,
+                profile: None,
+                differs: Vec::new(),
+            }),
         };
         if let Some(one) = one {
             declared.insert(decl.index.value, one);
@@ -45,7 +50,10 @@ pub(super) fn of_device(
                     Diagnostic::new(
                         Code::NotInLibrary,
                         index.span,
-                        format!("feature `{}` names {}, which the library does not define", feature.name.value, index.value),
+                        format!(
+                            "feature `{}` names {}, which the library does not define",
+                            feature.name.value, index.value
+                        ),
                     )
                     .help("define the object in the library, or correct the index"),
                 );
@@ -68,7 +76,9 @@ fn features<'a>(
     device: &DeviceDecl,
     diagnostics: &mut Diagnostics,
 ) -> Vec<(&'a Spec, &'a FeatureDecl)> {
-    let all = || libraries.iter().flat_map(|library| library.features.iter().map(move |feature| (library, feature)));
+    let all = || {
+        libraries.iter().flat_map(|library| library.features.iter().map(move |feature| (library, feature)))
+    };
     let mut wanted: Vec<Name> = Vec::new();
     for (_, feature) in all().filter(|(_, feature)| feature.implied) {
         wanted.push(feature.name.clone());
@@ -106,7 +116,8 @@ fn from_library(
     diagnostics: &mut Diagnostics,
 ) -> Option<Declared> {
     let names = libraries.iter().filter_map(|library| library.profile.as_ref());
-    let Some(library) = libraries.iter().find(|l| l.profile.as_ref().is_some_and(|name| name.value == from.value))
+    let Some(library) =
+        libraries.iter().find(|l| l.profile.as_ref().is_some_and(|name| name.value == from.value))
     else {
         let known = names.map(|name| name.value.as_str());
         diagnostics.push(unknown(
@@ -162,9 +173,10 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
         }
     };
     let record = match (&over.record, &below.record) {
-        (Some(over), Some(below)) => {
-            Some(RecordDecl { span: over.span, members: merge_members(&over.members, &below.members, &mut note) })
-        }
+        (Some(over), Some(below)) => Some(RecordDecl {
+            span: over.span,
+            members: merge_members(&over.members, &below.members, &mut note),
+        }),
         (over_record, below_record) => {
             over_record.clone().or_else(|| below_record.clone().filter(|_| over.array.is_none()))
         }

@@ -1,18 +1,20 @@
 //! Devices and their dictionaries.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::decls::{self, Declared};
 use super::entries::{self, Surroundings};
+use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::{objects, pdos, refs, to_u8, to_u16, to_u32};
 use crate::ast::{DeviceDecl, Name, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{
-    Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index, Object, ObjectKind, Outside,
-    Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
+    Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index, Object,
+    ObjectKind, Outside, Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
 };
+use crate::source::Spanned;
 
 /// Bit rates of CiA 301 in kbit/s.
 const BIT_RATES: [i128; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
@@ -23,9 +25,11 @@ pub(super) fn resolve(
     scope: &Scope,
     vendor: &Vendor,
     diagnostics: &mut Diagnostics,
-) -> Vec<Dictionary> {
+) -> (Vec<Dictionary>, Broken) {
     check_device_keys(root, diagnostics);
-    root.devices
+    let mut broken = Broken::default();
+    let dictionaries = root
+        .devices
         .iter()
         .map(|device| {
             let mut built = Builder {
@@ -34,15 +38,18 @@ pub(super) fn resolve(
                     safe_eds: device.eds_defaults.as_ref().is_none_or(|word| word.value == "safe"),
                 },
                 objects: BTreeMap::new(),
-                broken: BTreeSet::new(),
+                broken: Broken::default(),
             };
             let declared = decls::of_device(root, libraries, device, diagnostics);
+            built.left_out(root, device, &declared);
             built.plain_objects(&declared, diagnostics);
             built.aliases(&declared, diagnostics);
             let info = info(device, diagnostics);
             built.identity(&info, vendor);
-            let list = root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
-            let pdos = pdos::resolve(list, &info, &mut built.objects, &built.broken, diagnostics);
+            let list =
+                root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
+            let pdos = pdos::resolve(list, &info, &mut built.objects, &mut built.broken, diagnostics);
+            broken.append(built.broken);
             Dictionary {
                 key: device.key.value.clone(),
                 name: device.name.as_ref().map_or(String::new(), |name| name.value.clone()),
@@ -51,9 +58,11 @@ pub(super) fn resolve(
                 about: words(&device.about),
                 objects: built.objects,
                 pdos,
+                span: device.key.span,
             }
         })
-        .collect()
+        .collect();
+    (dictionaries, broken)
 }
 
 /// Every device key that is used must be declared.
@@ -68,59 +77,81 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
     ];
     let used = lists.into_iter().flatten().flatten().chain(root.pdos.iter().map(|(key, _)| key));
     for key in used.filter(|key| !known.contains(&key.value.as_str())) {
-        diagnostics.push(unknown(Code::UnknownDevice, key, "device", known.iter().copied(), "define it under `devices:`"));
+        diagnostics.push(unknown(
+            Code::UnknownDevice,
+            key,
+            "device",
+            known.iter().copied(),
+            "define it under `devices:`",
+        ));
     }
 }
 
 struct Builder<'a> {
     around: Surroundings<'a>,
     objects: BTreeMap<Index, Object>,
-    broken: BTreeSet<Index>,
+    broken: Broken,
 }
 
 impl Builder<'_> {
+    /// Remembers the objects that may be meant for the device, but whose library or device is unknown.
+    fn left_out(&mut self, root: &Spec, device: &DeviceDecl, declared: &BTreeMap<Index, Declared>) {
+        let known = |key: &Name| root.devices.iter().any(|device| device.key.value == key.value);
+        for decl in root.objects.iter().filter(|decl| !declared.contains_key(&decl.index.value)) {
+            let meant = |on: &Vec<Name>| on.iter().any(|key| key.value == device.key.value || !known(key));
+            if decl.on.as_ref().is_none_or(meant) {
+                self.broken.add(decl.index.value, decl.entry.name.as_ref());
+            }
+        }
+    }
+
     fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
             if pdos::is_pdo_index(*index) {
                 diagnostics.push(
-                    Diagnostic::new(Code::PdoByHand, one.decl.index.span, format!("{index} is a PDO parameter object"))
-                        .help("describe the PDO under `pdos:`; its objects are made from that"),
+                    Diagnostic::new(
+                        Code::PdoByHand,
+                        one.decl.index.span,
+                        format!("{index} is a PDO parameter object"),
+                    )
+                    .help("describe the PDO under `pdos:`; its objects are made from that"),
                 );
                 continue;
             }
-            match objects::resolve(one, self.around, diagnostics) {
-                Some(object) => {
-                    self.objects.insert(*index, object);
-                }
-                None => {
-                    self.broken.insert(*index);
-                }
+            let (errors, _) = diagnostics.count();
+            if let Some(object) = objects::resolve(one, self.around, diagnostics) {
+                self.objects.insert(*index, object);
+            }
+            // An object may stand there without the entries that are wrong.
+            if diagnostics.count().0 > errors || !self.objects.contains_key(index) {
+                self.broken.add(*index, one.decl.entry.name.as_ref());
             }
         }
-        self.broken.extend(declared.iter().filter(|(_, one)| one.decl.alias.is_some()).map(|(index, _)| *index));
     }
 
     fn aliases(&mut self, declared: &BTreeMap<Index, Declared>, diagnostics: &mut Diagnostics) {
         let names = refs::Names::new(self.objects.values());
         for (index, one) in declared {
             let Some(reference) = &one.decl.alias else { continue };
-            let exists = |id: EntryId| self.entry(id).is_some();
-            if let Some((_, target)) = declared
-                .get_key_value(&crate::decode::lexical::entry_by_index(&reference.value).map_or(*index, |(id, _)| id.index))
-                .filter(|(_, target)| target.decl.alias.is_some())
-            {
+            if let Some(target) = alias_named(reference, declared) {
                 diagnostics.push(
-                    Diagnostic::new(Code::AliasOfAlias, reference.span, format!("{} is an alias itself", target.decl.index.value))
-                        .with(target.decl.index.span, "an alias")
-                        .help("refer to the entry that holds the value"),
+                    Diagnostic::new(
+                        Code::AliasOfAlias,
+                        reference.span,
+                        format!("{} is an alias itself", target.value),
+                    )
+                    .with(target.span, "an alias")
+                    .help("refer to the entry that holds the value"),
                 );
+                self.broken.add(*index, one.decl.entry.name.as_ref());
                 continue;
             }
-            let is_broken = |index: Index| self.broken.contains(&index);
-            let Some(id) = names.find(reference, exists, is_broken, diagnostics) else { continue };
-            if let Some(object) = self.alias(one, reference, id, diagnostics) {
-                self.broken.remove(index);
-                self.objects.insert(*index, object);
+            let found = names.find(reference, |id| self.entry(id).is_some(), &self.broken, diagnostics);
+            match found.and_then(|id| self.alias(one, reference, id, diagnostics)) {
+                Some(object) => {
+                    self.objects.insert(*index, object);
+                }
+                None => self.broken.add(*index, one.decl.entry.name.as_ref()),
             }
         }
     }
@@ -129,20 +160,33 @@ impl Builder<'_> {
         self.objects.get(&id.index)?.entry(id.sub)
     }
 
-    fn alias(&self, one: &Declared, reference: &Name, id: EntryId, diagnostics: &mut Diagnostics) -> Option<Object> {
+    fn alias(
+        &self,
+        one: &Declared,
+        reference: &Name,
+        id: EntryId,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Object> {
         let decl = &one.decl;
         let target_object = self.objects.get(&id.index)?;
         let target = target_object.entry(id.sub)?;
-        if decl.array.is_some() || decl.record.is_some() || decl.entry.stored.is_some() || decl.entry.default.is_some() {
+        let own = [
+            decl.array.as_ref().map(|array| array.span),
+            decl.record.as_ref().map(|record| record.span),
+            decl.entry.stored.map(|stored| stored.span),
+            decl.entry.default.as_ref().map(|default| default.span),
+        ];
+        if let Some(place) = own.into_iter().flatten().next() {
             diagnostics.push(
-                Diagnostic::new(Code::ConflictingKeys, decl.index.span, "an alias has no storage or value of its own")
+                Diagnostic::new(Code::ConflictingKeys, place, "an alias has no storage or value of its own")
+                    .with(reference.span, "its target")
                     .help("remove `array`, `record`, `stored` and `default`; they are the target's"),
             );
             return None;
         }
         let mut whole = decl.entry.clone();
-        whole.access.get_or_insert(crate::source::Spanned::new((target.access, target.locked), reference.span));
-        whole.pdo.get_or_insert(crate::source::Spanned::new(target.pdo, reference.span));
+        whole.access.get_or_insert(Spanned::new((target.access, target.locked), reference.span));
+        whole.pdo.get_or_insert(Spanned::new(target.pdo, reference.span));
         let default_name = if target_object.is_structured() {
             format!("{} {} 16bit", target_object.name, target.name)
         } else {
@@ -208,6 +252,16 @@ impl Builder<'_> {
     }
 }
 
+/// The alias that a reference names, by index or by name.
+fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared>) -> Option<Spanned<Index>> {
+    let by_index = crate::decode::lexical::entry_by_index(&reference.value).map(|(id, _)| id.index);
+    let mut aliases = declared.values().map(|one| &one.decl).filter(|decl| decl.alias.is_some());
+    let is_named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.value == reference.value);
+    let named =
+        aliases.find(|decl| by_index.map_or(is_named(&decl.entry.name), |index| decl.index.value == index));
+    named.map(|decl| decl.index)
+}
+
 /// Checks that an alias can show its target, and gives the raw factor between them.
 fn check_alias(
     alias: &Entry,
@@ -220,13 +274,18 @@ fn check_alias(
     let place = type_name.map_or(reference.span, |name| name.span);
     let mut refuse = |message: String, help: &str| {
         diagnostics.push(
-            Diagnostic::new(Code::BadAlias, place, message).with(reference.span, "its target").help(help.to_owned()),
+            Diagnostic::new(Code::BadAlias, place, message)
+                .with(reference.span, "its target")
+                .help(help.to_owned()),
         );
         None
     };
     let (own, other) = (alias.data_type, target.data_type);
     if !own.is_integer() || !other.is_integer() {
-        return refuse(format!("{own} cannot show {id}, which is {other}"), "an alias and its target are integers");
+        return refuse(
+            format!("{own} cannot show {id}, which is {other}"),
+            "an alias and its target are integers",
+        );
     }
     if own.is_signed() != other.is_signed() {
         return refuse(
@@ -253,7 +312,11 @@ fn check_alias(
     };
     factor.or_else(|| {
         refuse(
-            format!("the alias is in {}, its target in {}: they do not convert", unit_name(alias), unit_name(target)),
+            format!(
+                "the alias is in {}, its target in {}: they do not convert",
+                unit_name(alias),
+                unit_name(target)
+            ),
             "give both units the same `base`, or leave out the alias' unit",
         )
     })
@@ -265,24 +328,32 @@ fn unit_name(entry: &Entry) -> String {
 
 fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
     let text = |name: &Option<Name>| name.as_ref().map(|name| name.value.clone());
-    let number = |value: &Option<crate::source::Spanned<i128>>| value.as_ref().map_or(0, |value| to_u32(value.value));
-    let flag = |value: &Option<crate::source::Spanned<bool>>, unless: bool| value.as_ref().map_or(unless, |v| v.value);
+    let number = |value: &Option<Spanned<i128>>| value.as_ref().map_or(0, |value| to_u32(value.value));
+    let flag = |value: &Option<Spanned<bool>>, unless: bool| value.as_ref().map_or(unless, |v| v.value);
     let product_name = text(&device.product_name).or_else(|| text(&device.name)).unwrap_or_default();
     let mut bit_rates = Vec::new();
     for rate in &device.bit_rates {
         if BIT_RATES.contains(&rate.value) {
             bit_rates.push(to_u16(rate.value));
-        } else {
+        } else if (10..=1000).contains(&rate.value) {
             diagnostics.push(
-                Diagnostic::new(Code::BadBitRate, rate.span, format!("{} kbit/s is not a CANopen bit rate", rate.value))
-                    .help("CiA 301 has 10, 20, 50, 125, 250, 500, 800 and 1000 kbit/s"),
+                Diagnostic::new(
+                    Code::BadBitRate,
+                    rate.span,
+                    format!("{} kbit/s is not a CANopen bit rate", rate.value),
+                )
+                .help("write one of 10, 20, 50, 125, 250, 500, 800 and 1000"),
             );
         }
     }
     if device.bit_rates.is_empty() {
         diagnostics.push(
-            Diagnostic::new(Code::NoBitRate, device.key.span, format!("device `{}` supports no bit rate", device.key.value))
-                .help("add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without"),
+            Diagnostic::new(
+                Code::NoBitRate,
+                device.key.span,
+                format!("device `{}` supports no bit rate", device.key.value),
+            )
+            .help("add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without"),
         );
     }
     bit_rates.sort_unstable();

@@ -2,17 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use super::refs::Names;
+use super::refs::{Broken, Names};
 use super::scope::unknown;
-use super::types::words;
 use super::to_u16;
+use super::types::words;
 use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{
-    Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table, TableContent, TypeKind,
+    Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
+    TableContent, TypeKind,
 };
 use crate::source::{Span, Spanned};
+use crate::yaml::shorten;
 
 pub(super) fn resolve(root: &Spec) -> Document {
     let source = root.source.as_ref();
@@ -75,17 +77,26 @@ fn table(decl: &TableDecl) -> Option<Table> {
 
 /// Codes of a list; `all` is the empty list.
 fn error_codes(list: &[Name]) -> Vec<u16> {
-    list.iter().filter_map(|code| lexical::error_codes(&code.value)).flat_map(|(first, last)| first..=last).collect()
+    list.iter()
+        .filter_map(|code| lexical::error_codes(&code.value))
+        .flat_map(|(first, last)| first..=last)
+        .collect()
 }
 
-pub(super) fn errata(root: &Spec, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Vec<Erratum> {
+pub(super) fn errata(
+    root: &Spec,
+    devices: &[Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Erratum> {
     let mut errata = Vec::new();
     for decl in &root.errata {
         let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
-        let about: Vec<&Dictionary> = devices.iter().filter(|d| on.is_empty() || on.contains(&d.key)).collect();
+        let about: Vec<&Dictionary> =
+            devices.iter().filter(|d| on.is_empty() || on.contains(&d.key)).collect();
         let mut at = Vec::new();
         for reference in &decl.at {
-            if let Some(place) = place(reference, &about, diagnostics) {
+            if let Some(place) = place(reference, &about, broken, diagnostics) {
                 at.push(place);
             }
         }
@@ -103,7 +114,12 @@ pub(super) fn errata(root: &Spec, devices: &[Dictionary], diagnostics: &mut Diag
     errata
 }
 
-fn place(reference: &Name, devices: &[&Dictionary], diagnostics: &mut Diagnostics) -> Option<ErratumPlace> {
+fn place(
+    reference: &Name,
+    devices: &[&Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<ErratumPlace> {
     if let Some((id, has_sub)) = lexical::entry_by_index(&reference.value) {
         let known = devices.iter().any(|device| {
             if has_sub { device.entry(id).is_some() } else { device.objects.contains_key(&id.index) }
@@ -114,54 +130,91 @@ fn place(reference: &Name, devices: &[&Dictionary], diagnostics: &mut Diagnostic
     }
     // By name, or wrong: the name lookup reports it.
     let names = Names::new(devices.iter().flat_map(|device| device.objects.values()));
-    let id = names.find(reference, |_| false, |_| false, diagnostics)?;
+    let id = names.find(reference, |_| false, broken, diagnostics)?;
     Some(if id.sub.0 == 0 { ErratumPlace::Object(id.index) } else { ErratumPlace::Entry(id) })
 }
 
 /// Checks what the tables refer to.
-pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
+pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: &mut Diagnostics) {
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     for decl in root.sections.iter().flat_map(|section| &section.tables) {
         if let Some(number) = &decl.number
             && let Some(before) = numbers.insert(number.value, number.span)
         {
             diagnostics.push(
-                Diagnostic::new(Code::DuplicateValue, number.span, format!("table {} stands twice", number.value))
-                    .label("again here")
-                    .with(before, "first here")
-                    .help("each numbered table of the manual stands once"),
+                Diagnostic::new(
+                    Code::DuplicateValue,
+                    number.span,
+                    format!("table {} stands twice", number.value),
+                )
+                .label("again here")
+                .with(before, "first here")
+                .help("each numbered table of the manual stands once"),
             );
         }
         match decl.contents.as_slice() {
-            [content] => check_content(&content.value, system, diagnostics),
-            _ => diagnostics.push(
-                Diagnostic::new(Code::ConflictingKeys, decl.span, "a table is filled by exactly one key")
+            [content] => check_content(&content.value, root, system, broken, diagnostics),
+            [first, second, ..] => diagnostics.push(
+                Diagnostic::new(Code::ConflictingKeys, second.span, "a table is filled by one key only")
+                    .with(first.span, "filled here")
+                    .help("keep one of the keys, or make two tables"),
+            ),
+            [] if decl.unsure => {}
+            [] => diagnostics.push(
+                Diagnostic::new(Code::MissingKey, decl.span, "a table needs a key that fills it")
                     .help("write one of `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
             ),
         }
     }
 }
 
-fn check_content(content: &ContentDecl, system: &System, diagnostics: &mut Diagnostics) {
+fn check_content(
+    content: &ContentDecl,
+    root: &Spec,
+    system: &System,
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) {
+    // What is declared, but did not make it into the model, was reported there.
+    let lost = |name: &str| match content {
+        ContentDecl::Bits(_) | ContentDecl::Values(_) => {
+            !system.types.contains_key(name) && root.types.iter().any(|decl| decl.name.value == name)
+        }
+        ContentDecl::Ladder(_) => root.constraints.iter().any(|decl| decl.name.value == name),
+        ContentDecl::States(_) | ContentDecl::Transitions(_) | ContentDecl::Commands(_) => {
+            root.machines.iter().any(|decl| decl.name.value == name)
+        }
+        _ => false,
+    };
     let mut known = |name: &Name, what: &str, names: Vec<&str>, help: &str| {
-        if !names.contains(&name.value.as_str()) {
+        if !names.contains(&name.value.as_str()) && !lost(&name.value) {
             diagnostics.push(unknown(Code::UnknownReference, name, what, names, help));
         }
     };
     match content {
         ContentDecl::Overview(list) | ContentDecl::Objects(list) => {
             for index in list {
-                if !system.devices.iter().any(|device| device.objects.contains_key(&index.value)) {
+                let known = system.devices.iter().any(|device| device.objects.contains_key(&index.value));
+                if !known && !broken.has(index.value) {
                     diagnostics.push(
-                        Diagnostic::new(Code::UnknownEntry, index.span, format!("there is no object {}", index.value))
-                            .help("correct the index, or define the object"),
+                        Diagnostic::new(
+                            Code::UnknownEntry,
+                            index.span,
+                            format!("there is no object {}", index.value),
+                        )
+                        .help("correct the index, or define the object"),
                     );
                 }
             }
         }
         ContentDecl::Bits(name) => {
             let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Bits(_)));
-            known(name, "bit field", types.map(|named| named.name.as_str()).collect(), "define it under `types:`");
+            known(
+                name,
+                "bit field",
+                types.map(|named| named.name.as_str()).collect(),
+                "define it under `types:`",
+            );
         }
         ContentDecl::Values(name) => {
             let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Enum(_)));
@@ -185,8 +238,12 @@ fn check_content(content: &ContentDecl, system: &System, diagnostics: &mut Diagn
                 let has = |code: u16| system.errors.binary_search_by_key(&code, |error| error.code).is_ok();
                 if !range.is_some_and(|(first, last)| (first..=last).all(has)) {
                     diagnostics.push(
-                        Diagnostic::new(Code::UnknownReference, code.span, format!("there is no error code `{}`", code.value))
-                            .help("define it under `errors:`, or write `all`"),
+                        Diagnostic::new(
+                            Code::UnknownReference,
+                            code.span,
+                            format!("there is no error code `{}`", shorten(&code.value)),
+                        )
+                        .help("define it under `errors:`, or write `all`"),
                     );
                 }
             }
@@ -197,7 +254,11 @@ fn check_content(content: &ContentDecl, system: &System, diagnostics: &mut Diagn
                     Diagnostic::new(
                         Code::CountMismatch,
                         row.span,
-                        format!("this row has {} cells, the table has {} columns", row.value.len(), columns.len()),
+                        format!(
+                            "this row has {} cells, the table has {} columns",
+                            row.value.len(),
+                            columns.len()
+                        ),
                     )
                     .help("write one cell per column; `\"\"` for an empty one"),
                 );

@@ -8,9 +8,11 @@ use super::values::{self, Expected};
 use crate::ast::{BitErrorDecl, EntryDecl, Name, SpecialDecl};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{
-    Access, DataType, EdsPolicy, Entry, NamedType, PdoMapping, SpecialValue, Storage, SubIndex, TypeKind, Unit, Value,
+    Access, DataType, EdsPolicy, Entry, NamedType, PdoMapping, SpecialValue, Storage, SubIndex, TypeKind,
+    Unit, Value,
 };
 use crate::source::Spanned;
+use crate::yaml::shorten;
 
 /// What entries are resolved against.
 #[derive(Clone, Copy)]
@@ -30,17 +32,24 @@ pub(super) fn resolve(
 ) -> Option<Entry> {
     let (data_type, named_type) = entry_type(decl, around.scope, diagnostics)?;
     let Some(access) = &decl.access else {
-        diagnostics.push(
-            Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `access`")
-                .help("add `access: ro`, `wo`, `rw`, `rwr`, `rww` or `const`, here or where the entry inherits from"),
-        );
+        if decl.unsure {
+            return None;
+        }
+        diagnostics
+            .push(Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `access`").help(
+            "add `access: ro`, `wo`, `rw`, `rwr`, `rww` or `const`, here or where the entry inherits from",
+        ));
         return None;
     };
     let Spanned { value: (access, locked), span: access_span } = *access;
     if locked && !access.is_writable() {
         diagnostics.push(
-            Diagnostic::new(Code::LockedReadOnly, access_span, format!("`{}` cannot be locked", access.word()))
-                .help("`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`"),
+            Diagnostic::new(
+                Code::LockedReadOnly,
+                access_span,
+                format!("`{}` cannot be locked", access.word()),
+            )
+            .help("`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`"),
         );
     }
     let unit = decl.unit.as_ref().and_then(|unit| around.scope.unit(unit, diagnostics));
@@ -84,6 +93,9 @@ pub(super) fn entry_type(
     diagnostics: &mut Diagnostics,
 ) -> Option<(DataType, Option<Arc<NamedType>>)> {
     let Some(name) = &decl.type_name else {
+        if decl.unsure {
+            return None;
+        }
         diagnostics.push(
             Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `type`")
                 .help("add `type:` with a data type or a named type, here or where the entry inherits from"),
@@ -110,7 +122,12 @@ pub(super) fn entry_type(
     None
 }
 
-fn mapping(decl: &EntryDecl, data_type: DataType, access: Access, diagnostics: &mut Diagnostics) -> PdoMapping {
+fn mapping(
+    decl: &EntryDecl,
+    data_type: DataType,
+    access: Access,
+    diagnostics: &mut Diagnostics,
+) -> PdoMapping {
     let Some(Spanned { value: pdo, span }) = decl.pdo else {
         return PdoMapping::None;
     };
@@ -130,7 +147,8 @@ fn mapping(decl: &EntryDecl, data_type: DataType, access: Access, diagnostics: &
         Access::Rw => &[PdoMapping::Receive, PdoMapping::Transmit, PdoMapping::Both],
     };
     if !allowed.contains(&pdo) {
-        let words = allowed.iter().map(|pdo| format!("`pdo: {}`", pdo.word())).collect::<Vec<_>>().join(" or ");
+        let words =
+            allowed.iter().map(|pdo| format!("`pdo: {}`", pdo.word())).collect::<Vec<_>>().join(" or ");
         let mut diagnostic = Diagnostic::new(
             Code::MappingAgainstAccess,
             span,
@@ -155,7 +173,8 @@ fn special_values(
     let Some(list) = list else { return Vec::new() };
     let mut values = Vec::new();
     for decl in &list.value {
-        if let Err(diagnostic) = values::fits(decl.value.value, decl.value.span, data_type, &decl.value.value.to_string())
+        if let Err(diagnostic) =
+            values::fits(decl.value.value, decl.value.span, data_type, &decl.value.value.to_string())
         {
             diagnostics.push(*diagnostic);
         } else if let Some(name) = &decl.name {
@@ -167,13 +186,21 @@ fn special_values(
     values
 }
 
-fn limits(decl: &EntryDecl, expected: Expected<'_>, diagnostics: &mut Diagnostics) -> (Option<i128>, Option<i128>) {
+fn limits(
+    decl: &EntryDecl,
+    expected: Expected<'_>,
+    diagnostics: &mut Diagnostics,
+) -> (Option<i128>, Option<i128>) {
     let mut limit = |text: Option<&Name>| {
         let text = text?;
         if !expected.data_type.is_integer() {
             diagnostics.push(
-                Diagnostic::new(Code::LimitOnType, text.span, format!("{} has no limits", expected.data_type))
-                    .help("remove the limit; only integers have limits"),
+                Diagnostic::new(
+                    Code::LimitOnType,
+                    text.span,
+                    format!("{} has no limits", expected.data_type),
+                )
+                .help("remove the limit; only integers have limits"),
             );
             return None;
         }
@@ -183,10 +210,18 @@ fn limits(decl: &EntryDecl, expected: Expected<'_>, diagnostics: &mut Diagnostic
     if let (Some(low), Some(high), Some(min), Some(max)) = (low, high, &decl.min, &decl.max) {
         if low > high {
             diagnostics.push(
-                Diagnostic::new(Code::LimitsSwapped, min.span, format!("the low limit {low} is above the high limit {high}"))
-                    .label("low limit")
-                    .with(max.span, "high limit")
-                    .help("swap or correct the two"),
+                Diagnostic::new(
+                    Code::LimitsSwapped,
+                    min.span,
+                    format!(
+                        "the low limit `{}` is above the high limit `{}`",
+                        shorten(&min.value),
+                        shorten(&max.value)
+                    ),
+                )
+                .label("low limit")
+                .with(max.span, "high limit")
+                .help("swap or correct the two"),
             );
             return (None, None);
         }
@@ -200,21 +235,28 @@ fn check_default(entry: &Entry, text: Option<&Name>, diagnostics: &mut Diagnosti
     for node in nodes {
         let Some(raw) = value.integer_for(*node) else { continue };
         if !entry.allows(raw) {
-            let show = |limit: Option<i128>, open: &str| {
-                limit.map_or(open.to_owned(), |raw| crate::model::format_value(entry, &Value::Integer(raw)))
-            };
+            let of_node =
+                if matches!(value, Value::NodeId(_)) { format!(" for node {node}") } else { String::new() };
             diagnostics.push(
                 Diagnostic::new(
                     Code::DefaultOutsideLimits,
                     text.span,
-                    format!("the default {} is outside the limits", crate::model::format_value(entry, value)),
+                    format!("the default `{}` is outside the limits{of_node}", shorten(&text.value)),
                 )
-                .label(format!("allowed: {} to {}", show(entry.low, "lowest"), show(entry.high, "highest")))
+                .label(format!("allowed: {}", allowed(entry)))
                 .help("correct the default or the limits, or make the value `special`"),
             );
             return;
         }
     }
+}
+
+/// `0.0 °C to 40.0 °C`: the limits, or those of the data type.
+pub(crate) fn allowed(entry: &Entry) -> String {
+    let (low, high) = entry.data_type.range().unwrap_or_default();
+    let plain = Entry { special: Vec::new(), ..entry.clone() };
+    let show = |raw: i128| crate::model::format_value(&plain, &Value::Integer(raw));
+    format!("{} to {}", show(entry.low.unwrap_or(low)), show(entry.high.unwrap_or(high)))
 }
 
 fn check_const(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {
@@ -246,8 +288,22 @@ fn bit_errors(
         let (first, last) = decl.bits.value;
         if !fields.iter().any(|field| (field.first, field.last) == (first, last)) {
             diagnostics.push(
-                Diagnostic::new(Code::UnknownBit, decl.bits.span, "the entry's type has no such bit")
-                    .help("name a bit, or the whole run of bits, of the entry's bit field type"),
+                Diagnostic::new(
+                    Code::UnknownBit,
+                    decl.bits.span,
+                    match named {
+                        Some(named) if !fields.is_empty() => {
+                            let run = if first == last {
+                                format!("bit {first}")
+                            } else {
+                                format!("bits {first}..{last}")
+                            };
+                            format!("type `{}` does not list {run}", shorten(&named.name))
+                        }
+                        _ => "the entry's type is no bit field".to_owned(),
+                    },
+                )
+                .help("name a bit, or the whole run of bits, of the entry's bit field type"),
             );
             continue;
         }

@@ -13,12 +13,16 @@ pub(super) fn resolve(root: &Spec, diagnostics: &mut Diagnostics) -> Vec<ErrorCo
     for decl in &root.errors {
         let (first, last) = decl.codes.value;
         let Some(name) = &decl.name else { continue };
-        if let Some((_, (before, _))) = codes.range(first..=last).next() {
+        if let Some((code, (before, _))) = codes.range(first..=last).next() {
             diagnostics.push(
-                Diagnostic::new(Code::DuplicateValue, decl.codes.span, "an error code is defined twice")
-                    .label("again here")
-                    .with(*before, "first here")
-                    .help("each code has one meaning"),
+                Diagnostic::new(
+                    Code::DuplicateValue,
+                    decl.codes.span,
+                    format!("error code {code:04X}h is defined twice"),
+                )
+                .label("again here")
+                .with(*before, "first here")
+                .help("each code has one meaning"),
             );
             continue;
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::refs::Names;
+use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::types::words;
 use super::{to_u8, to_u32};
@@ -14,20 +14,26 @@ use crate::source::Spanned;
 pub(super) fn resolve(
     root: &Spec,
     devices: &[Dictionary],
+    broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, StateMachine> {
     root.machines
         .iter()
-        .filter_map(|decl| Some((decl.name.value.clone(), machine(decl, devices, diagnostics)?)))
+        .filter_map(|decl| Some((decl.name.value.clone(), machine(decl, devices, broken, diagnostics)?)))
         .collect()
 }
 
-fn machine(decl: &MachineDecl, devices: &[Dictionary], diagnostics: &mut Diagnostics) -> Option<StateMachine> {
+fn machine(
+    decl: &MachineDecl,
+    devices: &[Dictionary],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<StateMachine> {
     let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
     let device = devices.iter().find(|device| on.is_empty() || on.contains(&device.key))?;
     let names = Names::new(device.objects.values());
     let mut find = |name: &Option<Name>| {
-        names.find(name.as_ref()?, |id| device.entry(id).is_some(), |_| false, diagnostics)
+        names.find(name.as_ref()?, |id| device.entry(id).is_some(), broken, diagnostics)
     };
     let (status, command) = (find(&decl.status)?, find(&decl.command)?);
     let states: Vec<State> = decl
@@ -53,7 +59,9 @@ fn machine(decl: &MachineDecl, devices: &[Dictionary], diagnostics: &mut Diagnos
         let from = match one.from.as_slice() {
             [start] if start.value == "start" => Vec::new(),
             [any] if any.value == "any" => decl.states.iter().map(|(name, ..)| name.value.clone()).collect(),
-            list => list.iter().filter(|name| known(name, diagnostics)).map(|name| name.value.clone()).collect(),
+            list => {
+                list.iter().filter(|name| known(name, diagnostics)).map(|name| name.value.clone()).collect()
+            }
         };
         let Some(to) = one.to.as_ref().filter(|to| known(to, diagnostics)) else { continue };
         transitions.push(Transition {
@@ -65,15 +73,22 @@ fn machine(decl: &MachineDecl, devices: &[Dictionary], diagnostics: &mut Diagnos
         });
     }
     transitions.sort_by_key(|transition| transition.number);
-    let commands = commands(decl, command, device, &transitions, diagnostics);
-    Some(StateMachine { name: decl.name.value.clone(), devices: on, status, command, states, transitions, commands })
+    let commands = commands(decl, command, device, diagnostics);
+    Some(StateMachine {
+        name: decl.name.value.clone(),
+        devices: on,
+        status,
+        command,
+        states,
+        transitions,
+        commands,
+    })
 }
 
 fn commands(
     decl: &MachineDecl,
     entry: EntryId,
     device: &Dictionary,
-    transitions: &[Transition],
     diagnostics: &mut Diagnostics,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
@@ -87,17 +102,25 @@ fn commands(
             && u64::from(to_u32(send.value)) & mask != value
         {
             diagnostics.push(
-                Diagnostic::new(Code::CommandMismatch, send.span, format!("{:04X}h does not give this command", send.value))
-                    .label(format!("bits {mask:04X}h must be {value:04X}h"))
-                    .with(pattern.span, "the command's bits")
-                    .help("correct the code or the pattern"),
+                Diagnostic::new(
+                    Code::CommandMismatch,
+                    send.span,
+                    format!("{:04X}h does not give this command", send.value),
+                )
+                .label(format!("bits {mask:04X}h must be {value:04X}h"))
+                .with(pattern.span, "the command's bits")
+                .help("correct the code or the pattern"),
             );
         }
         for number in &one.transitions {
-            if !transitions.iter().any(|transition| i128::from(transition.number) == number.value) {
+            if !decl.transitions.iter().any(|transition| transition.number.value == number.value) {
                 diagnostics.push(
-                    Diagnostic::new(Code::UnknownState, number.span, format!("there is no transition {}", number.value))
-                        .help("name a number from the machine's `transitions:`"),
+                    Diagnostic::new(
+                        Code::UnknownState,
+                        number.span,
+                        format!("there is no transition {}", number.value),
+                    )
+                    .help("name a number from the machine's `transitions:`"),
                 );
             }
         }
@@ -125,8 +148,12 @@ fn check_width(
         return Some(());
     }
     diagnostics.push(
-        Diagnostic::new(Code::PatternWidth, pattern.span, format!("the pattern has {given} bits, {entry} has {width}"))
-            .help(format!("write {width} places, most significant bit first")),
+        Diagnostic::new(
+            Code::PatternWidth,
+            pattern.span,
+            format!("the pattern has {given} bits, {entry} has {width}"),
+        )
+        .help(format!("write {width} places, most significant bit first")),
     );
     None
 }

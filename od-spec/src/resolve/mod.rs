@@ -20,6 +20,7 @@ use crate::model::{System, Vendor};
 use crate::source::Span;
 
 pub(crate) use constraints::{Lookup, check as check_constraint};
+pub(crate) use entries::allowed;
 pub(crate) use refs::lookup;
 use scope::Scope;
 
@@ -32,16 +33,20 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
         list => list.iter().map(|language| language.value.clone()).collect(),
     };
     let vendor = Vendor {
-        name: root.vendor.as_ref().and_then(|vendor| vendor.name.as_ref()).map_or(String::new(), |n| n.value.clone()),
+        name: root
+            .vendor
+            .as_ref()
+            .and_then(|vendor| vendor.name.as_ref())
+            .map_or("unknown".to_owned(), |name| name.value.clone()),
         number: root.vendor.as_ref().and_then(|vendor| vendor.number.as_ref()).map_or(0, |n| to_u32(n.value)),
     };
-    if root.profile.is_none() && root.devices.is_empty() {
+    if root.profile.is_none() && root.devices.is_empty() && !root.unsure {
         diagnostics.push(
             Diagnostic::new(Code::NoDevice, start(root.span), "the specification describes no device")
                 .help("add `devices:` with at least one device, such as `drive: {name: My drive}`"),
         );
     }
-    let devices = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
+    let (devices, broken) = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
     let mut system = System {
         title: root.title.as_ref().map_or(String::new(), |title| title.value.clone()),
         languages,
@@ -55,11 +60,11 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
         errata: Vec::new(),
         devices,
     };
-    system.machines = machines::resolve(root, &system.devices, diagnostics);
-    system.constraints = constraints::resolve(root, &system.devices, diagnostics);
-    system.errata = document::errata(root, &system.devices, diagnostics);
-    document::check(root, &system, diagnostics);
-    crate::check::run(&system, diagnostics);
+    system.machines = machines::resolve(root, &system.devices, &broken, diagnostics);
+    system.constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
+    system.errata = document::errata(root, &system.devices, &broken, diagnostics);
+    document::check(root, &system, &broken, diagnostics);
+    crate::check::run(root, &system, diagnostics);
     system
 }
 

@@ -8,14 +8,26 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{
     Access, DataType, EdsPolicy, Entry, Object, ObjectKind, PdoMapping, Storage, SubIndex, Text, Value,
 };
+use crate::yaml::shorten;
 
 /// Resolves a declaration; `None` when nothing usable is left of it.
-pub(super) fn resolve(declared: &Declared, around: Surroundings<'_>, diagnostics: &mut Diagnostics) -> Option<Object> {
+pub(super) fn resolve(
+    declared: &Declared,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Object> {
     let decl = &declared.decl;
     let Some(name) = &decl.entry.name else {
+        if decl.entry.unsure {
+            return None;
+        }
         diagnostics.push(
-            Diagnostic::new(Code::MissingKey, decl.index.span, format!("object {} needs the key `name`", decl.index.value))
-                .help("add `name:`, as the manual's heading spells it"),
+            Diagnostic::new(
+                Code::MissingKey,
+                decl.index.span,
+                format!("object {} needs the key `name`", decl.index.value),
+            )
+            .help("add `name:`, as the manual's heading spells it"),
         );
         return None;
     };
@@ -66,6 +78,7 @@ fn inherited(object: &EntryDecl) -> EntryDecl {
         stored: object.stored,
         writable_when: object.writable_when.clone(),
         eds: object.eds.clone(),
+        unsure: object.unsure,
         ..EntryDecl::empty(object.span)
     }
 }
@@ -93,47 +106,71 @@ fn elements(
         (Some(count), Some(highest)) if i128::from(highest) > count.value => {
             let (sub, _) = array.elements.last()?;
             diagnostics.push(
-                Diagnostic::new(Code::CountMismatch, sub.span, format!("element {highest} of an array of {}", count.value))
-                    .with(count.span, "the count")
-                    .help("raise the count, or correct the sub-index"),
+                Diagnostic::new(
+                    Code::CountMismatch,
+                    sub.span,
+                    format!("element {highest} of an array of {}", count.value),
+                )
+                .with(count.span, "the count")
+                .help("raise the count, or correct the sub-index"),
             );
             return None;
         }
         (Some(count), _) => super::to_u8(count.value),
         (None, Some(highest)) => highest,
         (None, None) => {
-            diagnostics.push(
-                Diagnostic::new(Code::MissingKey, array.span, "an array needs the key `count` or `elements`")
+            if !array.entry.unsure {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::MissingKey,
+                        array.span,
+                        "an array needs the key `count` or `elements`",
+                    )
                     .help("add `count:`, the number of elements"),
-            );
+                );
+            }
             return None;
         }
     };
     let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
     let common = EntryDecl { name: None, ..array.entry.over(&inherited(&decl.entry)) };
-    let mut list = Vec::new();
+    let (mut list, mut broken) = (Vec::new(), false);
     for sub in (1..=count).filter(|sub| !omitted(*sub)) {
         let own = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
         let merged = own.map_or_else(|| common.clone(), |own| own.over(&common));
         let pattern = array.entry.name.as_ref().map(|pattern| pattern.value.replace("{n}", &sub.to_string()));
         let Some(name) = merged.name.as_ref().map(|name| name.value.clone()).or(pattern) else {
-            diagnostics.push(
-                Diagnostic::new(Code::MissingKey, array.span, format!("element {sub} of this array has no name"))
+            if !merged.unsure {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::MissingKey,
+                        array.span,
+                        format!("element {sub} of this array has no name"),
+                    )
                     .help("add `name: \"… {n}\"` to the array, or name the element under `elements:`"),
-            );
+                );
+            }
             return None;
         };
-        if let Some(element) = entries::resolve(&merged, SubIndex(sub), name, around, diagnostics) {
-            list.push(element);
+        match entries::resolve(&merged, SubIndex(sub), name, around, diagnostics) {
+            Some(element) => list.push(element),
+            None => broken = true,
         }
+    }
+    if list.is_empty() && broken {
+        return None;
     }
     if let Some(first) = list.first().map(|element| element.data_type)
         && let Some(other) = list.iter().find(|element| element.data_type != first)
     {
         diagnostics.push(
-            Diagnostic::new(Code::MixedArray, other.span, format!("element {} is {}, the first is {first}", other.sub, other.data_type))
-                .help("all elements of an array have one data type; make the object a record")
-                .note("CiA 301 table 37: ARRAY"),
+            Diagnostic::new(
+                Code::MixedArray,
+                other.span,
+                format!("element {} is {}, the first is {first}", other.sub, other.data_type),
+            )
+            .help("all elements of an array have one data type; make the object a record")
+            .note("CiA 301 table 37: ARRAY"),
         );
     }
     finish(decl, list, around, diagnostics)
@@ -147,22 +184,33 @@ fn members(
 ) -> Option<Vec<Entry>> {
     refuse_value_keys(&decl.entry, "record", diagnostics);
     let common = inherited(&decl.entry);
-    let mut list = Vec::new();
+    let (mut list, mut broken) = (Vec::new(), false);
     for (sub, member) in &record.members {
         if decl.omit.iter().any(|omit| omit.value == i128::from(sub.value.0)) {
             continue;
         }
         let Some(name) = &member.name else {
-            diagnostics.push(
-                Diagnostic::new(Code::MissingKey, sub.span, format!("member {} needs the key `name`", sub.value))
+            if !member.unsure {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::MissingKey,
+                        sub.span,
+                        format!("member {} needs the key `name`", sub.value),
+                    )
                     .help("add `name:`, as the manual's table spells it"),
-            );
+                );
+            }
+            broken = true;
             continue;
         };
         let merged = member.over(&common);
-        if let Some(entry) = entries::resolve(&merged, sub.value, name.value.clone(), around, diagnostics) {
-            list.push(entry);
+        match entries::resolve(&merged, sub.value, name.value.clone(), around, diagnostics) {
+            Some(entry) => list.push(entry),
+            None => broken = true,
         }
+    }
+    if list.is_empty() && broken {
+        return None;
     }
     finish(decl, list, around, diagnostics)
 }
@@ -176,21 +224,35 @@ fn finish(
 ) -> Option<Vec<Entry>> {
     let Some(highest) = list.last().map(|entry| entry.sub) else {
         diagnostics.push(
-            Diagnostic::new(Code::EmptyObject, decl.index.span, format!("{} has no entry beside sub-index 0", decl.index.value))
-                .help("an array or record has at least one element or member"),
+            Diagnostic::new(
+                Code::EmptyObject,
+                decl.index.span,
+                format!("{} has no entry beside sub-index 0", decl.index.value),
+            )
+            .help("an array or record has at least one element or member"),
         );
         return None;
     };
     let mut names = std::collections::BTreeMap::new();
     for entry in &list {
-        if let Some(before) = names.insert(entry.name.as_str(), entry) {
-            diagnostics.push(
-                Diagnostic::new(Code::DuplicateName, entry.span, format!("two entries are named `{}`", entry.name))
-                    .label(format!("sub-index {}", entry.sub))
-                    .with(before.span, format!("sub-index {}", before.sub))
-                    .help("give each entry of an object a name of its own"),
-            );
+        let Some(before) = names.insert(entry.name.as_str(), entry) else { continue };
+        let (first, second) = (format!("sub-index {}", before.sub), format!("sub-index {}", entry.sub));
+        let diagnostic = Diagnostic::new(
+            Code::DuplicateName,
+            entry.span,
+            format!("two entries are named `{}`", shorten(&entry.name)),
+        );
+        if entry.span == before.span {
+            let help = "write `{n}` into the name; it stands for the sub-index";
+            diagnostics.push(diagnostic.label(format!("{first} and {second}")).help(help));
+            break;
         }
+        diagnostics.push(
+            diagnostic
+                .label(second)
+                .with(before.span, first)
+                .help("give each entry of an object a name of its own"),
+        );
     }
     let own = decl.sub0.as_ref();
     let span = own.map_or(decl.index.span, |own| own.span);

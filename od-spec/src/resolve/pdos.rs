@@ -1,16 +1,16 @@
 //! PDOs and the communication and mapping objects that follow from them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::refs::Names;
+use super::refs::{Broken, Names};
 use super::types::words;
 use super::values::{self, Expected};
 use super::{to_u8, to_u16};
 use crate::ast::{Name, PdoDecl};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{
-    Access, DataType, DeviceInfo, Direction, EdsPolicy, Entry, EntryId, Index, Mapped, Object, ObjectKind, Origin, Pdo,
-    PdoMapping, PdoTarget, Storage, SubIndex, Text, Value,
+    Access, DataType, DeviceInfo, Direction, EdsPolicy, Entry, EntryId, Index, Mapped, Object, ObjectKind,
+    Origin, Pdo, PdoMapping, PdoTarget, Storage, SubIndex, Text, Value,
 };
 use crate::source::Span;
 
@@ -24,14 +24,17 @@ pub(super) fn resolve(
     list: &[PdoDecl],
     info: &DeviceInfo,
     objects: &mut BTreeMap<Index, Object>,
-    broken: &BTreeSet<Index>,
+    broken: &mut Broken,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Pdo> {
     let names = Names::new(objects.values());
-    let mut pdos: Vec<Pdo> = list
-        .iter()
-        .filter_map(|decl| pdo(decl, info, &names, objects, broken, diagnostics))
-        .collect();
+    let mut pdos: Vec<Pdo> = Vec::new();
+    for decl in list {
+        match pdo(decl, info, &names, objects, broken, diagnostics) {
+            Some(pdo) => pdos.push(pdo),
+            None => parameters(decl).into_iter().for_each(|index| broken.add(index, None)),
+        }
+    }
     pdos.sort_by_key(|pdo| (pdo.direction, pdo.number));
     for pdo in &pdos {
         let (communication, mapping) = (communication_object(pdo), mapping_object(pdo));
@@ -41,12 +44,21 @@ pub(super) fn resolve(
     pdos
 }
 
+/// The communication and mapping parameter of a PDO.
+fn parameters(decl: &PdoDecl) -> [Index; 2] {
+    let base = match decl.direction {
+        Direction::Receive => 0x1400,
+        Direction::Transmit => 0x1800,
+    };
+    [base, base + 0x200].map(|base| Index(base + (decl.number.value - 1) % 0x200))
+}
+
 fn pdo(
     decl: &PdoDecl,
     info: &DeviceInfo,
     names: &Names,
     objects: &BTreeMap<Index, Object>,
-    broken: &BTreeSet<Index>,
+    broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Pdo> {
     let valid = decl.valid.is_none_or(|valid| valid.value);
@@ -81,9 +93,15 @@ fn pdo(
         || (decl.direction == Direction::Receive && matches!(transmission, 252 | 253));
     if let (true, Some(value)) = (reserved, &decl.transmission) {
         diagnostics.push(
-            Diagnostic::new(Code::BadTransmission, value.span, format!("transmission type {transmission} is reserved for {title}"))
-                .help("0 to 240: synchronous; 254 and 255: event-driven; 252 and 253: on remote frames, TPDOs only")
-                .note("CiA 301 table 56"),
+            Diagnostic::new(
+                Code::BadTransmission,
+                value.span,
+                format!("transmission type {transmission} is reserved for {title}"),
+            )
+            .help(
+                "0 to 240: synchronous; 254 and 255: event-driven; 252 and 253: on remote frames, TPDOs only",
+            )
+            .note("CiA 301 table 56"),
         );
     }
     Some(Pdo {
@@ -159,20 +177,21 @@ const RESTRICTED: [(i128, i128); 8] = [
 ];
 
 fn check_cob_id(value: &Value, text: &Name, diagnostics: &mut Diagnostics) -> Option<()> {
-    for node in [1, 127] {
+    for node in 1..=127 {
         let id = value.integer_for(node)?;
+        let of_node =
+            if matches!(value, Value::NodeId(_)) { format!(" (node {node})") } else { String::new() };
         let problem = if id > 0x7FF {
-            Some(format!("{id:X}h is no 11-bit identifier"))
+            Some(format!("{id:X}h{of_node} is no 11-bit identifier"))
         } else if RESTRICTED.iter().any(|(low, high)| (*low..=*high).contains(&id)) {
-            Some(format!("{id:X}h is kept for another service"))
+            Some(format!("{id:03X}h{of_node} is kept for another service"))
         } else {
             None
         };
         if let Some(problem) = problem {
-            let of_node = if matches!(value, Value::NodeId(_)) { format!(" (node {node})") } else { String::new() };
             diagnostics.push(
-                Diagnostic::new(Code::BadCobId, text.span, format!("{problem}{of_node}"))
-                    .help("write the identifier alone; `valid:` and `no-rtr:` set the flag bits")
+                Diagnostic::new(Code::BadCobId, text.span, problem)
+                    .help("write a free identifier without flag bits; `valid:` and `no-rtr:` set these")
                     .note("CiA 301 table 35: restricted CAN identifiers"),
             );
             return None;
@@ -192,8 +211,12 @@ fn capacity(
     if decl.fixed {
         if map.is_empty() {
             diagnostics.push(
-                Diagnostic::new(Code::BadPdoKey, decl.span, format!("{title} has a fixed mapping of nothing"))
-                    .help("map something, or let the mapping be `variable`"),
+                Diagnostic::new(
+                    Code::BadPdoKey,
+                    decl.span,
+                    format!("{title} has a fixed mapping of nothing"),
+                )
+                .help("map something, or let the mapping be `variable`"),
             );
             return None;
         }
@@ -206,8 +229,12 @@ fn capacity(
     if capacity == 0 || used > capacity {
         let span = decl.capacity.map_or(decl.span, |capacity| capacity.span);
         diagnostics.push(
-            Diagnostic::new(Code::BadPdoKey, span, format!("{title} maps {used} entries, but offers {capacity}"))
-                .help("raise `capacity:`, or lower the device's `granularity:`"),
+            Diagnostic::new(
+                Code::BadPdoKey,
+                span,
+                format!("{title} maps {used} entries, but offers {capacity}"),
+            )
+            .help("raise `capacity:`, or lower the device's `granularity:`"),
         );
         return None;
     }
@@ -220,7 +247,7 @@ fn mapped(
     info: &DeviceInfo,
     names: &Names,
     objects: &BTreeMap<Index, Object>,
-    broken: &BTreeSet<Index>,
+    broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Mapped> {
     if let Some(dummy) = DataType::from_name(&name.value) {
@@ -241,12 +268,12 @@ fn mapped(
         return Some(Mapped { target: PdoTarget::Dummy(dummy), bits: to_u8(i128::from(dummy.bits()?)) });
     }
     let find = |id: EntryId| objects.get(&id.index).and_then(|object| object.entry(id.sub));
-    let id = names.find(name, |id| find(id).is_some(), |index| broken.contains(&index), diagnostics)?;
+    let id = names.find(name, |id| find(id).is_some(), broken, diagnostics)?;
     let entry = find(id)?;
     if !entry.pdo.allows(decl.direction) {
         let problem = match entry.pdo {
-            PdoMapping::None => format!("{id} cannot be mapped into a PDO"),
-            _ => format!("{id} cannot be mapped into a {}", decl.direction.pdo()),
+            PdoMapping::None => format!("{id} cannot be mapped into PDOs"),
+            _ => format!("{id} cannot be mapped into {}s", decl.direction.pdo()),
         };
         diagnostics.push(
             Diagnostic::new(Code::NotMappable, name.span, problem)
@@ -269,7 +296,11 @@ fn narrower(map: &[Mapped], objects: &BTreeMap<Index, Object>) -> Option<String>
             (entry.alias.as_ref()?.target == id).then_some((object, entry))
         })?;
         let bits = total - u32::from(mapped.bits) + u32::from(view.data_type.bits()?);
-        Some(format!("{} is {id} as {}: mapping it instead makes {bits}", object.index, view.data_type.name()))
+        Some(format!(
+            "{} is {id} as {}: mapping it instead makes {bits}",
+            object.index,
+            view.data_type.name()
+        ))
     })
 }
 
@@ -414,7 +445,9 @@ fn mapping_object(pdo: &Pdo) -> Object {
         name: format!("mapped entry {sub}"),
         data_type: DataType::Unsigned32,
         writable: pdo.variable_mapping,
-        default: Value::Integer(pdo.map.get(usize::from(sub) - 1).map_or(0, |mapped| i128::from(mapped.parameter()))),
+        default: Value::Integer(
+            pdo.map.get(usize::from(sub) - 1).map_or(0, |mapped| i128::from(mapped.parameter())),
+        ),
         about: "bits 31..16 index, 15..8 sub-index, 7..0 length in bits",
     }));
     object(pdo.mapping_index(), format!("{title} {} mapping parameter", pdo.number), list, pdo.span)

@@ -1,11 +1,43 @@
 //! References to entries, by index or by name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::ast::Name;
 use crate::decode::{lexical, nearest};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{Dictionary, EntryId, Index, Object, SubIndex};
+use crate::yaml::shorten;
+
+/// What is defined, but not well enough to be there: a reference to it says nothing new.
+#[derive(Debug, Default)]
+pub(super) struct Broken {
+    indices: BTreeSet<Index>,
+    names: BTreeSet<String>,
+}
+
+impl Broken {
+    pub(super) fn add(&mut self, index: Index, name: Option<&Name>) {
+        self.indices.insert(index);
+        self.names.extend(name.map(|name| name.value.clone()));
+    }
+
+    pub(super) fn append(&mut self, other: Broken) {
+        self.indices.extend(other.indices);
+        self.names.extend(other.names);
+    }
+
+    pub(super) fn has(&self, index: Index) -> bool {
+        self.indices.contains(&index)
+    }
+
+    /// Whether a name is that of a broken object, or of an entry in one.
+    fn has_name(&self, name: &str) -> bool {
+        let of = |object: &String| {
+            name.strip_prefix(object.as_str()).is_some_and(|r| r.is_empty() || r.starts_with('.'))
+        };
+        self.names.iter().any(of)
+    }
+}
 
 /// Entries of one device by name: `controlword`, `drive data.error mask`.
 pub(super) struct Names {
@@ -27,12 +59,12 @@ impl Names {
         Self { by_name }
     }
 
-    /// The entry that a reference names; `missing` tells which indices exist only in broken form and stay silent.
+    /// The entry that a reference names; what is broken is not reported as missing.
     pub(super) fn find(
         &self,
         reference: &Name,
         exists: impl Fn(EntryId) -> bool,
-        is_broken: impl Fn(Index) -> bool,
+        broken: &Broken,
         diagnostics: &mut Diagnostics,
     ) -> Option<EntryId> {
         let text = reference.value.as_str();
@@ -41,7 +73,7 @@ impl Names {
             if exists(id) {
                 return Some(id);
             }
-            if !is_broken(id.index) {
+            if !broken.has(id.index) {
                 diagnostics.push(
                     Diagnostic::new(Code::UnknownEntry, reference.span, format!("there is no entry {id}"))
                         .help("correct the index or sub-index, or define the object on this device"),
@@ -50,9 +82,9 @@ impl Names {
             return None;
         }
         let found = self.by_name.get(text).copied();
-        if found.is_none() {
-            let diagnostic =
-                Diagnostic::new(Code::UnknownEntry, reference.span, format!("there is no entry named `{text}`"));
+        if found.is_none() && !broken.has_name(text) {
+            let message = format!("there is no entry named `{}`", shorten(text));
+            let diagnostic = Diagnostic::new(Code::UnknownEntry, reference.span, message);
             diagnostics.push(match nearest(text, self.by_name.keys().map(String::as_str)) {
                 Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
                 None => diagnostic.help("write an object's name, `object.entry` for a member, or an index"),
@@ -69,9 +101,15 @@ pub(crate) fn lookup(dictionary: &Dictionary, text: &str) -> Result<EntryId, Opt
         return Ok(id);
     }
     let names = Names::new(dictionary.objects.values());
-    names.by_name.get(text).copied().filter(|id| dictionary.entry(*id).is_some()).ok_or_else(|| {
-        nearest(text, names.by_name.keys().map(String::as_str)).map(ToOwned::to_owned)
-    })
+    if let Some(id) = names.by_name.get(text) {
+        return Ok(*id);
+    }
+    // A person at a command line does not care for capitals, as long as it is clear what is meant.
+    let mut alike = names.by_name.iter().filter(|(name, _)| name.to_lowercase() == text.to_lowercase());
+    match (alike.next(), alike.next()) {
+        (Some((_, id)), None) => Ok(*id),
+        _ => Err(nearest(text, names.by_name.keys().map(String::as_str)).map(ToOwned::to_owned)),
+    }
 }
 
 /// `607A`, `0x607A`, `607Ah`, with `.3` or `sub3`; the index is always hexadecimal.

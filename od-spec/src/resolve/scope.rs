@@ -9,6 +9,7 @@ use crate::decode::nearest;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{Base, NamedType, Ratio, Unit};
 use crate::source::Span;
+use crate::yaml::shorten;
 
 /// What names mean.
 pub(super) struct Scope {
@@ -28,7 +29,9 @@ impl Scope {
                     Some(unit) => {
                         let unit = Arc::new(unit);
                         let before = scope.units.insert(decl.name.value.clone(), Arc::clone(&unit));
-                        let same = before.is_none_or(|before| Unit { about: unit.about.clone(), ..(*before).clone() } == *unit);
+                        let same = before.is_none_or(|before| {
+                            Unit { about: unit.about.clone(), ..(*before).clone() } == *unit
+                        });
                         check_unique(&decl.name, "unit", same, &mut places, diagnostics);
                     }
                     None => scope.broken.push(decl.name.value.clone()),
@@ -78,7 +81,8 @@ pub(super) fn unknown<'a>(
     known: impl IntoIterator<Item = &'a str>,
     otherwise: &str,
 ) -> Diagnostic {
-    let diagnostic = Diagnostic::new(code, name.span, format!("there is no {what} `{}`", name.value));
+    let diagnostic =
+        Diagnostic::new(code, name.span, format!("there is no {what} `{}`", shorten(&name.value)));
     match nearest(&name.value, known) {
         Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
         None => diagnostic.help(otherwise.to_owned()),
@@ -95,10 +99,14 @@ fn check_unique(
     let before = places.insert(name.value.clone(), name.span);
     if let (false, Some(before)) = (fine, before) {
         diagnostics.push(
-            Diagnostic::new(Code::DuplicateName, name.span, format!("{what} `{}` has two meanings", name.value))
-                .label("defined otherwise here")
-                .with(before, "first here")
-                .help("give one of the two another name"),
+            Diagnostic::new(
+                Code::DuplicateName,
+                name.span,
+                format!("{what} `{}` has two meanings", shorten(&name.value)),
+            )
+            .label("defined otherwise here")
+            .with(before, "first here")
+            .help("give one of the two another name"),
         );
     }
 }

@@ -8,18 +8,24 @@ use crate::decode::nearest;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Text, TypeKind};
 use crate::source::{Span, Spanned};
+use crate::yaml::shorten;
 
 /// Resolves a type; `None` when it is too broken to be used.
 pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<NamedType> {
     let name = decl.base.as_ref()?;
     let Some(base) = DataType::from_name(&name.value).filter(|base| base.is_integer()) else {
-        let integers = DataType::ALL.into_iter().filter(|data_type| data_type.is_integer()).map(DataType::name);
+        let integers =
+            DataType::ALL.into_iter().filter(|data_type| data_type.is_integer()).map(DataType::name);
         diagnostics.push(
-            Diagnostic::new(Code::BadBaseType, name.span, format!("`{}` cannot carry values or bits", name.value))
-                .help(match nearest(&name.value, integers) {
-                    Some(word) if word != name.value => format!("did you mean `{word}`?"),
-                    _ => "write an integer type such as `unsigned16`".to_owned(),
-                }),
+            Diagnostic::new(
+                Code::BadBaseType,
+                name.span,
+                format!("`{}` cannot carry values or bits", shorten(&name.value)),
+            )
+            .help(match nearest(&name.value, integers) {
+                Some(word) if word != name.value => format!("did you mean `{word}`?"),
+                _ => "write an integer type such as `unsigned16`".to_owned(),
+            }),
         );
         return None;
     };
@@ -27,15 +33,28 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
     let kind = match (&decl.values, &decl.bits) {
         (Some(list), None) => TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics)),
         (None, Some(list)) => TypeKind::Bits(bits(decl, list, base, diagnostics)?),
-        _ => {
+        (Some(_), Some(_)) => {
             diagnostics.push(
                 Diagnostic::new(
                     Code::ConflictingKeys,
                     decl.name.span,
-                    format!("type `{}` needs either `values` or `bits`", decl.name.value),
+                    format!("type `{}` has `values` and `bits`", shorten(&decl.name.value)),
                 )
-                .help("`values:` makes it an enum, `bits:` a bit field"),
+                .help("keep `values:` for an enum, or `bits:` for a bit field"),
             );
+            return None;
+        }
+        (None, None) => {
+            if !decl.unsure {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::MissingKey,
+                        decl.name.span,
+                        format!("type `{}` needs the key `values` or `bits`", shorten(&decl.name.value)),
+                    )
+                    .help("add `values:` for an enum, or `bits:` for a bit field"),
+                );
+            }
             return None;
         }
     };
@@ -59,9 +78,13 @@ fn values(
         let value = decl.value.value;
         if !(low..=high).contains(&value) {
             diagnostics.push(
-                Diagnostic::new(Code::ValueDoesNotFit, decl.value.span, format!("{value} does not fit {carrier}"))
-                    .label(format!("allowed: {low} to {high}"))
-                    .help("correct the value or take a wider type"),
+                Diagnostic::new(
+                    Code::ValueDoesNotFit,
+                    decl.value.span,
+                    format!("{value} does not fit {carrier}"),
+                )
+                .label(format!("allowed: {low} to {high}"))
+                .help("correct the value or take a wider type"),
             );
             continue;
         }
@@ -78,18 +101,32 @@ fn values(
     values
 }
 
-fn unique_name<'a>(name: &'a str, span: Span, names: &mut BTreeMap<&'a str, Span>, diagnostics: &mut Diagnostics) {
+fn unique_name<'a>(
+    name: &'a str,
+    span: Span,
+    names: &mut BTreeMap<&'a str, Span>,
+    diagnostics: &mut Diagnostics,
+) {
     if let Some(before) = names.insert(name, span) {
         diagnostics.push(
-            Diagnostic::new(Code::DuplicateName, span, format!("the name `{name}` stands twice in this type"))
-                .label("again here")
-                .with(before, "first here")
-                .help("give each value or bit a name of its own"),
+            Diagnostic::new(
+                Code::DuplicateName,
+                span,
+                format!("the name `{}` stands twice in this type", shorten(name)),
+            )
+            .label("again here")
+            .with(before, "first here")
+            .help("give each value or bit a name of its own"),
         );
     }
 }
 
-fn bits(decl: &TypeDecl, list: &[BitDecl], base: DataType, diagnostics: &mut Diagnostics) -> Option<Vec<BitField>> {
+fn bits(
+    decl: &TypeDecl,
+    list: &[BitDecl],
+    base: DataType,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<BitField>> {
     let width = u8::try_from(base.bits()?).ok()?;
     let mut owner: Vec<Option<Span>> = vec![None; usize::from(width)];
     let mut names: BTreeMap<&str, Span> = BTreeMap::new();
@@ -102,19 +139,21 @@ fn bits(decl: &TypeDecl, list: &[BitDecl], base: DataType, diagnostics: &mut Dia
                     .label(format!("bits 0 to {}", width - 1))
                     .help("correct the bit number or take a wider type"),
             );
+            owner.iter_mut().skip(usize::from(first)).for_each(|bit| *bit = bit.or(Some(span)));
             continue;
         }
         let range = usize::from(first)..=usize::from(last);
-        if let Some(before) = owner[range.clone()].iter().flatten().next() {
+        let taken = owner[range.clone()].iter().flatten().next().copied();
+        owner[range].iter_mut().for_each(|bit| *bit = bit.or(Some(span)));
+        if let Some(before) = taken {
             diagnostics.push(
                 Diagnostic::new(Code::OverlappingBits, span, "these bits overlap with others")
                     .label("overlaps")
-                    .with(*before, "taken here")
+                    .with(before, "taken here")
                     .help("each bit belongs to one field"),
             );
             continue;
         }
-        owner[range].fill(Some(span));
         if let Some(name) = &bit.name {
             unique_name(&name.value, name.span, &mut names, diagnostics);
         }
@@ -149,7 +188,9 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
         modes: bit
             .modes
             .iter()
-            .filter_map(|(mode, name, about)| Some((mode.value.clone(), name.as_ref()?.value.clone(), words(about))))
+            .filter_map(|(mode, name, about)| {
+                Some((mode.value.clone(), name.as_ref()?.value.clone(), words(about)))
+            })
             .collect(),
     }
 }
@@ -166,13 +207,19 @@ fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, dia
         at += length.max(1);
     }
     let Some(usage) = decl.rest else {
-        if let Some((first, last)) = free.first() {
-            let run = if first == last { format!("bit {first}") } else { format!("bits {first}..{last}") };
+        if !free.is_empty() && !decl.unsure {
+            let runs =
+                free.iter().map(
+                    |(first, last)| {
+                        if first == last { format!("{first}") } else { format!("{first}..{last}") }
+                    },
+                );
+            let runs = runs.collect::<Vec<_>>().join(", ");
             diagnostics.push(
                 Diagnostic::new(
                     Code::BitsMissing,
                     decl.name.span,
-                    format!("type `{}` does not say what {run} mean", decl.name.value),
+                    format!("type `{}` leaves out bits {runs}", shorten(&decl.name.value)),
                 )
                 .help("list them as `reserved` or `unused`, or add `rest: reserved`"),
             );

@@ -6,6 +6,7 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
 use crate::source::Span;
 use crate::yaml::scalar::{self, NumberError};
+use crate::yaml::shorten;
 
 /// What a value is read against.
 #[derive(Clone, Copy)]
@@ -17,16 +18,22 @@ pub(crate) struct Expected<'a> {
 
 /// Reads a value that is written at `span`.
 pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
-    let bad = |message: String, help: &str| Err(Box::new(Diagnostic::new(Code::BadValue, span, message).help(help)));
+    let bad = |message: String, help: &str| {
+        Err(Box::new(Diagnostic::new(Code::BadValue, span, message).help(help)))
+    };
+    let shown = shorten(text);
     match expected.data_type {
         DataType::Boolean => match (scalar::yes_no(text), text) {
             (Some(value), _) => Ok(Value::Integer(i128::from(value))),
             (None, "0" | "1") => Ok(Value::Integer(i128::from(text == "1"))),
-            _ => bad(format!("found `{text}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
+            _ => bad(format!("found `{shown}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
         },
         DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(Value::Real(value)),
-            _ => bad(format!("found `{text}`, expected a finite number"), "write a decimal number such as `0.5`"),
+            _ => bad(
+                format!("found `{shown}`, expected a finite number"),
+                "write a decimal number such as `0.5`",
+            ),
         },
         DataType::VisibleString if text.bytes().all(|byte| (0x20..=0x7E).contains(&byte)) => {
             Ok(Value::Text(text.to_owned()))
@@ -38,7 +45,10 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
         DataType::UnicodeString => Ok(Value::Text(text.to_owned())),
         DataType::OctetString => match octets(text) {
             Some(bytes) => Ok(Value::Bytes(bytes)),
-            None => bad(format!("found `{text}`, expected bytes"), "write pairs of hexadecimal digits: `01A1053C`"),
+            None => bad(
+                format!("found `{shown}`, expected bytes"),
+                "write pairs of hexadecimal digits: `01A1053C`",
+            ),
         },
         DataType::TimeOfDay | DataType::TimeDifference | DataType::Domain => bad(
             format!("an entry of type {} has no value that could be written here", expected.data_type),
@@ -50,7 +60,8 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
 
 /// `01 A1 05`, with or without blanks.
 fn octets(text: &str) -> Option<Vec<u8>> {
-    let digits: Vec<u32> = text.chars().filter(|c| *c != ' ').map(|c| c.to_digit(16)).collect::<Option<_>>()?;
+    let digits: Vec<u32> =
+        text.chars().filter(|c| *c != ' ').map(|c| c.to_digit(16)).collect::<Option<_>>()?;
     let (pairs, rest) = digits.as_chunks::<2>();
     if !rest.is_empty() {
         return None;
@@ -59,19 +70,20 @@ fn octets(text: &str) -> Option<Vec<u8>> {
 }
 
 fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
-    if let Some(formula) = text.strip_prefix("$NODEID") {
-        let offset = match formula.trim() {
+    let shown = shorten(text);
+    if text.contains("$NODEID") {
+        let offset = match text.strip_prefix("$NODEID").unwrap_or("?").trim() {
             "" => Some(0),
             rest => rest.strip_prefix('+').and_then(|digits| scalar::integer(digits.trim()).ok()),
         };
         let Some(offset) = offset.and_then(|offset| u64::try_from(offset).ok()) else {
             return Err(Box::new(
-                Diagnostic::new(Code::BadFormula, span, format!("cannot read the formula `{text}`"))
+                Diagnostic::new(Code::BadFormula, span, format!("cannot read the formula `{shown}`"))
                     .help("write `$NODEID`, or `$NODEID + 0x180`")
                     .note("CiA 306 4.3: a formula is $NODEID and at most one added number"),
             ));
         };
-        fits(i128::from(offset) + 127, span, expected.data_type, &format!("`{text}` for node 127"))?;
+        fits(i128::from(offset) + 127, span, expected.data_type, &format!("`{shown}` for node 127"))?;
         return Ok(Value::NodeId(offset));
     }
     let values = match expected.named.map(|named| &named.kind) {
@@ -87,8 +99,11 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
             Some((number, symbol)) => physical(number, symbol, span, expected.unit)?,
             None if !values.is_empty() => {
                 let names = values.iter().map(|value| value.name.as_str());
-                let diagnostic =
-                    Diagnostic::new(Code::UnknownEnumValue, span, format!("`{text}` is not a value of this enum"));
+                let diagnostic = Diagnostic::new(
+                    Code::UnknownEnumValue,
+                    span,
+                    format!("`{shown}` is not a value of this enum"),
+                );
                 return Err(Box::new(match nearest(text, names.clone()) {
                     Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
                     None => diagnostic.help(format!("its values are {}", list(names))),
@@ -96,17 +111,24 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
             }
             None => {
                 return Err(Box::new(
-                    Diagnostic::new(Code::BadValue, span, format!("found `{text}`, expected a value of type {}", expected.data_type))
-                        .help(match expected.unit {
-                            Some(unit) => format!("write a raw number, or a physical value such as `{}`", unit.show(10)),
-                            None => NumberError::NotANumber.help().to_owned(),
-                        }),
+                    Diagnostic::new(
+                        Code::BadValue,
+                        span,
+                        format!("found `{shown}`, expected a value of type {}", expected.data_type),
+                    )
+                    .help(match expected.unit {
+                        Some(unit) => {
+                            format!("write a raw number, or a physical value such as `{}`", unit.show(10))
+                        }
+                        None => NumberError::NotANumber.help().to_owned(),
+                    }),
                 ));
             }
         },
         Err(error) => {
             return Err(Box::new(
-                Diagnostic::new(Code::BadNumber, span, format!("found `{text}`, expected an integer")).help(error.help()),
+                Diagnostic::new(Code::BadNumber, span, format!("found `{shown}`, expected an integer"))
+                    .help(error.help()),
             ));
         }
     };
@@ -120,8 +142,14 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
     Ok(Value::Integer(raw))
 }
 
+/// The first names of an enum, in backticks.
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    let mut names: Vec<String> = names.map(|name| format!("`{}`", shorten(name))).collect();
+    if names.len() > 10 {
+        names.truncate(9);
+        names.push("…".to_owned());
+    }
+    names.join(", ")
 }
 
 /// Checks that a raw value fits the data type.
@@ -130,8 +158,9 @@ pub(crate) fn fits(raw: i128, span: Span, data_type: DataType, what: &str) -> Re
     if (low..=high).contains(&raw) {
         return Ok(());
     }
-    let note = (data_type.is_signed() && raw > high && raw <= 2 * high + 1)
-        .then(|| format!("as a bit pattern this would be {}; write signed values in decimal", raw - 2 * high - 2));
+    let note = (data_type.is_signed() && raw > high && raw <= 2 * high + 1).then(|| {
+        format!("as a bit pattern this would be {}; write signed values in decimal", raw - 2 * high - 2)
+    });
     let diagnostic = Diagnostic::new(Code::ValueDoesNotFit, span, format!("{what} does not fit {data_type}"))
         .label(format!("allowed: {low} to {high}"))
         .help("correct the value or the type");
@@ -144,23 +173,34 @@ pub(crate) fn fits(raw: i128, span: Span, data_type: DataType, what: &str) -> Re
 /// `50.0 °C` → number and symbol.
 fn split_physical(text: &str) -> Option<(Ratio, &str)> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))?;
+    if matches!(text.get(..2), Some("0x" | "0X" | "0b" | "0B" | "0o" | "0O")) {
+        return None;
+    }
     let number = scalar::decimal(&text[..end])?;
-    Some((number, text[end..].trim_start()))
+    Some((number, text[end..].trim())).filter(|(_, symbol)| !symbol.is_empty())
 }
 
 fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Result<i128, Box<Diagnostic>> {
     let Some(unit) = unit else {
         return Err(Box::new(
-            Diagnostic::new(Code::WrongSymbol, span, format!("`{symbol}` has no meaning here: the entry has no unit"))
-                .help("add `unit:` to the entry, or write a raw number"),
+            Diagnostic::new(
+                Code::WrongSymbol,
+                span,
+                format!("`{}` has no meaning here: the entry has no unit", shorten(symbol)),
+            )
+            .help("add `unit:` to the entry, or write a raw number"),
         ));
     };
     let Some(step) = unit.step_in(symbol) else {
         let base = unit.base_symbol();
         let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };
         return Err(Box::new(
-            Diagnostic::new(Code::WrongSymbol, span, format!("`{symbol}` is not the symbol of unit `{}`", unit.name))
-                .help(format!("write the value in `{}`{known}", unit.symbol)),
+            Diagnostic::new(
+                Code::WrongSymbol,
+                span,
+                format!("`{}` is not the symbol of unit `{}`", shorten(symbol), unit.name),
+            )
+            .help(format!("write the value in `{}`{known}", unit.symbol)),
         ));
     };
     let steps = number.checked_div(step).ok_or_else(|| {

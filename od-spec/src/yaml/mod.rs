@@ -15,6 +15,8 @@ use crate::source::{FileId, SourceFile, Span, Spanned};
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 64;
+/// The merge key of YAML 1.1, which the language does not have.
+pub(crate) const MERGE: &str = "<<";
 /// Most nodes that `*alias` references may add to a document.
 const MAX_ALIAS_NODES: usize = 200_000;
 
@@ -59,10 +61,12 @@ impl Node {
         }
     }
 
-    /// The text of a scalar.
+    /// The text of a scalar, without the line breaks that end a block scalar.
     pub fn text(&self) -> Option<Spanned<&str>> {
         match &self.kind {
-            NodeKind::Scalar { text, .. } => Some(Spanned::new(text, self.span)),
+            NodeKind::Scalar { text, .. } => {
+                Some(Spanned::new(text.trim_end_matches(['\n', '\r']), self.span))
+            }
             _ => None,
         }
     }
@@ -105,12 +109,17 @@ impl Node {
     }
 }
 
-/// Cuts a long text for a message.
+/// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
 pub(crate) fn shorten(text: &str) -> String {
-    if text.chars().count() <= 60 {
-        return text.to_owned();
-    }
-    text.chars().take(57).chain("...".chars()).collect()
+    let text = text.trim_end_matches(['\n', '\r']);
+    let keep = if text.chars().count() <= 60 { 60 } else { 57 };
+    let one_line = text.chars().take(keep).map(|c| match c {
+        '`' => '\'',
+        c if c.is_control() => ' ',
+        c => c,
+    });
+    let rest = if keep == 60 { "" } else { "..." };
+    one_line.chain(rest.chars()).collect()
 }
 
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.
@@ -133,8 +142,16 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
                 let at = error.marker().byte_offset().unwrap_or_default();
                 let span = builder.point(at);
                 builder.diagnostics.push(
-                    Diagnostic::new(Code::YamlSyntax, span, format!("this is not YAML: {}", error.kind()))
-                        .help("check indentation, quotes, and that `: ` and ` #` inside a text are quoted"),
+                    Diagnostic::new(
+                        Code::YamlSyntax,
+                        span,
+                        format!("this is not YAML: {}", error.kind().to_string().replace(['`', '\n'], "'")),
+                    )
+                    .help(if file.text()[..span.start as usize].ends_with('\t') {
+                        "indent with blanks; YAML does not allow tabs"
+                    } else {
+                        "check indentation, quotes, and that `: ` and ` #` inside a text are quoted"
+                    }),
                 );
                 return None;
             }
@@ -146,10 +163,10 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
     match builder.root {
         Some(Node { kind: NodeKind::Null, .. }) | None => {
             let span = builder.point(0);
-            diagnostics.push(
-                Diagnostic::new(Code::EmptyDocument, span, "the file holds no specification")
-                    .help("start with `od-spec: 1`; `odgen explain OD0110` shows the smallest specification"),
-            );
+            diagnostics
+                .push(Diagnostic::new(Code::EmptyDocument, span, "the file holds no specification").help(
+                    "start with `od-spec: 1`; `odgen explain OD0110` shows the smallest specification",
+                ));
             None
         }
         root => root,
@@ -158,8 +175,18 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
 
 /// A collection that is being read.
 enum Open {
-    List { start: Span, anchor: usize, items: Vec<Node> },
-    Map { start: Span, anchor: usize, entries: Vec<(Spanned<String>, Node)>, seen: BTreeMap<String, Span>, key: Key },
+    List {
+        start: Span,
+        anchor: usize,
+        items: Vec<Node>,
+    },
+    Map {
+        start: Span,
+        anchor: usize,
+        entries: Vec<(Spanned<String>, Node)>,
+        seen: BTreeMap<String, Span>,
+        key: Key,
+    },
 }
 
 enum Key {
@@ -223,9 +250,13 @@ impl Builder<'_> {
             Event::Alias(anchor) => return self.alias(anchor, span),
             Event::UnresolvedAlias(name) => {
                 self.diagnostics.push(
-                    Diagnostic::new(Code::UnknownAnchor, span, format!("no anchor `&{name}` stands before this alias"))
-                        .label("nothing to refer to")
-                        .help(format!("write `&{name}` before the value that is to be repeated here")),
+                    Diagnostic::new(
+                        Code::UnknownAnchor,
+                        span,
+                        format!("no anchor `&{name}` stands before this alias"),
+                    )
+                    .label("nothing to refer to")
+                    .help(format!("write `&{name}` before the value that is to be repeated here")),
                 );
                 self.add(Node { span, kind: NodeKind::Broken }, 0);
             }
@@ -234,13 +265,29 @@ impl Builder<'_> {
         true
     }
 
-    fn refuse_tag(&mut self, tagged: bool, span: Span) {
+    fn refuse_tag(&mut self, tagged: bool, value: Span) {
         if tagged {
+            let span = self.tag_before(value);
             self.diagnostics.push(
                 Diagnostic::new(Code::YamlTag, span, "YAML tags (`!name`) have no meaning here")
                     .help("remove the tag; the place decides how a value is read"),
             );
         }
+    }
+
+    /// The tag that stands before a value, perhaps with an anchor between them; else the value.
+    fn tag_before(&self, value: Span) -> Span {
+        let mut before = self.text.get(..value.start as usize).unwrap_or_default().trim_end();
+        for _ in 0..2 {
+            let start = before
+                .rfind(|c: char| c.is_whitespace() || matches!(c, '[' | '{' | ','))
+                .map_or(0, |at| at + 1);
+            if before[start..].starts_with('!') {
+                return self.range(start, before.len());
+            }
+            before = before[..start].trim_end();
+        }
+        value
     }
 
     fn depth_is_fine(&mut self, span: Span) -> bool {
@@ -260,7 +307,8 @@ impl Builder<'_> {
             // The anchor is on a collection that is still open, or on something that was dropped.
             self.diagnostics.push(
                 Diagnostic::new(Code::UnknownAnchor, span, "this alias refers to a value that contains it")
-                    .label("the anchored value is not complete yet"),
+                    .label("the anchored value is not complete yet")
+                    .help("write the value out; it cannot be a part of itself"),
             );
             self.add(Node { span, kind: NodeKind::Broken }, 0);
             return true;
@@ -352,25 +400,34 @@ fn read_key(node: Node, seen: &mut BTreeMap<String, Span>, diagnostics: &mut Dia
     let NodeKind::Scalar { text, .. } = node.kind else {
         if !matches!(node.kind, NodeKind::Broken) {
             diagnostics.push(
-                Diagnostic::new(Code::BadKey, span, format!("a key must be a word or a number, found {}", node.describe()))
-                    .help("write `key: value`; inside `{}` put keys that hold `: ` in quotes"),
+                Diagnostic::new(
+                    Code::BadKey,
+                    span,
+                    format!("a key must be a word or a number, found {}", node.describe()),
+                )
+                .help("write `key: value`; inside `{}` put keys that hold `: ` in quotes"),
             );
         }
         return Key::Dropped;
     };
-    if text == "<<" {
+    if text == MERGE {
         diagnostics.push(
             Diagnostic::new(Code::BadKey, span, "merge keys (`<<`) are not part of the language")
                 .help("name a type or take an object with `from:` instead"),
         );
-        return Key::Dropped;
+        // The key stays, so that nobody misses what it would have brought.
+        return Key::Read(Spanned::new(text, span));
     }
     if let Some(first) = seen.get(&text) {
         diagnostics.push(
-            Diagnostic::new(Code::DuplicateKey, span, format!("key `{}` stands twice in this map", shorten(&text)))
-                .label("again here")
-                .with(*first, "first here")
-                .help("remove one of the two, or join their values"),
+            Diagnostic::new(
+                Code::DuplicateKey,
+                span,
+                format!("key `{}` stands twice in this map", shorten(&text)),
+            )
+            .label("again here")
+            .with(*first, "first here")
+            .help("remove one of the two, or join their values"),
         );
         return Key::Dropped;
     }

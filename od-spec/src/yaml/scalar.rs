@@ -18,7 +18,9 @@ impl NumberError {
     pub const fn help(self) -> &'static str {
         match self {
             NumberError::NotANumber => "write a decimal number, or `0x`, `0b` or `0o` and digits",
-            NumberError::LeadingZero => "remove the leading zero, or write `0o` for octal and `0x` for hexadecimal",
+            NumberError::LeadingZero => {
+                "remove the leading zero, or write `0o` for octal and `0x` for hexadecimal"
+            }
             NumberError::TooLarge => "no CANopen integer has more than 64 bits",
         }
     }

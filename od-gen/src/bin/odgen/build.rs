@@ -1,0 +1,135 @@
+//! `odgen build`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use od_gen::files::{Outcome, write_all};
+use od_gen::{Artifact, Selection, artifacts};
+use od_spec::diag::{Code, Diagnostic};
+use od_spec::model::{Dictionary, Origin, PdoMapping, System};
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
+
+use super::ERRORS;
+use super::args::BuildArgs;
+use super::report::{Report, node_id, print};
+
+/// The specifications that come with odgen: name and text.
+const SHIPPED: [(&str, &str); 1] = [(
+    "pitch-control-system.od.yaml",
+    include_str!("../../../../od-spec/devices/pitch-control-system.od.yaml"),
+)];
+
+pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
+    let node = match args.node.as_deref().map(node_id).transpose() {
+        Ok(node) => node,
+        Err(diagnostic) => return report.refuse(diagnostic),
+    };
+    let Some(systems) = compile_all(args, report) else { return ERRORS };
+    // The files that come with odgen include a DCF of node 1.
+    let node = if args.specs.is_empty() { node.or(Some(1)) } else { node };
+    let mut set: Vec<Artifact> = Vec::new();
+    let mut text = String::new();
+    for key in &args.device {
+        if !systems.iter().any(|(_, system)| system.device(key).is_some()) {
+            let keys = systems
+                .iter()
+                .flat_map(|(_, system)| &system.devices)
+                .map(|device| format!("`{}`", device.key));
+            return report.refuse(
+                Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
+                    .help(format!("the devices are {}", keys.collect::<Vec<_>>().join(", "))),
+            );
+        }
+    }
+    for (stem, system) in &systems {
+        for device in &system.devices {
+            text.push_str(&describe(device));
+        }
+        set.extend(artifacts(system, stem, &Selection { devices: &args.device, node }));
+    }
+    if let Some(path) = clash(&set) {
+        return report.refuse(
+            Diagnostic::without_place(Code::DuplicateName, format!("two devices would both write {path}"))
+                .help(
+                    "give the devices different keys, or build the specifications into different directories",
+                ),
+        );
+    }
+    match write_all(&args.out, &set) {
+        Ok(outcomes) => {
+            text.push_str(&list(&args.out, &set, &outcomes));
+            print(&text)
+        }
+        Err(error) => report.refuse(
+            Diagnostic::without_place(Code::WriteFailed, error.to_string())
+                .help("nothing was changed; check the directory, its permissions and the free space"),
+        ),
+    }
+}
+
+/// Compiles everything, so that all messages are shown; `None` if any has errors.
+fn compile_all(args: &BuildArgs, report: &Report) -> Option<Vec<(String, System)>> {
+    let systems: Vec<(String, Option<System>)> = if args.specs.is_empty() {
+        SHIPPED.iter().map(|(name, text)| (stem(Path::new(name)), shipped(name, text, report))).collect()
+    } else {
+        args.specs.iter().map(|path| (stem(path), report.compile(path))).collect()
+    };
+    systems.into_iter().map(|(stem, system)| Some((stem, system?))).collect()
+}
+
+fn shipped(name: &str, text: &str, report: &Report) -> Option<System> {
+    let mut sources = SourceMap::new();
+    let root = sources.add(name, text);
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    report.show(&compiled.diagnostics, &sources);
+    compiled.system
+}
+
+/// `pitch.od.yaml` → `pitch`.
+fn stem(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = name.strip_suffix(".yaml").or_else(|| name.strip_suffix(".yml")).unwrap_or(&name);
+    name.strip_suffix(".od").unwrap_or(name).to_owned()
+}
+
+/// The first path that two artifacts share.
+fn clash(set: &[Artifact]) -> Option<&str> {
+    let mut seen = BTreeMap::new();
+    set.iter()
+        .find(|artifact| seen.insert(&artifact.path, ()).is_some())
+        .map(|artifact| artifact.path.as_str())
+}
+
+fn describe(device: &Dictionary) -> String {
+    let described: Vec<_> =
+        device.objects.values().filter(|object| object.origin == Origin::Manual).collect();
+    let entries: usize = described.iter().map(|object| object.entries.len()).sum();
+    let mappable =
+        described.iter().flat_map(|object| &object.entries).filter(|entry| entry.pdo != PdoMapping::None);
+    let stored = described.iter().filter(|object| object.is_stored()).count();
+    format!(
+        "  {:<6} {} objects · {} entries · {} mappable · {} stored · {} communication objects\n",
+        device.key,
+        described.len(),
+        entries,
+        mappable.count(),
+        stored,
+        device.objects.len() - described.len()
+    )
+}
+
+fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
+    let paths: Vec<String> =
+        set.iter().map(|artifact| out.join(&artifact.path).display().to_string()).collect();
+    let width = paths.iter().map(|path| path.chars().count()).max().unwrap_or(0);
+    for (artifact, path) in set.iter().zip(&paths) {
+        let size = artifact.bytes.len().div_ceil(1024);
+        let _ = writeln!(text, "  {path:<width$}  {size:>4} kB  {}", artifact.purpose);
+    }
+    let changed = outcomes.iter().filter(|outcome| **outcome == Outcome::Changed).count();
+    let _ = writeln!(text, "  {changed} files changed, {} unchanged", outcomes.len() - changed);
+    text
+}

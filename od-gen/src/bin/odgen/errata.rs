@@ -1,0 +1,88 @@
+//! `odgen errata`.
+
+use std::fmt::Write as _;
+
+use od_spec::diag::{Code, Diagnostic};
+use od_spec::model::{Erratum, ErratumKind, ErratumPlace, Index, System};
+
+use super::ERRORS;
+use super::args::ErrataArgs;
+use super::report::{Report, print};
+
+pub(crate) fn run(args: &ErrataArgs, report: &Report) -> u8 {
+    let kind = match args.kind.as_deref().map(|word| (word, ErratumKind::from_word(word))) {
+        Some((word, None)) => {
+            return report.refuse(
+                Diagnostic::without_place(Code::UnknownWord, format!("there is no kind `{word}`"))
+                    .help(format!("kinds are {}", ErratumKind::WORDS.join(", "))),
+            );
+        }
+        Some((_, kind)) => kind,
+        None => None,
+    };
+    let at = match args.at.as_deref().map(|text| (text, index(text))) {
+        Some((text, None)) => {
+            return report.refuse(
+                Diagnostic::without_place(Code::BadNotation, format!("found `{text}`, expected an index"))
+                    .help("write it in hexadecimal: `6041`, `0x6041` or `6041h`"),
+            );
+        }
+        Some((_, index)) => index,
+        None => None,
+    };
+    let Some(system) = report.compile(&args.spec) else { return ERRORS };
+    let wanted = |erratum: &&Erratum| {
+        kind.is_none_or(|kind| kind == erratum.kind)
+            && at.is_none_or(|index| erratum.at.iter().any(|place| place.index() == index))
+    };
+    let errata: Vec<&Erratum> = system.errata.iter().filter(wanted).collect();
+    print(&if args.markdown { markdown(&system, &errata) } else { plain(&system, &errata) })
+}
+
+fn index(text: &str) -> Option<Index> {
+    let digits = text.strip_prefix("0x").unwrap_or(text);
+    let digits = digits.strip_suffix('h').unwrap_or(digits);
+    u16::from_str_radix(digits, 16).ok().map(Index)
+}
+
+fn places(erratum: &Erratum) -> String {
+    let places = erratum.at.iter().map(|place| match place {
+        ErratumPlace::Object(index) => index.to_string(),
+        ErratumPlace::Entry(id) => format!("{}.{}", id.index, id.sub),
+    });
+    places.collect::<Vec<_>>().join(", ")
+}
+
+fn plain(system: &System, errata: &[&Erratum]) -> String {
+    let language = system.language();
+    let mut text = String::new();
+    for erratum in errata {
+        let at = places(erratum);
+        let at = if at.is_empty() { String::new() } else { format!("{at} ") };
+        let _ = writeln!(
+            text,
+            "{at}[{}] {}",
+            erratum.kind.word(),
+            erratum.place.get(language).unwrap_or_default()
+        );
+        let _ = writeln!(text, "    prints   {}", erratum.prints.get(language).unwrap_or_default());
+        let _ = writeln!(text, "    read as  {}", erratum.reads.get(language).unwrap_or_default());
+        let _ = writeln!(text, "    because  {}", erratum.because.get(language).unwrap_or_default());
+    }
+    let _ = writeln!(text, "{} of {} errata", errata.len(), system.errata.len());
+    text
+}
+
+fn markdown(system: &System, errata: &[&Erratum]) -> String {
+    let language = system.language();
+    let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
+    let mut text =
+        format!("# Errata: {}\n\n| at | kind | place | prints | read as | because |\n", system.title);
+    text.push_str("|---|---|---|---|---|---|\n");
+    for erratum in errata {
+        let words = [&erratum.place, &erratum.prints, &erratum.reads, &erratum.because];
+        let words = words.map(|words| cell(words.get(language).unwrap_or_default()));
+        let _ = writeln!(text, "| {} | {} | {} |", places(erratum), erratum.kind.word(), words.join(" | "));
+    }
+    text
+}

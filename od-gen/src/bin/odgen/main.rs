@@ -1,0 +1,71 @@
+//! `odgen`: checks specifications of CANopen object dictionaries and makes files from them.
+
+#![expect(clippy::print_stdout, reason = "a command prints its results")]
+
+mod args;
+mod build;
+mod check;
+mod dcf;
+mod errata;
+mod report;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use args::{Cli, Command};
+use clap::{CommandFactory as _, Parser as _};
+use od_spec::diag::Code;
+
+/// Nothing to object to.
+const FINE: u8 = 0;
+/// Errors in the input, or output that could not be written.
+const ERRORS: u8 = 1;
+/// The command line cannot be understood.
+const USAGE: u8 = 2;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let report = report::Report::new(cli.format.into(), cli.color);
+    let code = match cli.command {
+        Command::Build(args) => build::run(&args, &report),
+        Command::Check(args) => check::run(&args, &report),
+        Command::Dcf(args) => dcf::run(&args, &report),
+        Command::Dump(args) => match report.compile(&args.spec) {
+            Some(system) => report::print(&od_gen::json::dump(&system, &args.device)),
+            None => ERRORS,
+        },
+        Command::Errata(args) => errata::run(&args, &report),
+        Command::Explain { code } => explain(&code),
+        Command::Reference => report::print(&od_spec::reference()),
+        Command::Schema => report::print(&od_spec::json_schema()),
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "odgen", &mut text);
+            let _ = std::io::stdout().write_all(&text);
+            FINE
+        }
+    };
+    ExitCode::from(code)
+}
+
+fn explain(id: &str) -> u8 {
+    if id.eq_ignore_ascii_case("all") {
+        let list =
+            Code::ALL.iter().map(|code| format!("{code}  {:7}  {}\n", code.severity().word(), code.title()));
+        return report::print(&list.collect::<String>());
+    }
+    match Code::from_id(id) {
+        Some(code) => report::print(&format!(
+            "{code} ({}): {}\n\n{}\n",
+            code.severity().word(),
+            code.title(),
+            code.explanation()
+        )),
+        None => {
+            anstream::eprintln!(
+                "error: there is no code `{id}`; codes look like `OD0301`, `odgen explain all` lists them"
+            );
+            USAGE
+        }
+    }
+}

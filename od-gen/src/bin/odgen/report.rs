@@ -1,0 +1,90 @@
+//! Messages to standard error, results to standard output.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::path::Path;
+
+use od_gen::source::{FileLoader, compile_file};
+use od_spec::Compiled;
+use od_spec::diag::render::{self, Format};
+use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::model::{Dictionary, System};
+use od_spec::source::SourceMap;
+
+use super::args::Color;
+use super::{ERRORS, FINE};
+
+/// Writes diagnostics the way the user asked for.
+pub(crate) struct Report {
+    format: Format,
+    colour: bool,
+}
+
+impl Report {
+    pub(crate) fn new(format: Format, color: Color) -> Self {
+        let colour = match color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+        };
+        Self { format, colour }
+    }
+
+    /// Writes diagnostics and, for people, their number.
+    pub(crate) fn show(&self, diagnostics: &Diagnostics, sources: &SourceMap) {
+        let mut text = render::render(diagnostics, sources, self.format, self.colour);
+        let summary = render::summary(diagnostics);
+        if self.format == Format::Human && !summary.is_empty() {
+            let first = diagnostics.iter().next().map_or("", |first| first.code.id());
+            text.push_str(&format!("{summary}; `odgen explain {first}` tells more\n"));
+        }
+        let _ = std::io::stderr().write_all(text.as_bytes());
+    }
+
+    /// Compiles a file and shows what there is to say; `None` when it has errors.
+    pub(crate) fn compile(&self, path: &Path) -> Option<System> {
+        let mut sources = SourceMap::new();
+        let Compiled { system, diagnostics } = compile_file(path, &mut sources, &mut FileLoader::default());
+        self.show(&diagnostics, &sources);
+        system
+    }
+
+    /// Shows one message that has no place in a source text.
+    pub(crate) fn refuse(&self, diagnostic: Diagnostic) -> u8 {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(diagnostic);
+        self.show(&diagnostics, &SourceMap::new());
+        ERRORS
+    }
+
+    /// The device with this key.
+    pub(crate) fn device<'a>(&self, system: &'a System, key: &str) -> Result<&'a Dictionary, u8> {
+        system.device(key).ok_or_else(|| {
+            let keys: Vec<String> = system.devices.iter().map(|device| format!("`{}`", device.key)).collect();
+            self.refuse(
+                Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
+                    .help(format!("the specification has {}", keys.join(", "))),
+            )
+        })
+    }
+}
+
+/// A node-ID from the command line.
+pub(crate) fn node_id(text: &str) -> Result<u8, Diagnostic> {
+    let number =
+        od_spec::yaml::scalar::integer(text.trim()).ok().and_then(|number| u8::try_from(number).ok());
+    number.filter(|node| (1..=127).contains(node)).ok_or_else(|| {
+        Diagnostic::without_place(Code::BadNodeId, format!("found `{text}`, expected a node-ID"))
+            .help("node-IDs are 1 to 127")
+    })
+}
+
+/// Writes a result; a reader that went away early is no error.
+pub(crate) fn print(text: &str) -> u8 {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            anstream::eprintln!("error: cannot write to standard output: {error}");
+            ERRORS
+        }
+        _ => FINE,
+    }
+}

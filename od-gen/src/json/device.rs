@@ -1,0 +1,230 @@
+//! Devices: objects, entries, PDOs.
+
+use od_spec::model::{self, Dictionary, Entry, Mapped, Object, Pdo, PdoTarget, Value, format_value};
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+
+use super::{Words, date_time, entry_id, index, integer, ratio, words};
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) struct DeviceView<'a> {
+    key: &'a str,
+    name: &'a str,
+    about: Words<'a>,
+    product_name: &'a str,
+    product: u32,
+    product_revision: u32,
+    order_code: &'a str,
+    bit_rates: &'a [u16],
+    device_type: u32,
+    granularity: u8,
+    boot_up_master: bool,
+    boot_up_slave: bool,
+    group_messaging: bool,
+    lss: bool,
+    dummies: Vec<&'static str>,
+    file: Json,
+    objects: Vec<ObjectView<'a>>,
+    pdos: Vec<Json>,
+}
+
+impl<'a> DeviceView<'a> {
+    pub(super) fn new(device: &'a Dictionary) -> Self {
+        let (info, file) = (&device.info, &device.file);
+        Self {
+            key: &device.key,
+            name: &device.name,
+            about: words(&device.about),
+            product_name: &info.product_name,
+            product: info.product,
+            product_revision: info.product_revision,
+            order_code: &info.order_code,
+            bit_rates: &info.bit_rates,
+            device_type: info.device_type,
+            granularity: info.granularity,
+            boot_up_master: info.boot_up_master,
+            boot_up_slave: info.boot_up_slave,
+            group_messaging: info.group_messaging,
+            lss: info.lss,
+            dummies: info.dummies.iter().map(|data_type| data_type.name()).collect(),
+            file: json!({
+                "description": file.description,
+                "created": date_time(file.created),
+                "created-by": file.created_by,
+                "modified": date_time(file.modified),
+                "modified-by": file.modified_by,
+                "version": file.version,
+                "revision": file.revision,
+            }),
+            objects: device.objects.values().map(object_view).collect(),
+            pdos: device.pdos.iter().map(pdo_view).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct ObjectView<'a> {
+    index: String,
+    name: &'a str,
+    #[serde(rename = "eds-name", skip_serializing_if = "Option::is_none")]
+    eds_name: Option<String>,
+    kind: String,
+    origin: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    profile: Option<&'a str>,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    differs: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    category: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    since: Option<&'a str>,
+    about: Words<'a>,
+    entries: Vec<EntryView<'a>>,
+}
+
+fn object_view(object: &Object) -> ObjectView<'_> {
+    ObjectView {
+        index: index(object.index),
+        name: &object.name,
+        eds_name: eds_name(&object.name),
+        kind: object.kind.name().to_lowercase(),
+        origin: object.origin.word(),
+        profile: object.profile.as_deref(),
+        differs: &object.differs,
+        category: object.category.map(model::Category::word),
+        since: object.since.as_deref(),
+        about: words(&object.about),
+        entries: object.entries.iter().map(entry_view).collect(),
+    }
+}
+
+/// The name as an EDS holds it, where that differs.
+fn eds_name(name: &str) -> Option<String> {
+    Some(od_spec::ascii::transliterate(name)).filter(|ascii| ascii != name)
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct EntryView<'a> {
+    sub: u8,
+    name: &'a str,
+    #[serde(rename = "eds-name", skip_serializing_if = "Option::is_none")]
+    eds_name: Option<String>,
+    #[serde(rename = "type")]
+    data_type: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    named_type: Option<&'a str>,
+    access: &'static str,
+    locked: bool,
+    pdo: &'static str,
+    default: Option<Json>,
+    low: Option<Json>,
+    high: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    special: Vec<Json>,
+    stored: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    alias: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    category: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    since: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    writable_when: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    bit_errors: Vec<Json>,
+    eds: Json,
+    about: Words<'a>,
+}
+
+fn entry_view(entry: &Entry) -> EntryView<'_> {
+    let (low, high) = entry.hull();
+    EntryView {
+        sub: entry.sub.0,
+        name: &entry.name,
+        eds_name: eds_name(&entry.name),
+        data_type: entry.data_type.name(),
+        named_type: entry.named_type.as_ref().map(|named| named.name.as_str()),
+        access: entry.access.word(),
+        locked: entry.locked,
+        pdo: entry.pdo.word(),
+        default: entry.default.as_ref().map(|default| value(entry, default)),
+        low: low.map(integer),
+        high: high.map(integer),
+        unit: entry.unit.as_ref().map(|unit| unit.name.as_str()),
+        special: entry
+            .special
+            .iter()
+            .map(|special| json!({"value": integer(special.value), "name": special.name, "about": words(&special.about)}))
+            .collect(),
+        stored: entry.stored.word(),
+        alias: entry.alias.as_ref().map(|alias| {
+            json!({
+                "of": entry_id(alias.target),
+                "factor": ratio(alias.factor),
+                "rounding": alias.rounding.word(),
+                "outside": alias.outside.word(),
+            })
+        }),
+        category: entry.category.map(model::Category::word),
+        since: entry.since.as_deref(),
+        writable_when: entry.writable_when.as_ref().map(|condition| condition.text.as_str()),
+        bit_errors: entry
+            .bit_errors
+            .iter()
+            .map(|(bit, codes)| {
+                let codes: Vec<String> = codes.iter().map(|code| format!("0x{code:04X}")).collect();
+                json!({"bit": bit, "errors": codes})
+            })
+            .collect(),
+        eds: json!({
+            "access": entry.eds.access.word(),
+            "default": if entry.eds.default { "written" } else { "withheld" },
+            "flags": entry.eds.flags(),
+        }),
+        about: words(&entry.about),
+    }
+}
+
+/// A value: `raw` for numbers, `formula` for node-ID formulas, `text` as the manual writes it.
+fn value(entry: &Entry, value: &Value) -> Json {
+    match value {
+        Value::Integer(raw) => json!({"raw": integer(*raw), "text": format_value(entry, value)}),
+        Value::NodeId(offset) => json!({"formula": format_value(entry, value), "raw": offset}),
+        Value::Real(number) => json!({"raw": number, "text": format_value(entry, value)}),
+        Value::Text(_) | Value::Bytes(_) => json!({"text": format_value(entry, value)}),
+    }
+}
+
+fn pdo_view(pdo: &Pdo) -> Json {
+    let map: Vec<Json> = pdo
+        .map
+        .iter()
+        .map(|Mapped { target, bits }| match target {
+            PdoTarget::Entry(id) => json!({"entry": entry_id(*id), "bits": bits}),
+            PdoTarget::Dummy(data_type) => json!({"dummy": data_type.name(), "bits": bits}),
+        })
+        .collect();
+    let cob_id = match &pdo.cob_id {
+        Value::NodeId(offset) => json!({"formula": format!("$NODEID+0x{offset:X}"), "raw": offset}),
+        other => json!({"raw": other.integer().map(integer)}),
+    };
+    json!({
+        "direction": pdo.direction.word(),
+        "number": pdo.number,
+        "cob-id": cob_id,
+        "valid": pdo.valid,
+        "transmission": pdo.transmission,
+        "inhibit-time": pdo.inhibit_time,
+        "event-timer": pdo.event_timer,
+        "sync-start": pdo.sync_start,
+        "mapping": if pdo.variable_mapping { "variable" } else { "fixed" },
+        "capacity": pdo.capacity,
+        "map": map,
+        "about": words(&pdo.about),
+    })
+}

@@ -1,0 +1,93 @@
+//! The printed manual: issues, sections, tables.
+
+use std::collections::BTreeMap;
+
+use od_spec::model::{self, System, Table, TableContent};
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+
+use super::{Words, date, index, words};
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) struct DocumentView<'a> {
+    source: Option<&'a str>,
+    revision: Option<IssueView<'a>>,
+    history: Vec<IssueView<'a>>,
+    glossary: BTreeMap<&'a str, Words<'a>>,
+    sections: Vec<SectionView<'a>>,
+}
+
+#[derive(Serialize)]
+struct IssueView<'a> {
+    number: &'a str,
+    date: String,
+    about: Words<'a>,
+}
+
+#[derive(Serialize)]
+struct SectionView<'a> {
+    section: &'a str,
+    title: Words<'a>,
+    tables: Vec<TableView<'a>>,
+}
+
+#[derive(Serialize)]
+struct TableView<'a> {
+    number: Option<u16>,
+    title: Words<'a>,
+    content: Json,
+}
+
+pub(super) fn document(system: &System) -> DocumentView<'_> {
+    let document = &system.document;
+    DocumentView {
+        source: document.source.as_deref(),
+        revision: document.revision.as_ref().map(issue),
+        history: document.history.iter().map(issue).collect(),
+        glossary: document.glossary.iter().map(|(name, text)| (name.as_str(), words(text))).collect(),
+        sections: document
+            .sections
+            .iter()
+            .map(|section| SectionView {
+                section: &section.number,
+                title: words(&section.title),
+                tables: section.tables.iter().map(table).collect(),
+            })
+            .collect(),
+    }
+}
+
+fn issue(issue: &model::Issue) -> IssueView<'_> {
+    IssueView { number: &issue.number, date: date(issue.date), about: words(&issue.about) }
+}
+
+fn table(table: &Table) -> TableView<'_> {
+    let indices = |list: &[model::Index]| list.iter().map(|one| index(*one)).collect::<Vec<_>>();
+    let codes = |list: &[u16]| -> Json {
+        if list.is_empty() { json!("all") } else { list.iter().map(|code| format!("0x{code:04X}")).collect() }
+    };
+    let content = match &table.content {
+        TableContent::Overview(list) => json!({"overview": indices(list)}),
+        TableContent::Objects(list) => json!({"objects": indices(list)}),
+        TableContent::Bits(name) => json!({"bits": name}),
+        TableContent::Values(name) => json!({"values": name}),
+        TableContent::Errors(list) => json!({"errors": codes(list)}),
+        TableContent::Reactions(list) => json!({"reactions": codes(list)}),
+        TableContent::States(name) => json!({"states": name}),
+        TableContent::Transitions(name) => json!({"transitions": name}),
+        TableContent::Commands(name) => json!({"commands": name}),
+        TableContent::Ladder(name) => json!({"ladder": name}),
+        TableContent::Pdos(pdos) => {
+            json!({"pdos": {"device": pdos.device, "direction": pdos.direction.word()}})
+        }
+        TableContent::Rows { columns, rows } => {
+            let columns: Vec<_> = columns.iter().map(words).collect();
+            let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(words).collect()).collect();
+            json!({"rows": {"columns": columns, "rows": rows}})
+        }
+        TableContent::Glossary => json!({"glossary": true}),
+        TableContent::History => json!({"history": true}),
+    };
+    TableView { number: table.number, title: words(&table.title), content }
+}

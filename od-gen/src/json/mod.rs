@@ -1,0 +1,96 @@
+//! The resolved model as JSON, for programs and for comparisons. The format is described in `docs/json.md`.
+
+mod device;
+mod document;
+mod rules;
+mod types;
+
+use std::collections::BTreeMap;
+
+use od_spec::model::{self, Date, DateTime, Dictionary, EntryId, System, Text};
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+
+use device::DeviceView;
+use document::DocumentView;
+use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
+use types::{TypeView, UnitView};
+
+/// Version of the format; raised when a consumer would have to change.
+const FORMAT: u32 = 1;
+
+/// The dump of a system, or of some of its devices; ends with a line break.
+pub fn dump(system: &System, devices: &[String]) -> String {
+    let wanted = |device: &&Dictionary| devices.is_empty() || devices.contains(&device.key);
+    let dump = SystemView {
+        od_json: FORMAT,
+        title: &system.title,
+        languages: &system.languages,
+        vendor: json!({"name": system.vendor.name, "number": system.vendor.number}),
+        document: document::document(system),
+        units: system.units.values().map(|unit| types::unit_view(unit)).collect(),
+        types: system.types.values().map(|named| types::type_view(named)).collect(),
+        devices: system.devices.iter().filter(wanted).map(DeviceView::new).collect(),
+        errors: system.errors.iter().map(rules::error).collect(),
+        state_machines: system.machines.values().map(rules::machine).collect(),
+        constraints: system.constraints.iter().map(rules::constraint).collect(),
+        errata: system.errata.iter().map(rules::erratum).collect(),
+    };
+    // Maps with text keys and plain values only: serialising cannot fail.
+    let mut text = serde_json::to_string_pretty(&dump).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct SystemView<'a> {
+    od_json: u32,
+    title: &'a str,
+    languages: &'a [String],
+    vendor: Json,
+    document: DocumentView<'a>,
+    units: Vec<UnitView<'a>>,
+    types: Vec<TypeView<'a>>,
+    devices: Vec<DeviceView<'a>>,
+    errors: Vec<ErrorView<'a>>,
+    state_machines: Vec<MachineView<'a>>,
+    constraints: Vec<ConstraintView<'a>>,
+    errata: Vec<ErratumView<'a>>,
+}
+
+type Words<'a> = &'a BTreeMap<String, String>;
+
+fn words(text: &Text) -> Words<'_> {
+    &text.0
+}
+
+fn index(index: model::Index) -> String {
+    format!("0x{:04X}", index.0)
+}
+
+/// `0x6040`, or `0x30FA.3` for a sub-index other than 0.
+fn entry_id(id: EntryId) -> String {
+    if id.sub.0 == 0 { index(id.index) } else { format!("{}.{}", index(id.index), id.sub) }
+}
+
+fn date(date: Date) -> String {
+    format!("{:04}-{:02}-{:02}", date.year, date.month, date.day)
+}
+
+fn date_time(at: DateTime) -> String {
+    format!("{} {:02}:{:02}", date(at.date), at.hour, at.minute)
+}
+
+fn ratio(ratio: model::Ratio) -> [Json; 2] {
+    [integer(ratio.numerator()), integer(ratio.denominator())]
+}
+
+/// Any integer of CANopen fits 64 bits, signed or unsigned.
+fn integer(value: i128) -> Json {
+    match (i64::try_from(value), u64::try_from(value)) {
+        (Ok(value), _) => json!(value),
+        (_, Ok(value)) => json!(value),
+        _ => json!(value.to_string()),
+    }
+}

@@ -1,0 +1,140 @@
+//! Error codes, state machines, constraints, errata.
+
+use od_spec::model::{Constraint, Erratum, ErratumPlace, ErrorCode, PatternBit, StateMachine};
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+
+use super::{Words, entry_id, index, words};
+
+#[derive(Serialize)]
+pub(super) struct ErrorView<'a> {
+    code: String,
+    name: &'a str,
+    on: &'a [String],
+    priority: Option<&'a str>,
+    reaction: Words<'a>,
+    about: Words<'a>,
+}
+
+pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
+    ErrorView {
+        code: format!("0x{:04X}", error.code),
+        name: &error.name,
+        on: &error.devices,
+        priority: error.priority.as_deref(),
+        reaction: words(&error.reaction),
+        about: words(&error.about),
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct MachineView<'a> {
+    name: &'a str,
+    on: &'a [String],
+    status: String,
+    command: String,
+    states: Vec<Json>,
+    transitions: Vec<Json>,
+    commands: Vec<Json>,
+}
+
+fn pattern(bits: &[PatternBit]) -> String {
+    bits.iter()
+        .map(|bit| match bit {
+            PatternBit::Zero => '0',
+            PatternBit::One => '1',
+            PatternBit::Any => 'x',
+            PatternBit::Rising => 'r',
+            PatternBit::Falling => 'f',
+        })
+        .collect()
+}
+
+pub(super) fn machine(machine: &StateMachine) -> MachineView<'_> {
+    MachineView {
+        name: &machine.name,
+        on: &machine.devices,
+        status: entry_id(machine.status),
+        command: entry_id(machine.command),
+        states: machine
+            .states
+            .iter()
+            .map(|state| json!({"name": state.name, "pattern": pattern(&state.pattern.0), "about": words(&state.about)}))
+            .collect(),
+        transitions: machine
+            .transitions
+            .iter()
+            .map(|transition| {
+                json!({
+                    "number": transition.number,
+                    "from": transition.from,
+                    "to": transition.to,
+                    "event": words(&transition.event),
+                    "action": words(&transition.action),
+                })
+            })
+            .collect(),
+        commands: machine
+            .commands
+            .iter()
+            .map(|command| {
+                json!({
+                    "name": command.name,
+                    "pattern": pattern(&command.pattern.0),
+                    "send": command.send,
+                    "transitions": command.transitions,
+                    "about": words(&command.about),
+                })
+            })
+            .collect(),
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct ConstraintView<'a> {
+    name: &'a str,
+    devices: &'a [String],
+    require: &'a str,
+    when: Option<&'a str>,
+    about: Words<'a>,
+}
+
+pub(super) fn constraint(constraint: &Constraint) -> ConstraintView<'_> {
+    ConstraintView {
+        name: &constraint.name,
+        devices: &constraint.devices,
+        require: &constraint.require.text,
+        when: constraint.when.as_ref().map(|when| when.text.as_str()),
+        about: words(&constraint.about),
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct ErratumView<'a> {
+    at: Vec<String>,
+    on: &'a [String],
+    kind: &'static str,
+    place: Words<'a>,
+    prints: Words<'a>,
+    reads: Words<'a>,
+    because: Words<'a>,
+}
+
+pub(super) fn erratum(erratum: &Erratum) -> ErratumView<'_> {
+    ErratumView {
+        at: erratum
+            .at
+            .iter()
+            .map(|place| match place {
+                ErratumPlace::Object(one) => index(*one),
+                ErratumPlace::Entry(id) => format!("{}.{}", index(id.index), id.sub),
+            })
+            .collect(),
+        on: &erratum.devices,
+        kind: erratum.kind.word(),
+        place: words(&erratum.place),
+        prints: words(&erratum.prints),
+        reads: words(&erratum.reads),
+        because: words(&erratum.because),
+    }
+}

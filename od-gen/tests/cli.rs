@@ -1,0 +1,297 @@
+//! The command as its users meet it: exit codes, messages, files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use insta::assert_snapshot;
+
+const PITCH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../od-spec/devices/pitch-control-system.od.yaml");
+
+const LAMP: &str = "\
+od-spec: 1
+title: Lamp
+uses: [cia301]
+devices:
+  lamp: {name: Lamp, bit-rates: [125, 500], features: [heartbeat producer]}
+units:
+  percent: {symbol: \"%\"}
+objects:
+  0x2000: {name: brightness, type: unsigned8, unit: percent, access: rw, pdo: receive, default: 80 %, max: 100 %}
+pdos:
+  lamp:
+    receive: {1: {map: [brightness]}}
+";
+
+/// A directory of its own for one test, removed at the end.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("odgen-cli-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn odgen(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_odgen")).current_dir(directory).args(arguments).output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("no signal")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn files(directory: &Path) -> Vec<String> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(directory).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.file_type().unwrap().is_dir() {
+            names.extend(files(&entry.path()).into_iter().map(|below| format!("{name}/{below}")));
+        } else {
+            names.push(name);
+        }
+    }
+    names.sort();
+    names
+}
+
+#[test]
+fn build_writes_every_file_and_says_what_it_is_for() {
+    let scratch = Scratch::new("build");
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out", "--node", "5"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_snapshot!(stdout(&output));
+    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.dcf", "eds/lamp.eds", "lamp.json"]);
+    let again = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out", "--node", "5"]);
+    assert!(stdout(&again).contains("0 files changed, 3 unchanged"), "{}", stdout(&again));
+}
+
+#[test]
+fn build_without_a_specification_makes_the_shipped_ones() {
+    let scratch = Scratch::new("shipped");
+    let output = odgen(&scratch.0, &["build"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let made = files(&scratch.0);
+    assert_eq!(
+        made,
+        [
+            "generated/eds/pmc.dcf",
+            "generated/eds/pmc.eds",
+            "generated/eds/pmm.dcf",
+            "generated/eds/pmm.eds",
+            "generated/pitch-control-system.json"
+        ]
+    );
+}
+
+#[test]
+fn an_error_in_one_specification_writes_nothing_at_all() {
+    let scratch = Scratch::new("nothing");
+    scratch.file("good.od.yaml", LAMP);
+    scratch.file("bad.od.yaml", LAMP.replace("access: rw", "acess: rw"));
+    let output = odgen(&scratch.0, &["build", "good.od.yaml", "bad.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert_eq!(stdout(&output), "");
+    assert!(!scratch.0.join("out").exists());
+    assert_snapshot!(stderr(&output));
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_written_leaves_the_old_files() {
+    let scratch = Scratch::new("unwritable");
+    scratch.file("lamp.od.yaml", LAMP);
+    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"])), 0);
+    let before = fs::read(scratch.0.join("out/eds/lamp.eds")).unwrap();
+    scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
+    // A directory where a file should go: the one obstacle that also stops the superuser.
+    fs::remove_file(scratch.0.join("out/lamp.json")).unwrap();
+    fs::create_dir(scratch.0.join("out/lamp.json")).unwrap();
+    let output = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("error[OD0709]: cannot write out/lamp.json"), "{}", stderr(&output));
+    assert_eq!(fs::read(scratch.0.join("out/eds/lamp.eds")).unwrap(), before);
+    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.eds"]);
+}
+
+#[test]
+fn a_full_disk_leaves_the_old_files() {
+    let scratch = Scratch::new("full");
+    scratch.file("lamp.od.yaml", LAMP);
+    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"])), 0);
+    let before = fs::read(scratch.0.join("out/lamp.json")).unwrap();
+    scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
+    // A limit on the size of written files stands for the full disk: the EDS fits, the JSON does not.
+    let limited = format!(
+        "ulimit -f 10; trap '' XFSZ; exec {} build lamp.od.yaml --out out",
+        env!("CARGO_BIN_EXE_odgen")
+    );
+    let output = Command::new("bash").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
+    assert_eq!(code(&output), 1, "{}", stdout(&output));
+    assert!(stderr(&output).contains("error[OD0709]"), "{}", stderr(&output));
+    assert_eq!(fs::read(scratch.0.join("out/lamp.json")).unwrap(), before);
+    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.eds", "lamp.json"]);
+}
+
+#[test]
+fn two_devices_of_one_key_are_refused() {
+    let scratch = Scratch::new("clash");
+    scratch.file("a.od.yaml", LAMP);
+    scratch.file("b.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "a.od.yaml", "b.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("two devices would both write eds/lamp.eds"), "{}", stderr(&output));
+    assert!(!scratch.0.join("out").exists());
+}
+
+#[test]
+fn check_says_nothing_when_all_is_well() {
+    let scratch = Scratch::new("check");
+    let output = odgen(&scratch.0, &["check", PITCH]);
+    assert_eq!((code(&output), stdout(&output), stderr(&output)), (0, String::new(), String::new()));
+}
+
+#[test]
+fn warnings_fail_only_when_denied() {
+    let scratch = Scratch::new("warn");
+    scratch.file("lamp.od.yaml", LAMP.replace(", features: [heartbeat producer]", ""));
+    let output = odgen(&scratch.0, &["check", "lamp.od.yaml", "--format", "short"]);
+    assert_eq!(code(&output), 0);
+    assert_snapshot!(stderr(&output));
+    assert_eq!(code(&odgen(&scratch.0, &["check", "lamp.od.yaml", "--deny-warnings"])), 1);
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let scratch = Scratch::new("unreadable");
+    scratch.file("latin1.od.yaml", b"od-spec: 1\ntitle: Gr\xf6\xdfe\n");
+    fs::create_dir(scratch.0.join("directory.od.yaml")).unwrap();
+    let arguments = ["check", "--format", "short", "missing.od.yaml", "directory.od.yaml", "latin1.od.yaml"];
+    let output = odgen(&scratch.0, &arguments);
+    assert_eq!(code(&output), 1);
+    assert_snapshot!(stderr(&output));
+}
+
+#[test]
+fn a_hundred_megabytes_of_garbage_are_refused_quickly() {
+    let scratch = Scratch::new("huge");
+    let path = scratch.0.join("huge.od.yaml");
+    let file = fs::File::create(&path).unwrap();
+    file.set_len(100 << 20).unwrap();
+    let output = odgen(&scratch.0, &["check", "huge.od.yaml", "--format", "short"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).starts_with("error[OD0103]"), "{}", stderr(&output));
+}
+
+#[test]
+fn dcf_takes_values_by_index_by_name_and_in_units() {
+    let scratch = Scratch::new("dcf");
+    let arguments = [
+        "dcf",
+        PITCH,
+        "--device",
+        "pmc",
+        "--node",
+        "5",
+        "--bit-rate",
+        "500",
+        "--set",
+        "607D.2=9500",
+        "--set",
+        "EFC target position=91.50 °",
+        "--set",
+        "sensor selection code=-1",
+    ];
+    let output = odgen(&scratch.0, &arguments);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = fs::read_to_string(scratch.0.join("pmc-5.dcf")).unwrap();
+    let section = |name: &str| {
+        let start = text.find(&format!("[{name}]\r\n")).unwrap_or_else(|| panic!("no [{name}]"));
+        text[start..].split("\r\n\r\n").next().unwrap().to_owned()
+    };
+    assert!(section("DeviceComissioning").contains("NodeID=5\r\nNodeName=PMC 5\r\nBaudrate=500\r\n"));
+    assert!(section("607Dsub2").contains("ParameterValue=9500"));
+    assert!(section("567A").contains("ParameterValue=9150"));
+    assert!(section("606A").contains("ParameterValue=-1"));
+    assert!(section("1014").contains("DefaultValue=0x00000085"), "{}", section("1014"));
+    assert!(!text.contains("$NODEID"));
+}
+
+#[test]
+fn dcf_refuses_what_the_device_would_refuse() {
+    let scratch = Scratch::new("refuse");
+    let refused = |extra: &[&str]| {
+        let mut arguments = vec!["--format", "short", "dcf", PITCH, "--device", "pmc"];
+        if !extra.contains(&"--node") {
+            arguments.extend(["--node", "5"]);
+        }
+        arguments.extend(extra);
+        let output = odgen(&scratch.0, &arguments);
+        assert_eq!(code(&output), 1, "{}", stdout(&output));
+        assert!(files(&scratch.0).is_empty());
+        stderr(&output)
+    };
+    assert_snapshot!(refused(&["--set", "6510.10=16"]));
+    assert_snapshot!(refused(&["--set", "statusword=1", "--set", "statuswort=1"]));
+    assert_snapshot!(refused(&["--set", "607D.1=9000", "--set", "607D.2=100"]));
+    assert_snapshot!(refused(&["--bit-rate", "333"]));
+    assert_snapshot!(refused(&["--node", "0"]));
+}
+
+#[test]
+fn the_command_line_has_its_own_exit_code() {
+    let scratch = Scratch::new("usage");
+    assert_eq!(code(&odgen(&scratch.0, &["frobnicate"])), 2);
+    assert_eq!(code(&odgen(&scratch.0, &["check"])), 2);
+    assert_eq!(code(&odgen(&scratch.0, &["explain", "OD9999"])), 2);
+    assert_eq!(code(&odgen(&scratch.0, &["--help"])), 0);
+}
+
+#[test]
+fn explain_errata_and_completions() {
+    let scratch = Scratch::new("texts");
+    assert_snapshot!(stdout(&odgen(&scratch.0, &["explain", "od0507"])));
+    let errata = stdout(&odgen(&scratch.0, &["errata", PITCH, "--at", "6041", "--kind", "access"]));
+    assert!(errata.contains("6041h [access]"), "{errata}");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let output = odgen(&scratch.0, &["completions", shell]);
+        assert!(code(&output) == 0 && stdout(&output).contains("deny-warnings"), "{shell}");
+    }
+    for (command, start) in [("reference", "# "), ("schema", "{")] {
+        assert!(stdout(&odgen(&scratch.0, &[command])).starts_with(start), "{command}");
+    }
+}
+
+#[test]
+fn json_messages_are_one_object_a_line() {
+    let scratch = Scratch::new("json");
+    scratch.file("lamp.od.yaml", LAMP.replace("unsigned8", "unsigned9").replace("125, 500", "124"));
+    let output = odgen(&scratch.0, &["--format", "json", "check", "lamp.od.yaml"]);
+    assert_eq!(code(&output), 1);
+    let text = stderr(&output);
+    assert_eq!(text.lines().count(), 2, "{text}");
+    assert!(text.lines().all(|line| line.starts_with("{\"code\":\"OD0") && line.ends_with('}')), "{text}");
+}

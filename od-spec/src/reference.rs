@@ -1,0 +1,685 @@
+//! The language reference: the key tables as Markdown, with the rules that no table can hold between them.
+//!
+//! What a single key means stands in [`crate::keys`] and nowhere else; the paragraphs here are about what several
+//! keys have to do with each other.
+
+use std::fmt::Write as _;
+
+use crate::compile::LIBRARIES;
+use crate::diag::Diagnostics;
+use crate::json_schema::{slug, title};
+use crate::keys::{self, ENTRY, Key, KeyKind, Keys, Shape};
+use crate::model::DataType;
+use crate::source::SourceMap;
+use crate::yaml::{self, Node};
+
+/// Prints the language reference in Markdown.
+pub fn reference() -> String {
+    let mut out = String::from(INTRODUCTION);
+    for chapter in CHAPTERS {
+        let _ = write!(out, "\n## {}\n", chapter.title);
+        paragraph(chapter.text, &mut out);
+        for section in chapter.sections {
+            let _ = write!(out, "\n### {}\n\n", heading(section.keys));
+            table(section.keys, &mut out);
+            paragraph(section.rules, &mut out);
+        }
+    }
+    for (mark, words) in WORDS {
+        out = out.replace(mark, &word_table(words));
+    }
+    let types = DataType::ALL.map(|data_type| format!("`{}`", data_type.name())).join(", ");
+    out.replace("{TYPES}", &types).replace("{FEATURES}", &features())
+}
+
+/// The features of the built-in libraries, in the words of the libraries.
+fn features() -> String {
+    let mut out = String::from("| Feature | Objects | Meaning |\n| --- | --- | --- |\n");
+    for (name, text) in LIBRARIES {
+        let mut sources = SourceMap::new();
+        let id = sources.add(*name, *text);
+        let library = yaml::parse(id, sources.file(id), &mut Diagnostics::new());
+        let features = library.as_ref().and_then(|library| library.get("features"));
+        for (feature, facts) in features.map(Node::entries).unwrap_or_default() {
+            let text = |key: &str| facts.get(key).and_then(Node::text).map_or("", |text| text.value);
+            let objects: Vec<&str> = facts
+                .get("objects")
+                .map(Node::items)
+                .unwrap_or_default()
+                .iter()
+                .filter_map(|index| index.text()?.value.strip_prefix("0x"))
+                .collect();
+            let objects = objects.iter().map(|index| format!("{index}h")).collect::<Vec<_>>().join(", ");
+            let implied = if text("implied") == "yes" { ", implied" } else { "" };
+            let _ = writeln!(out, "| `{}`{implied} | {objects} | {} |", feature.value, cell(text("about")));
+        }
+    }
+    out.truncate(out.trim_end().len());
+    out
+}
+
+fn paragraph(text: &str, out: &mut String) {
+    if !text.is_empty() {
+        let _ = write!(out, "\n{}\n", text.trim());
+    }
+}
+
+/// `an EDS header` → `EDS header`, `a device` → `Device`.
+fn heading(keys: &Keys) -> String {
+    let mut letters = title(keys.name).chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn link(keys: &Keys) -> String {
+    format!("[{}](#{})", keys.name, slug(keys.name))
+}
+
+/// One row per key. Keys that a map shares with entries are named below the table only.
+fn table(keys: &Keys, out: &mut String) {
+    let (own, shared) = split(keys);
+    let examples = own.iter().any(|key| key.example.is_some());
+    out.push_str(if examples {
+        "| Key | Value | Required | Meaning | Example |\n| --- | --- | --- | --- | --- |\n"
+    } else {
+        "| Key | Value | Required | Meaning |\n| --- | --- | --- | --- |\n"
+    });
+    for key in own {
+        let required = if key.required { "yes " } else { "" };
+        let _ =
+            write!(out, "| `{}` | {} | {required}| {} |", key.name, cell(&value(key.shape)), cell(key.about));
+        if examples {
+            let example = key.example.map(|example| format!(" `{}`", cell(example))).unwrap_or_default();
+            let _ = write!(out, "{example} |");
+        }
+        out.push('\n');
+    }
+    if !shared.is_empty() {
+        let names = shared.iter().map(|key| format!("`{}`", key.name)).collect::<Vec<_>>().join(", ");
+        let _ = write!(out, "\nAnd these keys of {}: {names}.\n", link(&ENTRY));
+    }
+}
+
+/// A map's own keys, and those that it shares with entries if it has all that an entry can say about its value.
+fn split(keys: &Keys) -> (Vec<&Key>, Vec<&Key>) {
+    let is_shared =
+        |key: &&Key| ENTRY.keys.iter().any(|entry| entry.name == key.name && entry.about == key.about);
+    let shared = keys.keys.iter().filter(is_shared).count();
+    if keys.name == ENTRY.name || shared + 1 < ENTRY.keys.len() {
+        return (keys.keys.iter().collect(), Vec::new());
+    }
+    // An object's name is its own even where the words are the same.
+    keys.keys.iter().partition(|key| key.name == "name" || !is_shared(key))
+}
+
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
+/// What a value looks like, in a few words.
+fn value(shape: Shape) -> String {
+    match shape {
+        Shape::Text => "text".to_owned(),
+        Shape::Words => "text, or text by language".to_owned(),
+        Shape::Choice(words) => one_of(words),
+        Shape::YesNo => one_of(&["yes", "no"]),
+        Shape::Integer(low, high) if low == high => format!("`{low}`"),
+        Shape::Integer(low, high) => format!("integer, {low} to {}", limit(high)),
+        Shape::Date => "date".to_owned(),
+        Shape::DateTime => "date and time".to_owned(),
+        Shape::Index => "index".to_owned(),
+        Shape::Entry => "entry".to_owned(),
+        Shape::Access => "access".to_owned(),
+        Shape::Type => "type".to_owned(),
+        Shape::Value => "value".to_owned(),
+        Shape::Ratio => "fraction".to_owned(),
+        Shape::Base => "fraction and symbol".to_owned(),
+        Shape::Condition => "condition".to_owned(),
+        Shape::Pattern => "bit pattern".to_owned(),
+        Shape::Map(keys) => link(keys),
+        Shape::MapOf(kind, inner) => format!("map: {} → {}", key_kind(kind), value(*inner)),
+        Shape::List(Shape::List(inner)) => format!("list of lists: {}", value(**inner)),
+        Shape::List(inner) => format!("list: {}", value(*inner)),
+        Shape::OneOrMore(inner) => format!("{}, or a list of such", value(*inner)),
+        Shape::ShortOr(short, keys) => format!("{} or {}", value(*short), link(keys)),
+    }
+}
+
+fn limit(high: i128) -> String {
+    if high >= 0xFFFF { format!("0x{high:X}") } else { high.to_string() }
+}
+
+fn one_of(words: &[&str]) -> String {
+    let mut words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    let last = words.pop().unwrap_or_default();
+    if words.is_empty() { last } else { format!("{} or {last}", words.join(", ")) }
+}
+
+const fn key_kind(kind: KeyKind) -> &'static str {
+    match kind {
+        KeyKind::Name => "name",
+        KeyKind::Language => "language code",
+        KeyKind::Index => "index",
+        KeyKind::SubIndex => "sub-index, 1 to 254",
+        KeyKind::Bits => "bit or bits",
+        KeyKind::Integer => "integer",
+        KeyKind::ErrorCodes => "error code or codes",
+        KeyKind::PdoNumber => "number, 1 to 512",
+        KeyKind::Number => "number, 0 to 255",
+    }
+}
+
+fn word_table(words: &[(&str, &str)]) -> String {
+    let mut out = String::from("| Word | Meaning |\n| --- | --- |");
+    for (word, about) in words {
+        let _ = write!(out, "\n| `{word}` | {about} |");
+    }
+    out
+}
+
+/// Words of the language that are explained one by one, and where.
+const WORDS: [(&str, &[(&str, &str)]); 4] =
+    [("{STORAGE}", STORAGE), ("{ERRATA}", ERRATA), ("{ROUNDING}", ROUNDING), ("{OUTSIDE}", OUTSIDE)];
+
+struct Chapter {
+    title: &'static str,
+    text: &'static str,
+    sections: &'static [Section],
+}
+
+struct Section {
+    keys: &'static Keys,
+    rules: &'static str,
+}
+
+const fn plain(keys: &'static Keys) -> Section {
+    Section { keys, rules: "" }
+}
+
+const INTRODUCTION: &str = r#"# The specification language
+
+<!-- Printed by `cargo xtask generate` from the tables by which the compiler reads specifications. Do not edit. -->
+
+A specification is one YAML file, `NAME.od.yaml`, that describes the CANopen object dictionaries of one device or of several that
+belong together: their objects with types, units, limits and defaults, their PDOs and error codes, the state machines behind control
+and status words, and, if wanted, the printed manual's tables. The compiler reads it, checks it, and makes Rust code, EDS and DCF files
+and documentation from it.
+
+This is a complete specification of a small I/O module:
+
+```yaml
+od-spec: 1
+title: I/O module
+vendor: {name: Example Ltd}
+uses: [cia301]                                  # the library of the standard objects, 1000h to 1FFFh
+devices:
+  io:
+    name: I/O module
+    bit-rates: [125, 250, 500, 1000]
+    features: [heartbeat producer, emergency, store parameters]
+units:
+  decivolt: {symbol: V, scale: 1/10}            # one raw step is 0.1 V
+types:
+  output mode: {base: unsigned8, values: {0: off, 1: on, 2: automatic}}
+  module status: {base: unsigned8, bits: {0: ready, 1: overload, 2..7: reserved}}
+objects:
+  0x2000: {name: status, type: module status, access: ro, pdo: transmit}
+  0x2001: {name: mode, type: output mode, access: rw, pdo: receive, default: automatic}
+  0x2010:                                       # an ARRAY: sub-indices 1 to 4 are `input 1` to `input 4`
+    name: input voltage
+    array: {count: 4, name: "input {n}", type: integer32, unit: decivolt, access: ro}
+  0x2020:                                       # a RECORD: the members take what stands at the object
+    name: supply
+    type: unsigned16
+    unit: decivolt
+    access: rw
+    stored: application
+    record:
+      1: {name: lower limit, default: 18.0 V}
+      2: {name: upper limit, default: 30.0 V, max: 36.0 V}
+  0x2030: {name: first input, alias: 0x2010.1, type: integer16, pdo: transmit}   # 2010h.1 in 16 bits
+pdos:
+  io:
+    receive: {1: {map: [mode]}}
+    transmit: {1: {map: [status, first input]}}
+constraints:
+  limits in order: {require: "0x2020.1 < 0x2020.2"}
+```
+
+The dictionary of this device holds more than is written. The library adds 1000h, 1001h and 1018h, which every device has, and the
+objects of the named features. Sub-index 0 of 2010h and 2020h follows from what stands below it, and 1400h, 1600h, 1800h and 1A00h follow
+from `pdos:`. Defaults are written as people read them, in volts or by name, and are checked: against their type, their limits, and the
+constraint at the end.
+"#;
+
+static CHAPTERS: &[Chapter] = &[
+    Chapter { title: "How a file is read", text: READING, sections: &[] },
+    Chapter { title: "How entries are named", text: NAMING, sections: &[] },
+    Chapter {
+        title: "The file",
+        text: "",
+        sections: &[
+            Section { keys: &keys::SPEC, rules: TOP },
+            plain(&keys::SOURCE),
+            plain(&keys::REVISION),
+            plain(&keys::VENDOR),
+        ],
+    },
+    Chapter {
+        title: "Devices",
+        text: "",
+        sections: &[
+            Section { keys: &keys::DEVICE, rules: DEVICES },
+            Section { keys: &keys::FILE, rules: FILES },
+        ],
+    },
+    Chapter {
+        title: "Units and types",
+        text: "",
+        sections: &[
+            Section { keys: &keys::UNIT, rules: UNITS },
+            Section { keys: &keys::TYPE, rules: TYPES },
+            plain(&keys::ENUM_VALUE),
+            Section { keys: &keys::BIT, rules: BITS },
+            plain(&keys::MODE_BIT),
+        ],
+    },
+    Chapter {
+        title: "Objects and entries",
+        text: OBJECTS,
+        sections: &[
+            Section { keys: &keys::OBJECT, rules: INHERITANCE },
+            plain(&keys::ARRAY),
+            Section { keys: &keys::SUB0, rules: SUB0 },
+            Section { keys: &ENTRY, rules: ENTRIES },
+            Section { keys: &keys::SPECIAL, rules: SPECIAL },
+            Section { keys: &keys::ENTRY_EDS_KEYS, rules: EDS },
+        ],
+    },
+    Chapter { title: "Aliases", text: ALIASES, sections: &[] },
+    Chapter {
+        title: "Libraries",
+        text: USES,
+        sections: &[Section { keys: &keys::FEATURE, rules: FEATURES }],
+    },
+    Chapter {
+        title: "PDOs",
+        text: "",
+        sections: &[plain(&keys::PDOS), Section { keys: &keys::PDO, rules: PDOS }],
+    },
+    Chapter { title: "Error codes", text: "", sections: &[Section { keys: &keys::ERROR, rules: ERRORS }] },
+    Chapter {
+        title: "State machines",
+        text: MACHINES,
+        sections: &[
+            plain(&keys::MACHINE),
+            plain(&keys::STATE),
+            plain(&keys::TRANSITION),
+            plain(&keys::COMMAND),
+        ],
+    },
+    Chapter {
+        title: "Constraints",
+        text: "",
+        sections: &[Section { keys: &keys::CONSTRAINT, rules: CONSTRAINTS }],
+    },
+    Chapter {
+        title: "The printed manual",
+        text: MANUAL,
+        sections: &[
+            Section { keys: &keys::ERRATUM, rules: "What kinds of fact there are:\n\n{ERRATA}" },
+            plain(&keys::SECTION),
+            Section { keys: &keys::TABLE, rules: TABLES },
+            plain(&keys::TABLE_PDOS),
+            Section { keys: &keys::TABLE_ROWS, rules: "A row has one cell per column." },
+        ],
+    },
+];
+
+const READING: &str = r#"
+A specification is one YAML document in UTF-8. The compiler reports every mistake of a file in one run, each with its place and a code;
+`odgen explain OD0201` says more about a code. A key that the language does not have at a place is a mistake, and so is a key that stands
+twice.
+
+Every scalar is a text until the place where it stands says what it is. `name: no` is a name of two letters, `number: 1.10` keeps its
+zero, `0x10` is a number where a number is expected and a text where a text is. Quotes change nothing about that; they are needed only where
+YAML itself would misread a text: one that holds `: ` or ` #`, or starts with a sign such as `%`, `*`, `&`, `{`, `[`, `>` or a quote.
+
+| Value | Written as |
+| --- | --- |
+| text | any scalar, except an empty one, `~` and `null`, unless they are quoted |
+| text by language | a map such as `{en: speed, de: Drehzahl}`; a plain text is in the first of the file's `languages:` |
+| integer | decimal, or `0x`, `0b` or `0o` and digits, with `_` between digits and a sign if need be: `-40`, `0x1F`, `100_000`. A decimal number does not start with `0` |
+| date; date and time | `2009-05-27`; `2009-05-27 09:00` |
+| index | an integer from 1 to 0xFFFF: `0x6040` |
+| bit or bits | an integer from 0 to 63, or a run: `4`, `0..3` |
+| error code or codes | a 16-bit integer, or a run: `0x3210`, `0x3281..0x3288` |
+| entry | see [how entries are named](#how-entries-are-named) |
+| access, type, value | see [an entry](#entry) |
+| fraction | a positive number, or two with `/` between them: `1/10`, `0.01`, `5` |
+| fraction and symbol | a fraction without blanks, a blank, a symbol: `1/1000 V` |
+| condition | see [constraints](#constraint) |
+| bit pattern | 8, 16 or 32 places, most significant bit first: `0`, `1`, `x` (either), `r` (rising edge) or `f` (falling edge). Blanks are free: `xxxx xxxx x01x 0001` |
+
+A list has to be a list even if it has one item, except where the tables say "or a list of such". A map whose keys are data, such as
+`objects:`, may be left empty. Where keys are numbers, two spellings of one number are one key: `10` and `0x0A` cannot stand side by
+side. YAML anchors and aliases (`&name`, `*name`) may repeat a value; merge keys (`<<`) and tags (`!name`) are refused.
+
+Editors that know JSON Schema complete keys, show what they mean, and mark most misshapen values while a file is typed. The schema is
+`od-spec/schema/od.schema.json`; for the language server of YAML, name it in the first line of the file:
+`# yaml-language-server: $schema=PATH/od.schema.json`.
+"#;
+
+const NAMING: &str = r"
+Other parts of a specification refer to an entry by its index or by its name.
+
+By index: `0x6064`, or `0x30FA.3` with a sub-index, which is decimal unless it starts with `0x`. Without a sub-index, sub-index 0 is
+meant: the value of a VAR. An index may be decimal as well, so that hexadecimal ones need their `0x`: `6064` is 17B0h.
+
+By name: `controlword` for an object, `dc-link voltage.nominal value` for an element or member: the object's name, a dot, its own name.
+Case and blanks count. A text that starts with `0x`, or that consists of digits, dots and `_` only, is always an index.
+
+[Conditions](#constraint) refer to entries by hexadecimal index only and may name another device before it: `pmc:0x6510.4`. At an
+[erratum](#erratum), an index without sub-index means the whole object.
+";
+
+const TOP: &str = r"
+The keys may stand in any order. Lists, and the maps of devices and constraints, keep theirs.
+";
+
+const DEVICES: &str = r"
+A device supports at least one bit rate.
+
+What is said here fills the objects that show it, unless these have a `default:` of their own: `device-type` 1000h, `product-name` 1008h,
+the vendor's `number` 1018h.1, `product` 1018h.2 and `product-revision` 1018h.3. A number that is not given is 0. Only objects that the
+device has are filled; see [features](#feature).
+
+Placeholders (`dummies:`) are of the types `boolean`, `integer8`, `integer16`, `integer32`, `unsigned8`, `unsigned16` and `unsigned32`.
+";
+
+const FILES: &str = r"
+The dates of an EDS are these and never the day on which it is made, so that the same specification always gives the same file. Without
+`eds:`, they are 2000-01-01 00:00.
+";
+
+const UNITS: &str = r"
+A unit says what a raw value means. With `decicelsius: {symbol: °C, scale: 1/10}`, the raw value 500 is 50.0 °C. With
+`millivolt: {symbol: mV, base: 1/1000 V}`, 41000 mV may also be written as `41 V`. Units whose bases have one symbol convert into each
+other, in [aliases](#aliases) and in [conditions](#constraint); a unit without `base:` has its own symbol as base. A physical value that
+falls between two raw steps is refused, not rounded.
+";
+
+const TYPES: &str = r"
+A type has either `values:` or `bits:`, and an INTEGERn or UNSIGNEDn as base. Names are unique in a type. An entry whose type is an enum
+has no other defaults and limits than the listed values.
+
+A bit field says something about every bit of its base: bits that are neither listed nor covered by `rest:` are an error, and so are bits
+that are listed twice.
+";
+
+const BITS: &str = r"
+A number as key of a run's `values:` is the value of the run, counted from its lowest bit.
+";
+
+const OBJECTS: &str = r"
+An object with `array:` is an ARRAY, one with `record:` a RECORD, one with `alias:` a view of another entry, and any other a VAR, or a
+DOMAIN if it is of type `domain`. In a VAR the keys of the entry stand at the object itself.
+
+Objects lie from 1000h to BFFFh. The PDO parameters, 1400h to 1BFFh, cannot be written here; they are made from [`pdos:`](#pdo).
+The objects of a device have names of their own, and so have the entries of an object. As names go into EDS files, they have at most 241
+characters and hold no `;`, `#` or `=`; characters outside ASCII are transliterated there. Default texts that an EDS shows and the texts of
+its header hold none of these signs either.
+";
+
+const INHERITANCE: &str = r"
+Keys go down from the object to its elements and members: `type`, `unit`, `access`, `pdo`, `stored`, `writable-when` and `eds`. What stands
+at `array:` goes before what stands at the object, and what stands at the single element or member goes before both. The elements of an
+array also take every other key that stands at `array:`; its `name` is a pattern for theirs. A map, such as `eds:` or `special:`, is
+taken as a whole.
+
+`default`, `min` and `max` are about one value and are refused beside `array:` or `record:`. The other keys of an entry that do not go down
+(`special`, `bit-errors`) have a meaning at a VAR only; `category`, `since` and `about` are about the object itself.
+
+An array needs `count:` or `elements:`, and its elements are of one type.
+";
+
+const SUB0: &str = r"
+Sub-index 0 of an array or record is an UNSIGNED8. It takes nothing from its object.
+";
+
+const ENTRIES: &str = r"
+Every entry needs a name, a type and an access, of its own or from where it inherits.
+
+The **type** is one of the data types {TYPES}, or the name of one of the [types](#type) of the file or its libraries.
+
+The **access** is seen from the bus. `const` and `ro` can be read, `wo` can be written, `rw`, `rwr` and `rww` both. An entry that is `ro`,
+`const` or `rwr` can be mapped with `pdo: transmit`, one that is `wo` or `rww` with `pdo: receive`, and one that is `rw` with any word.
+Strings and domains cannot be mapped. `locked` follows the word of an access that allows writing: the device refuses a write unless it was
+unlocked for service.
+
+A **value**, of `default`, `min` or `max`, is written by the type of its entry:
+
+| Type | Written as |
+| --- | --- |
+| INTEGERn, UNSIGNEDn | a raw number: `80`, `0x50`; negative ones as decimals, not as bit patterns |
+| the same, with a unit | also a physical value: `50.0 °C`, in the unit's symbol or its base's |
+| the same, of an enum | also a value's name: `automatic`; raw numbers have to be among the values |
+| the same | also `$NODEID`, or `$NODEID + 0x180`: the node-ID and at most one number added to it, which has to fit for every node-ID |
+| BOOLEAN | `yes`, `no`, `true`, `false`, `1` or `0` |
+| REAL32, REAL64 | a decimal number |
+| VISIBLE_STRING, UNICODE_STRING | the text; a VISIBLE_STRING holds printable ASCII characters |
+| OCTET_STRING | pairs of hexadecimal digits, with or without blanks: `01 A1 05` |
+| TIME_OF_DAY, TIME_DIFFERENCE, DOMAIN | nothing; there is no way to write such a value |
+
+Only integers have limits. A default lies within them or is a special value.
+
+How an entry is **stored**:
+
+{STORAGE}
+
+A `const` entry is not stored.
+";
+
+const STORAGE: &[(&str, &str)] = &[
+    ("no", "it is lost at power-off"),
+    ("communication", "saved with the communication parameters, 1010h.2"),
+    ("application", "saved with the application parameters, 1010h.3"),
+    ("manufacturer", "saved with parameters of the manufacturer's choice, 1010h.4 and above"),
+    ("remanent", "kept over power-off by the device itself, without a command"),
+];
+
+const SPECIAL: &str = r"
+Special values stand beside the limits and do not move them: with `min: 0`, `max: 100` and `special: {255: off}`, the device takes 0 to
+100 and 255. An EDS has no words for this; the limits written there are widened so far that they include the special values.
+";
+
+const EDS: &str = r"
+Without these keys, an EDS shows of an entry:
+
+- its access; but a locked entry as `ro`, and an `rw` entry with `pdo: receive` or `pdo: transmit` as `rww` or `rwr`.
+- its default; but the [device's policy](#device) `safe` withholds it from entries that can be written and are locked or stored as
+  `application`, `manufacturer` or `remanent`. Some PLCs write every writable entry that has a default each time they start the device,
+  and would undo what was set and stored in service. The policy `all` writes every default.
+- the flag `no-write` if it is locked, else none. Flags given here are added to that.
+";
+
+const ALIASES: &str = r"
+An alias is a second view of an integer entry and has no storage of its own: `0x5064: {alias: 0x6064, type: integer16}` shows a 32-bit
+position in 16 bits, so that more fits into a PDO. The view is a VAR of a narrower type with the same sign, or of a type that is no wider
+but in another unit of the same base. The target is not an alias itself.
+
+Access (with its lock), PDO mapping, unit and write condition are the target's unless given; limits are not. The name is the target's
+with `16bit` behind it, unless given. With another `unit:`, values are rescaled.
+
+`rounding:` says what a value between two steps becomes:
+
+{ROUNDING}
+
+`outside:` says what one becomes that the alias' type cannot hold:
+
+{OUTSIDE}
+
+An alias has neither `default:` nor `stored:`; its default is the target's, converted, if that is a number. In the EDS it is treated as
+its target is: a view of a locked or stored entry keeps its default out of a `safe` EDS, and a view of an entry that tools must not write
+carries `no-write`.
+";
+
+const ROUNDING: &[(&str, &str)] = &[
+    ("down", "the step below"),
+    ("up", "the step above"),
+    ("nearest", "the nearest step, halves away from zero"),
+    ("zero", "the step nearer to zero"),
+];
+
+const OUTSIDE: &[(&str, &str)] = &[
+    ("saturate", "the nearest value that the alias can show"),
+    ("wrap", "its low bits"),
+    ("abort", "an SDO abort"),
+];
+
+const USES: &str = r"
+A library is a specification with `profile:` and without `uses:`. The library `cia301`, which comes with the compiler, holds the objects
+of the communication profile; other libraries are files, named by a path relative to the file that uses them. What a library gives are
+its units, its types, and its objects. A type is defined once in a file and its libraries; a unit may be defined again if it is the same.
+
+Objects of a library come into a device in two ways. A feature brings its objects just as the library defines them. An object of the
+file's own with `from:` takes the library's object of the same index and changes it: each key that is written goes before the library's,
+key by key also in `array:`, `sub0:` and the single elements and members; members that the library does not have are added, and those
+under `omit:` are dropped. An object that names another shape (`record:` over an ARRAY) has that shape.
+
+```yaml
+objects:
+  0x1003:
+    from: cia301
+    array: {count: 8}
+  0x1018:
+    from: cia301
+    omit: [4]                                   # no serial number
+```
+
+An object of the file's own always goes before that of a feature, with `from:` or without.
+";
+
+const FEATURES: &str = r"
+A device has the features that its `features:` names, those they need, and those that are implied. The library `cia301` has these:
+
+{FEATURES}
+";
+
+const PDOS: &str = r"
+Mapped entries allow the direction with their `pdo:`, and have 64 bits or less together. A data type in `map:` is a placeholder; the device
+lists it under `dummies:`, and only RPDOs have such.
+
+The parameter objects follow from this. RPDO *n* has its communication parameters at 1400h + *n* − 1 and its mapping at 1600h + *n* − 1,
+TPDO *n* at 1800h and 1A00h. The communication parameters are sub-indices 1 (COB-ID) and 2 (transmission type), and 3 (inhibit time),
+5 (event timer) and 6 (SYNC start value) if given. The COB-ID carries bit 31 if the PDO is not valid, and bit 30 with `no-rtr`. The mapping
+has a sub-index for each entry that the device offers; those beyond `map:` are 0. Entries that can be written are stored with the
+communication parameters; the entries of a fixed mapping cannot.
+
+Without `cob-id:`, RPDOs 1 to 4 have $NODEID + 200h, 300h, 400h and 500h, TPDOs 1 to 4 $NODEID + 180h, 280h, 380h and 480h. A PDO from 5
+on needs the key, unless it is not valid. Two valid PDOs of a device do not share a COB-ID, and identifiers that CiA 301 keeps for other
+services are refused, for every node-ID.
+
+Transmission types 241 to 251 are reserved, 252 and 253 are for TPDOs only. A device with granularity 0 has fixed mappings only, any
+other that has PDOs has at least one that is variable.
+";
+
+const ERRORS: &str = r"
+A code has one meaning. Under a run such as `0x3281..0x3288`, every code gets the same facts; `{n}` in the name tells them apart.
+";
+
+const MACHINES: &str = r"
+A state machine gives names to patterns of a status word and of a control word. Patterns have as many places as the entry has bits, and
+no value of the status entry shows two states at once. In a command, `r` and `f` stand for an edge and count as the level after it; the
+value under `send:` has the bits that the pattern demands.
+";
+
+const CONSTRAINTS: &str = r#"
+A condition compares values; several comparisons are joined by `and` or chained:
+
+```text
+condition  = comparison { "and" comparison }
+comparison = sum op sum { op sum }            op = "<" | "<=" | "==" | "!=" | ">=" | ">"
+sum        = product { ("+" | "-") product }
+product    = factor { ("*" | "/") factor }
+factor     = number | reference | "bit" "(" reference "," number ")" | "(" sum ")" | "-" factor
+reference  = [ device ":" ] "0x" hex digits [ "." sub-index ]
+```
+
+Numbers are decimal (`750`, `0.5`); what starts with `0x` is an entry. Values are compared exactly and in physical units: raw value ×
+scale, in the symbol of the unit's base, so that entries in mV and in V can stand in one condition. `bit` looks at the raw value.
+
+A constraint is tried on the defaults of each device (of those under `on:`, if given) that has all the entries it names without a device,
+and again on the values of a configuration. A condition that needs a value which is not known (an entry without default, or with a
+node-ID formula) is not decided, and breaks nothing; neither does one whose `when:` does not hold or is not decided.
+
+`writable-when:` of [an entry](#entry) is a condition of the same form.
+"#;
+
+const MANUAL: &str = r"
+A specification can stand for a printed manual: `source:`, `revision:` and `history:` say which one, `document:` lists its sections and
+tables in order, and `errata:` lists the places where the specification departs from what is printed.
+";
+
+const ERRATA: &[(&str, &str)] = &[
+    ("index", "an index"),
+    ("name", "a name"),
+    ("type", "a data type"),
+    ("sign", "the sign of a type or value"),
+    ("access", "an access right"),
+    ("object-type", "VAR, ARRAY or RECORD"),
+    ("sub-index", "a sub-index, or the number of them"),
+    ("count", "the number of elements or rows"),
+    ("default", "a default value"),
+    ("limit", "a limit"),
+    ("unit", "a unit or scale"),
+    ("pdo", "PDO mapping, or its direction"),
+    ("stored", "whether a value is stored"),
+    ("bits", "a bit table"),
+    ("values", "a value table"),
+    ("table", "a table's number, caption or headings"),
+    ("text", "running text"),
+    ("gap", "the manual is silent, and something had to be chosen"),
+    ("profile", "the manual departs from a CiA profile; what the manual says is kept"),
+];
+
+const TABLES: &str = r"
+Beside `number:` and `title:`, a table has exactly one key, which says what fills it. Numbers are unique in a manual.
+";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::json_schema::reachable;
+    use crate::model::{ErratumKind, Outside, Rounding, Storage};
+
+    #[test]
+    fn every_key_table_has_a_section() {
+        let sections: Vec<&str> =
+            CHAPTERS.iter().flat_map(|chapter| chapter.sections).map(|section| section.keys.name).collect();
+        for keys in reachable() {
+            assert_eq!(sections.iter().filter(|name| **name == keys.name).count(), 1, "{}", keys.name);
+        }
+    }
+
+    #[test]
+    fn every_word_is_explained() {
+        assert!(STORAGE.iter().map(|(word, _)| word).eq(Storage::WORDS));
+        assert!(ERRATA.iter().map(|(word, _)| word).eq(ErratumKind::WORDS));
+        assert!(ROUNDING.iter().map(|(word, _)| word).eq(Rounding::WORDS));
+        assert!(OUTSIDE.iter().map(|(word, _)| word).eq(Outside::WORDS));
+    }
+
+    #[test]
+    fn every_link_leads_somewhere() {
+        let text = reference();
+        let anchor = |line: &str| {
+            line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-").replace('\'', "")
+        };
+        let anchors: Vec<String> = text.lines().filter(|line| line.starts_with('#')).map(anchor).collect();
+        for link in text.split("](#").skip(1).filter_map(|rest| rest.split(')').next()) {
+            assert!(anchors.iter().any(|anchor| anchor == link), "#{link}");
+        }
+        let marks = WORDS.iter().map(|(mark, _)| *mark).chain(["{TYPES}", "{FEATURES}"]);
+        assert!(marks.into_iter().all(|mark| !text.contains(mark)));
+    }
+}

@@ -1,0 +1,105 @@
+"""Check an EDS or DCF file with lely's dcfchk, then compare what lely's reader made of it."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from dcf.device import Device, Object, SubObject
+from dcf.lint import lint
+from dcf.parse import parse_file
+
+from compare import Job, Reading, Tool, main
+from expected import text_value
+
+IDENTITY = {"VendorNumber": "vendor_id", "ProductNumber": "product_code", "RevisionNumber": "revision_number"}
+# dcfchk does not print what it read. Its reader has every key, so nothing is excused here; it reads
+# REAL as an IEEE 754 bit pattern only, and knows neither subFF nor UploadFile outside DOMAIN.
+
+
+def read(job: Job) -> Reading:
+    complaints = dcfchk(job)
+    cfg = parse_file(str(job.path))
+    if not lint(cfg):
+        complaints.append("lint failed")
+    device = Device(cfg, {} if job.dcf else {"NODEID": job.node})
+    facts: dict[str, Any] = {"DeviceInfo": device_info(device)}
+    if job.dcf:
+        facts["DeviceComissioning"] = {"NodeID": device.node_id}
+    for obj in device.values():
+        add_object(facts, obj, job.dcf)
+    add_unlisted(facts, cfg.sections())
+    return Reading(facts, complaints)
+
+
+def dcfchk(job: Job) -> list[str]:
+    """The command itself: silent and exit code 0, or a complaint."""
+    program = Path(sys.executable).with_name("dcfchk")
+    done = subprocess.run(
+        [program, "-n", str(job.node), job.path],
+        env={**os.environ, "PYTHONWARNINGS": "error::UserWarning"},
+        capture_output=True, text=True, check=False,
+    )
+    said = (done.stdout + done.stderr).strip()
+    if done.returncode == 0 and not said:
+        return []
+    return [f"dcfchk exit {done.returncode}: {said.splitlines()[-1] if said else 'no message'}"]
+
+
+def device_info(device: Device) -> dict[str, Any]:
+    section = device.cfg["DeviceInfo"]
+    info = {key: getattr(device, name) for key, name in IDENTITY.items()}
+    return info | {key: int(section[key], 0) for key in ("NrOfRXPDO", "NrOfTXPDO")}
+
+
+def add_object(facts: dict[str, Any], obj: Object, dcf: bool) -> None:
+    name = f"{obj.index:04X}"
+    facts[name] = {"ParameterName": obj.name, "ObjectType": obj.object_type}
+    if obj.object_type in (8, 9):
+        for sub, entry in obj.items():
+            facts[f"{name}sub{sub:X}"] = variable(entry, f"{name}sub{sub:X}", dcf)
+    else:
+        facts[name].update(variable(obj[0], name, dcf))
+
+
+def add_unlisted(facts: dict[str, Any], sections: list[str]) -> None:
+    """Sections that no object list names: the reader has them, but makes no object of them."""
+    known = {name.lower() for name in facts}
+    for name in sections:
+        if re.fullmatch(r"[0-9a-f]{4}(sub[0-9a-f]+)?", name.lower()) and name.lower() not in known:
+            facts[name] = {}
+
+
+def variable(entry: SubObject, section: str, dcf: bool) -> dict[str, Any]:
+    keys = entry.cfg[section]
+    facts = {
+        "ParameterName": entry.name,
+        "DataType": entry.data_type.index,
+        "AccessType": entry.access_type.name,
+        "PDOMapping": int(entry.pdo_mapping),
+        # an absent default reads as zero, so the reader's section says whether it is there
+        "DefaultValue": plain(entry, entry.default_value) if keys.get("DefaultValue") else None,
+        "LowLimit": plain(entry, getattr(entry, "low_limit", None)),
+        "HighLimit": plain(entry, getattr(entry, "high_limit", None)),
+        "ObjFlags": int(keys.get("ObjFlags") or "0", 0),
+    }
+    if dcf:
+        facts["ParameterValue"] = plain(entry, entry.value) if keys.get("ParameterValue") else None
+    return facts
+
+
+def plain(entry: SubObject, value: Any) -> Any:
+    if value is None:
+        return None
+    if entry.data_type.is_basic():
+        return value.parse(entry.env)
+    return text_value(value.value, entry.data_type.index)
+
+
+if __name__ == "__main__":
+    main(Tool("dcfchk", lambda job: version("dcf-tools"), read))

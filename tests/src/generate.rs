@@ -1,0 +1,103 @@
+//! Everything that is generated and checked in.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use od_gen::{Artifact, Selection, artifacts};
+use od_spec::diag::Code;
+
+use crate::{Failure, compile_clean, root};
+
+/// The shipped specifications.
+const SPECS: [&str; 1] = ["pitch-control-system"];
+/// The command that brings a stale file up to date.
+const COMMAND: &str = "cargo xtask generate";
+
+/// All generated files: path below the root, and contents.
+pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let mut files = Vec::new();
+    for stem in SPECS {
+        let system = compile_clean(&format!("od-spec/devices/{stem}.od.yaml"))?;
+        let set = artifacts(&system, stem, &Selection { devices: &[], node: Some(1) });
+        files
+            .extend(set.into_iter().map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
+    }
+    files.push(("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()));
+    files.push(("docs/language.md".to_owned(), od_spec::reference().into_bytes()));
+    files.push(("docs/messages.md".to_owned(), messages().into_bytes()));
+    files.push(("README.md".to_owned(), readme()?.into_bytes()));
+    Ok(files)
+}
+
+/// Writes what changed; tells for each file whether it did.
+pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
+    let mut report = Vec::new();
+    for (path, bytes) in all()? {
+        let target = root().join(&path);
+        let changed = !fs::read(&target).is_ok_and(|old| old == bytes);
+        if changed {
+            if let Some(parent) = target.parent() {
+                fs::create_dir_all(parent)?;
+            }
+            fs::write(&target, bytes)?;
+        }
+        report.push((path, changed));
+    }
+    Ok(report)
+}
+
+/// The first generated file that is not current, with its first differing line.
+pub fn first_difference() -> Result<Option<String>, Failure> {
+    for (path, bytes) in all()? {
+        let old = fs::read(root().join(&path)).unwrap_or_default();
+        if old != bytes {
+            let (old, new) = (String::from_utf8_lossy(&old), String::from_utf8_lossy(&bytes));
+            let line = old.lines().zip(new.lines()).take_while(|(old, new)| old == new).count();
+            return Ok(Some(format!(
+                "{path} is not current from line {}:\n  - {}\n  + {}\nrun `{COMMAND}`",
+                line + 1,
+                old.lines().nth(line).unwrap_or("(end of file)"),
+                new.lines().nth(line).unwrap_or("(end of file)"),
+            )));
+        }
+    }
+    Ok(None)
+}
+
+/// `docs/messages.md`: every code with its explanation.
+fn messages() -> String {
+    let mut text = String::from(
+        "# Messages\n\nEvery message of the compiler has a stable code. `odgen explain CODE` prints what stands here.\n",
+    );
+    for code in Code::ALL {
+        let severity = code.severity().word();
+        let _ = write!(text, "\n## {code}\n\n*{severity}*: {}\n\n{}\n", code.title(), code.explanation());
+    }
+    text
+}
+
+/// The README with its examples made anew.
+fn readme() -> Result<String, Failure> {
+    let path = "tests/readme/valve.od.yaml";
+    let spec = fs::read_to_string(root().join(path))?;
+    let system = compile_clean(path)?;
+    let device = system.devices.first().ok_or("the example has no device")?;
+    let eds = String::from_utf8(od_gen::eds::write_eds(&system, device))?.replace("\r\n", "\n");
+    let sections = ["2000", "2001", "1600sub1", "1800sub1"];
+    let excerpt: Vec<&str> = eds
+        .split("\n\n")
+        .filter(|part| sections.iter().any(|name| part.lines().any(|line| line == format!("[{name}]"))))
+        .map(str::trim_end)
+        .collect();
+    let text = fs::read_to_string(root().join("README.md"))?;
+    let text = block(&text, "spec", &format!("```yaml\n{spec}```"))?;
+    block(&text, "eds", &format!("```ini\n{}\n```", excerpt.join("\n\n")))
+}
+
+/// Replaces what stands between `<!-- name -->` and `<!-- /name -->`.
+fn block(text: &str, name: &str, content: &str) -> Result<String, Failure> {
+    let (open, close) = (format!("<!-- {name} -->"), format!("<!-- /{name} -->"));
+    let (before, rest) = text.split_once(&open).ok_or_else(|| format!("README.md lacks {open}"))?;
+    let (_, after) = rest.split_once(&close).ok_or_else(|| format!("README.md lacks {close}"))?;
+    Ok(format!("{before}{open}\n{content}\n{close}{after}"))
+}

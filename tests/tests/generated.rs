@@ -1,0 +1,96 @@
+//! What is generated and checked in is current, and the same on every run.
+
+use od_gen::{Selection, artifacts};
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
+use od_tests::{compile_clean, generate, root};
+
+const PITCH: &str = "od-spec/devices/pitch-control-system.od.yaml";
+const EVERYTHING: &str = "tests/readers/everything.od.yaml";
+
+#[test]
+fn checked_in_files_are_current() {
+    if let Some(difference) = generate::first_difference().unwrap() {
+        panic!("{difference}");
+    }
+}
+
+#[test]
+fn no_other_files_lie_beside_them() {
+    let made: Vec<String> = generate::all().unwrap().into_iter().map(|(path, _)| path).collect();
+    for entry in std::fs::read_dir(root().join("generated/eds")).unwrap() {
+        let path = format!("generated/eds/{}", entry.unwrap().file_name().to_string_lossy());
+        assert!(made.contains(&path), "nothing makes {path}: delete it");
+    }
+}
+
+/// Everything a specification becomes, in one string of bytes.
+fn everything(name: &str, text: &str) -> Vec<u8> {
+    let mut sources = SourceMap::new();
+    let id = sources.add(name, text);
+    let system = compile(&mut sources, id, &mut NoFiles).system.expect("no errors");
+    let set = artifacts(&system, "x", &Selection { devices: &[], node: Some(5) });
+    set.into_iter().flat_map(|artifact| artifact.bytes).collect()
+}
+
+#[test]
+fn output_does_not_depend_on_run_file_name_line_ends_or_order_of_objects() {
+    let text = std::fs::read_to_string(root().join(PITCH)).unwrap();
+    let first = everything("a.od.yaml", &text);
+    assert_eq!(first, everything("/somewhere/else.yaml", &text));
+    assert_eq!(first, everything("crlf", &text.replace('\n', "\r\n")));
+
+    // The blocks of `objects:` in reverse order.
+    let (head, rest) = text.split_once("\nobjects:\n").unwrap();
+    let end = rest.find("\npdos:\n").unwrap();
+    let (objects, tail) = rest.split_at(end);
+    let mut blocks: Vec<String> = Vec::new();
+    for line in objects.lines() {
+        if line.starts_with("  0x") || blocks.is_empty() {
+            blocks.push(String::new());
+        }
+        let block = blocks.last_mut().unwrap();
+        block.push_str(line);
+        block.push('\n');
+    }
+    blocks.reverse();
+    let reversed = format!("{head}\nobjects:\n{}{tail}", blocks.concat());
+    assert_ne!(text, reversed);
+    assert_eq!(first, everything("reversed", &reversed));
+}
+
+/// `ini` is an EDS reader that we did not write: it must find every section and key, and nothing else.
+#[test]
+fn an_independent_ini_reader_sees_every_section_and_value() {
+    let system = compile_clean(PITCH).unwrap();
+    for device in &system.devices {
+        let text = String::from_utf8(od_gen::eds::write_eds(&system, device)).unwrap();
+        let options =
+            ini::ParseOption { enabled_quote: false, enabled_escape: false, ..ini::ParseOption::default() };
+        let read = ini::Ini::load_from_str_opt(&text, options).unwrap();
+        let sections = text.lines().filter(|line| line.starts_with('[')).count();
+        assert_eq!(read.sections().flatten().count(), sections);
+        let keys = text.lines().filter(|line| !line.starts_with(';') && line.contains('=')).count();
+        assert_eq!(read.iter().map(|(_, properties)| properties.len()).sum::<usize>(), keys);
+        for object in device.objects.values() {
+            let name = format!("{:X}", object.index.0);
+            assert_eq!(
+                read.get_from(Some(&*name), "ParameterName"),
+                Some(&*od_spec::ascii::transliterate(&object.name))
+            );
+        }
+    }
+}
+
+#[test]
+fn an_eds_is_plain_ascii_with_crlf_and_short_lines() {
+    for system in [compile_clean(PITCH).unwrap(), compile_clean(EVERYTHING).unwrap()] {
+        for device in &system.devices {
+            let text = String::from_utf8(od_gen::eds::write_eds(&system, device)).unwrap();
+            assert!(text.is_ascii());
+            assert!(text.ends_with("\r\n") && !text.contains("\r\n\r\n\r\n"));
+            assert!(text.replace("\r\n", "").bytes().all(|byte| byte >= b' '));
+            assert!(text.lines().all(|line| line.len() <= 255));
+        }
+    }
+}
