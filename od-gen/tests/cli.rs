@@ -1,5 +1,7 @@
 //! The command as its users meet it: exit codes, messages, files.
 
+#![expect(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -110,7 +110,7 @@ pub(crate) struct TypeDecl {
     pub about: Words,
     pub values: Option<Vec<ValueDecl>>,
     pub bits: Option<Vec<BitDecl>>,
-    pub rest: Option<BitUsage>,
+    pub rest: Option<Spanned<BitUsage>>,
 }
 
 #[derive(Debug)]

@@ -126,10 +126,11 @@ fn load(
 ) -> Result<FileId, Box<Diagnostic>> {
     let missing = |reason: &str| {
         let known = LIBRARIES.iter().map(|(name, _)| *name);
-        let help = match nearest(path, known) {
-            Some(word) => format!("did you mean `{word}`?"),
-            None => "name a built-in library (`cia301`), or a file relative to this one".to_owned(),
-        };
+        let help =
+            match nearest(path, known).filter(|word| !path.starts_with("cia") || path.len() != word.len()) {
+                Some(word) => format!("did you mean `{word}`?"),
+                None => "name a built-in library (`cia301`), or a file relative to this one".to_owned(),
+            };
         Box::new(
             Diagnostic::new(
                 Code::MissingLibrary,

@@ -582,7 +582,7 @@ keys! {
 keys! {
     /// A transition.
     TRANSITION = "a transition" {
-        "from": Shape::OneOrMore(&Shape::Text), "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
+        "from" required: Shape::OneOrMore(&Shape::Text), "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
         "to" required: Shape::Text, "state it enters";
         "event" required: Shape::Words, "what causes it";
         "action": Shape::Words, "what the device does";

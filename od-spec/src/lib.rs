@@ -1,6 +1,6 @@
 //! The specification language for CANopen object dictionaries, its compiler and the resolved model.
 //!
-//! One YAML file describes every object of one or several devices. [`compile`] reads it together with the libraries it
+//! One YAML file describes every object of one or several devices. [`compile()`] reads it together with the libraries it
 //! uses, checks it, and gives a [`model::System`] in which nothing is left open; backends print Rust, EDS, DCF and
 //! documentation from that. All mistakes of a file are reported in one run, each with its place (see [`diag`]).
 //!

@@ -44,7 +44,6 @@ devices:
     eds: {{description: Measures how fast a compiler is, created: 2024-01-31 12:00, created-by: Example Works}}
     about: A device that nobody builds, with as many objects as a measurement needs.
 units:
-  volt: {{symbol: V}}
   millivolt: {{symbol: mV, base: 1/1000 V}}
   decicelsius: {{symbol: °C, scale: 1/10}}
   millisecond: {{symbol: ms, base: 1/1000 s}}

@@ -308,17 +308,14 @@ fn bytes_that_are_no_text() {
         |name: &str, bytes: &[u8]| human_one(*read_text(name, bytes.to_vec()).unwrap_err(), &sources);
     insta::assert_snapshot!(refused("lamp.od.yaml", b"od-spec: 1\ntitle: L\xe4mpchen\n"), @r#"
         error[OD0102]: `lamp.od.yaml:2:9` holds the byte 0xE4, expected UTF-8 text
-         |
         help: convert the file, for example with `iconv -f latin1 -t utf-8`
         "#);
     insta::assert_snapshot!(refused("lamp.od.yaml", "title: Gr\u{f6}\u{df}e 5 \u{b5}".as_bytes().split_last().unwrap().1), @r#"
         error[OD0102]: `lamp.od.yaml:1:16` holds the byte 0xC2, expected UTF-8 text
-         |
         help: convert the file, for example with `iconv -f latin1 -t utf-8`
         "#);
     insta::assert_snapshot!(human_one(*read_text("disk.img", vec![b' '; (64 << 20) + (9 << 20)]).unwrap_err(), &sources), @r#"
         error[OD0103]: `disk.img` has 73 MiB; the limit is 64 MiB
-         |
         help: is this the right file?
         "#);
 }

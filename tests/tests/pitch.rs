@@ -1,5 +1,7 @@
 //! The pitch control system holds its whole manual: counts per device and per table, and the facts that matter most.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{

@@ -25,7 +25,7 @@ pub(super) fn entry(device: &Dictionary, entry: &Entry, language: &str) -> Vec<S
             }));
         }
         Some(TypeKind::Bits(fields)) if fields.len() <= MOST_MEMBERS => {
-            lines.extend(fields.iter().filter_map(bits))
+            lines.extend(fields.iter().filter_map(bits));
         }
         _ => {}
     }

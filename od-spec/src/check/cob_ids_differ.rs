@@ -7,13 +7,24 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     let valid: Vec<&Pdo> = device.pdos.iter().filter(|pdo| pdo.valid).collect();
     for (at, pdo) in valid.iter().enumerate() {
         for other in &valid[at + 1..] {
-            if identifier(pdo) == identifier(other) {
+            if let Some(node) = clash(&pdo.cob_id, &other.cob_id) {
+                let of_node = match (&pdo.cob_id, &other.cob_id) {
+                    (Value::Integer(_), Value::Integer(_)) | (Value::NodeId(_), Value::NodeId(_)) => {
+                        String::new()
+                    }
+                    _ => format!(" on node {node}"),
+                };
                 let name = |pdo: &Pdo| format!("{} {}", pdo.direction.pdo(), pdo.number);
                 diagnostics.push(
                     Diagnostic::new(
                         Code::CobIdClash,
                         other.span,
-                        format!("{} and {} of `{}` have one COB-ID", name(pdo), name(other), device.key),
+                        format!(
+                            "{} and {} of `{}` have one COB-ID{of_node}",
+                            name(pdo),
+                            name(other),
+                            device.key
+                        ),
                     )
                     .label(name(other))
                     .with(pdo.span, name(pdo))
@@ -24,11 +35,8 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The COB-ID without flag bits, and whether the node-ID is added.
-fn identifier(pdo: &Pdo) -> (bool, i128) {
-    match pdo.cob_id {
-        Value::NodeId(offset) => (true, i128::from(offset & 0x1FFF_FFFF)),
-        Value::Integer(raw) => (false, raw & 0x1FFF_FFFF),
-        _ => (false, -1),
-    }
+/// The first node on which two COB-IDs are equal, whatever their flag bits.
+fn clash(one: &Value, other: &Value) -> Option<u8> {
+    let identifier = |value: &Value, node| value.integer_for(node).map(|raw| raw & 0x1FFF_FFFF);
+    (1..=127).find(|node| identifier(one, *node).is_some_and(|id| identifier(other, *node) == Some(id)))
 }

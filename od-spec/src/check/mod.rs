@@ -7,6 +7,7 @@ mod error_codes_are_listed;
 mod error_control_exists;
 mod granularity_fits_mapping;
 mod indices_in_object_areas;
+pub(crate) mod keys_have_effect;
 mod lss_has_serial_number;
 mod mandatory_objects_exist;
 mod mappable_entries_have_pdos;

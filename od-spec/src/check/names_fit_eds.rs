@@ -83,9 +83,7 @@ fn describe(c: char) -> String {
 }
 
 fn check_name(name: &str, span: Span, diagnostics: &mut Diagnostics) {
-    let problem = if name.trim().is_empty() {
-        "the name is empty".to_owned()
-    } else if crate::ascii::transliterate(name).len() > LONGEST {
+    let problem = if crate::ascii::transliterate(name).len() > LONGEST {
         format!(
             "the name `{}` has {} characters, an EDS holds {LONGEST}",
             shorten(name),

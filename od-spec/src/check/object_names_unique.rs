@@ -1,4 +1,4 @@
-//! Objects of one device have names of their own.
+//! Objects of one device have names of their own, and none looks like another one's `object.entry`.
 
 use std::collections::BTreeMap;
 
@@ -24,6 +24,29 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
                 .with(other.span, other.index.to_string())
                 .help("give one of the two another name; PDO mappings and generated code refer to objects by name"),
             );
+        }
+    }
+    for object in device.objects.values().filter(|object| object.is_structured()) {
+        for entry in &object.entries {
+            let full = format!("{}.{}", object.name, entry.name);
+            if let Some(other) = names.get(full.as_str()) {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::DuplicateName,
+                        other.span,
+                        format!(
+                            "`{}` is the name of {} and means {}.{}",
+                            shorten(&full),
+                            other.index,
+                            object.index,
+                            entry.sub
+                        ),
+                    )
+                    .label(other.index.to_string())
+                    .with(entry.span, format!("{}.{}", object.index, entry.sub))
+                    .help("give one of them a name without this dot"),
+                );
+            }
         }
     }
 }

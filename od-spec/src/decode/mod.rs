@@ -3,6 +3,7 @@
 //! First [`shape`] compares the whole tree with the key tables and reports everything that does not fit; then
 //! [`spec`] reads what does fit and silently leaves out the rest, so that each mistake is reported once.
 
+mod languages;
 pub(crate) mod lexical;
 mod nearest;
 mod read;
@@ -20,5 +21,6 @@ use crate::yaml::Node;
 /// Reads a specification or library.
 pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     shape::check_map(root, &keys::SPEC, shape::start(root), diagnostics);
+    languages::check(root, &keys::SPEC, diagnostics);
     spec::read(root, diagnostics)
 }

@@ -78,19 +78,25 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
             _ => check(node, *short, owner, diagnostics),
         },
         Shape::Words => match &node.kind {
-            NodeKind::Map(_) => check_keyed(node, KeyKind::Language, Shape::Text, diagnostics),
-            _ => check(node, Shape::Text, owner, diagnostics),
+            NodeKind::Map(_) => check_keyed(node, KeyKind::Language, Shape::Words, diagnostics),
+            NodeKind::Scalar { .. } => {}
+            _ => wrong_kind(node, "a text", diagnostics),
         },
         Shape::MapOf(kind, value) => check_keyed(node, kind, *value, diagnostics),
         Shape::List(item) => match &node.kind {
             NodeKind::List(items) => {
-                items.iter().for_each(|node| check(node, *item, start(node), diagnostics))
+                for node in items {
+                    check(node, *item, start(node), diagnostics);
+                }
             }
             _ => wrong_kind(node, "a list", diagnostics),
         },
         Shape::OneOrMore(item) => match &node.kind {
+            NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
-                items.iter().for_each(|node| check(node, *item, start(node), diagnostics))
+                for node in items {
+                    check(node, *item, start(node), diagnostics);
+                }
             }
             _ => check(node, *item, owner, diagnostics),
         },
@@ -228,6 +234,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         }
         _ => {
             let fits = match shape {
+                Shape::Text => !value.trim().is_empty(),
                 Shape::Date => lexical::date(value).is_some(),
                 Shape::DateTime => lexical::date_time(value).is_some(),
                 Shape::Index => lexical::index(value).is_some(),
@@ -242,7 +249,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                     Diagnostic::new(
                         Code::BadNotation,
                         text.span,
-                        format!("found `{}`, expected {}", shorten(value), expected(shape)),
+                        format!("found {}, expected {}", quoted(value), expected(shape)),
                     )
                     .help(format!("write {}", expected(shape))),
                 );
@@ -263,7 +270,7 @@ pub(crate) fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> Spa
 
 /// `1/1000 V`.
 pub(super) fn base(text: &str) -> Option<(crate::model::Ratio, &str)> {
-    let (ratio, symbol) = text.split_once(' ')?;
+    let (ratio, symbol) = text.rsplit_once(' ')?;
     let ratio = scalar::ratio(ratio).filter(|ratio| ratio.numerator() > 0)?;
     let symbol = symbol.trim();
     (!symbol.is_empty()).then_some((ratio, symbol))
@@ -280,4 +287,9 @@ fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnosti
         Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
         None => diagnostic.help(format!("write one of {list}")),
     });
+}
+
+/// A text in backticks; an empty one in words.
+fn quoted(text: &str) -> String {
+    if text.trim().is_empty() { "an empty text".to_owned() } else { format!("`{}`", shorten(text)) }
 }

@@ -175,7 +175,7 @@ fn named_type(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics)
         values: has("values").then(|| values(r, diagnostics)),
         bits: has("bits")
             .then(|| r.entries("bits").filter_map(|(key, r)| bit(key, r, diagnostics)).collect()),
-        rest: r.value("rest", usage).map(|usage| usage.value),
+        rest: r.value("rest", usage),
     }
 }
 
@@ -322,7 +322,7 @@ fn entry(r: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) 
             let flag = |word: &str| flags.iter().any(|flag| flag.value == word);
             let eds = EdsDecl {
                 default: child.text("default").map(|word| word.value == "written"),
-                access: child.value("access", |text| Access::from_word(text)).map(|access| access.value),
+                access: child.value("access", Access::from_word).map(|access| access.value),
                 no_write: flag("no-write"),
                 no_scan: flag("no-scan"),
             };
@@ -485,8 +485,8 @@ fn table(r: Reader<'_>) -> TableDecl {
                     })
                     .collect(),
             ),
-            "glossary" => ContentDecl::Glossary,
-            "history" => ContentDecl::History,
+            "glossary" if own.scalar(scalar::yes_no)?.value => ContentDecl::Glossary,
+            "history" if own.scalar(scalar::yes_no)?.value => ContentDecl::History,
             _ => return None,
         };
         Some(Spanned::new(content, key.span))

@@ -195,6 +195,8 @@ codes! {
         "The values at hand do not meet a condition of the specification. They are compared exactly, in physical units."
     ConstraintDevices Error "OD0607" "a constraint across devices":
         "No single device has all the entries that the condition names without a device. Write `device:` before them."
+    UnitsDiffer Error "OD0610" "a comparison of different units":
+        "A condition compares an entry in volts with one in degrees, or the like. Values are compared in the base of their units; entries that are compared directly need the same base."
     UnknownUnit Error "OD0608" "an unknown unit":
         "`unit:` names a unit that is defined under `units:` of the specification or of a used library."
     UnknownType Error "OD0609" "an unknown type":

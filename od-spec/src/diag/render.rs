@@ -60,6 +60,7 @@ pub fn summary(diagnostics: &Diagnostics) -> String {
 }
 
 fn human(diagnostic: &Diagnostic, sources: &SourceMap, colour: bool) -> String {
+    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     let level = match diagnostic.severity() {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -76,8 +77,11 @@ fn human(diagnostic: &Diagnostic, sources: &SourceMap, colour: bool) -> String {
     let notes = diagnostic.notes.iter().map(|note| Level::NOTE.secondary_title(note.as_str()));
     let help = diagnostic.help.iter().map(|help| Level::HELP.secondary_title(help.as_str()));
     groups.extend(help.chain(notes).map(Group::with_title));
-    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    renderer.render(&groups).trim_end().to_owned()
+    let text = renderer.render(&groups);
+    let lines = text.trim_end().lines();
+    // Without a place the renderer leaves an empty frame.
+    let empty_frame = |line: &&str| diagnostic.labels.is_empty() && line.trim() == "|";
+    lines.filter(|line| !empty_frame(line)).collect::<Vec<_>>().join("\n")
 }
 
 /// The lines that a file's labels mark, cut out of the file.

@@ -1,5 +1,7 @@
 //! Values of entries, and conversion between an alias and its target.
 
+use std::fmt::Write as _;
+
 use super::{DataType, Entry, Outside, Ratio, Rounding, TypeKind};
 
 /// A default or parameter value.
@@ -43,7 +45,10 @@ pub fn format_value(entry: &Entry, value: &Value) -> String {
         Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
         Value::Real(number) => format!("{number}"),
         Value::Text(text) => text.clone(),
-        Value::Bytes(bytes) => bytes.iter().map(|byte| format!("{byte:02X}")).collect(),
+        Value::Bytes(bytes) => bytes.iter().fold(String::new(), |mut digits, byte| {
+            let _ = write!(digits, "{byte:02X}");
+            digits
+        }),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::ast::{ConstraintDecl, Name, Spec};
 use crate::decode::{inside, nearest};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::expr::{EntryRef, Expr, Outcome, Values};
+use crate::expr::{EntryRef, Expr, Outcome, Term, Values};
 use crate::model::{Constraint, Dictionary, EntryId, Ratio};
 use crate::source::Spanned;
 use crate::yaml::shorten;
@@ -76,6 +76,35 @@ fn check_known(
     known
 }
 
+/// Entries that are compared directly are measured in one base unit. Products and quotients are left to the author.
+fn check_units(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &mut Diagnostics) {
+    let unit = |term: &Term| {
+        let Term::Entry(entry) = term else { return None };
+        let named = |device: &&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
+        let found = devices.iter().filter(named).find_map(|device| device.entry(entry.id))?;
+        found.unit.clone().map(|unit| (term.to_string(), unit))
+    };
+    for comparison in &condition.value.comparisons {
+        let mut left = unit(&comparison.first);
+        for (_, term) in &comparison.rest {
+            let right = unit(term);
+            if let (Some((one, own)), Some((other, its))) = (&left, &right)
+                && own.base_symbol() != its.base_symbol()
+            {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::UnitsDiffer,
+                        condition.span,
+                        format!("{one} is in `{}`, {other} in `{}`", own.base_symbol(), its.base_symbol()),
+                    )
+                    .help("compare entries of one base unit, or correct a unit"),
+                );
+            }
+            left = right;
+        }
+    }
+}
+
 fn constraint(
     decl: &ConstraintDecl,
     devices: &[Dictionary],
@@ -86,6 +115,13 @@ fn constraint(
     let all: Vec<&Dictionary> = devices.iter().collect();
     let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
     if !conditions.iter().all(|condition| check_known(condition, &all, broken, diagnostics)) {
+        return None;
+    }
+    let (errors, _) = diagnostics.count();
+    for condition in &conditions {
+        check_units(condition, devices, diagnostics);
+    }
+    if diagnostics.count().0 > errors {
         return None;
     }
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();

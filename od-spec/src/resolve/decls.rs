@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::scope::unknown;
 use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
+use crate::check::keys_have_effect;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{Index, Origin, SubIndex};
 use crate::source::Spanned;
@@ -24,25 +25,10 @@ pub(super) fn of_device(
     device: &DeviceDecl,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared> {
-    let mut declared = BTreeMap::new();
-    for decl in &root.objects {
-        let here = decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value));
-        if !here {
-            continue;
-        }
-        let one = match &decl.from {
-            Some(from) => from_library(decl, from, libraries, diagnostics),
-            None => Some(Declared {
-                decl: decl.clone(),
-                origin: Origin::Manual,
-                profile: None,
-                differs: Vec::new(),
-            }),
-        };
-        if let Some(one) = one {
-            declared.insert(decl.index.value, one);
-        }
-    }
+    let here = |decl: &ObjectDecl| {
+        decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value))
+    };
+    let mut declared = own(root, libraries, here, diagnostics);
     for (library, feature) in features(libraries, device, diagnostics) {
         for index in &feature.objects {
             let Some(decl) = library.objects.iter().find(|decl| decl.index == *index) else {
@@ -65,6 +51,38 @@ pub(super) fn of_device(
                 profile: library.profile.as_ref().map(|name| name.value.clone()),
                 differs: Vec::new(),
             });
+        }
+    }
+    declared
+}
+
+/// All declarations of a library that is compiled by itself.
+pub(super) fn of_library(
+    root: &Spec,
+    libraries: &[Spec],
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<Index, Declared> {
+    own(root, libraries, |_| true, diagnostics)
+}
+
+/// The declarations that stand in the specification itself.
+fn own(
+    root: &Spec,
+    libraries: &[Spec],
+    wanted: impl Fn(&ObjectDecl) -> bool,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<Index, Declared> {
+    let mut declared = BTreeMap::new();
+    for decl in root.objects.iter().filter(|decl| wanted(decl)) {
+        let one = match &decl.from {
+            Some(from) => from_library(decl, from, libraries, diagnostics),
+            None => {
+                let (origin, decl) = (Origin::Manual, decl.clone());
+                Some(Declared { decl, origin, profile: None, differs: Vec::new() })
+            }
+        };
+        if let Some(one) = one {
+            declared.insert(decl.index.value, one);
         }
     }
     declared
@@ -141,7 +159,31 @@ fn from_library(
         return None;
     };
     let (merged, differs) = lay_over(decl, below);
+    check_own_keys(decl, &merged, diagnostics);
     Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), differs })
+}
+
+/// Checks that what the declaration itself says has an effect on the object that it makes with the library's.
+fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
+    let shaped = ObjectDecl { entry: decl.entry.clone(), ..merged.clone() };
+    keys_have_effect::check_object(&shaped, diagnostics);
+    let elements = merged.array.as_ref().map_or(0, |array| {
+        let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
+        array.count.map_or(0, |count| count.value).max(highest)
+    });
+    let members = merged.record.iter().flat_map(|record| &record.members);
+    let has =
+        |sub: i128| sub <= elements || members.clone().any(|(member, _)| i128::from(member.value.0) == sub);
+    for sub in decl.omit.iter().filter(|sub| !has(sub.value)) {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::UnknownEntry,
+                sub.span,
+                format!("{} has no sub-index {} that could be left out", decl.index.value, sub.value),
+            )
+            .help("remove it from `omit:`, or correct it"),
+        );
+    }
 }
 
 /// The declaration over the library's, and the facts in which they differ.

@@ -65,6 +65,16 @@ pub(super) fn resolve(
     (dictionaries, broken)
 }
 
+/// Checks the objects of a library that is compiled by itself: no device will ever ask for them.
+pub(super) fn check_library(root: &Spec, libraries: &[Spec], scope: &Scope, diagnostics: &mut Diagnostics) {
+    let around = Surroundings { scope, safe_eds: true };
+    for declared in decls::of_library(root, libraries, diagnostics).into_values() {
+        if declared.decl.alias.is_none() {
+            objects::resolve(&declared, around, diagnostics);
+        }
+    }
+}
+
 /// Every device key that is used must be declared.
 fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
     let known: Vec<&str> = root.devices.iter().map(|device| device.key.value.as_str()).collect();
@@ -187,11 +197,13 @@ impl Builder<'_> {
         let mut whole = decl.entry.clone();
         whole.access.get_or_insert(Spanned::new((target.access, target.locked), reference.span));
         whole.pdo.get_or_insert(Spanned::new(target.pdo, reference.span));
-        let default_name = if target_object.is_structured() {
-            format!("{} {} 16bit", target_object.name, target.name)
+        let target_name = if target_object.is_structured() {
+            format!("{} {}", target_object.name, target.name)
         } else {
-            format!("{} 16bit", target_object.name)
+            target_object.name.clone()
         };
+        let (data_type, _) = entries::entry_type(&whole, self.around.scope, diagnostics)?;
+        let default_name = format!("{target_name} {}bit", data_type.bits().unwrap_or_default());
         let name = whole.name.as_ref().map_or(default_name, |name| name.value.clone());
         let mut entry = entries::resolve(&whole, SubIndex(0), name.clone(), self.around, diagnostics)?;
         let factor = check_alias(&entry, decl.entry.type_name.as_ref(), target, id, reference, diagnostics)?;

@@ -207,24 +207,24 @@ fn limits(
         values::read_into(Some(text), expected, diagnostics)?.integer()
     };
     let (low, high) = (limit(decl.min.as_ref()), limit(decl.max.as_ref()));
-    if let (Some(low), Some(high), Some(min), Some(max)) = (low, high, &decl.min, &decl.max) {
-        if low > high {
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::LimitsSwapped,
-                    min.span,
-                    format!(
-                        "the low limit `{}` is above the high limit `{}`",
-                        shorten(&min.value),
-                        shorten(&max.value)
-                    ),
-                )
-                .label("low limit")
-                .with(max.span, "high limit")
-                .help("swap or correct the two"),
-            );
-            return (None, None);
-        }
+    if let (Some(low), Some(high), Some(min), Some(max)) = (low, high, &decl.min, &decl.max)
+        && low > high
+    {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::LimitsSwapped,
+                min.span,
+                format!(
+                    "the low limit `{}` is above the high limit `{}`",
+                    shorten(&min.value),
+                    shorten(&max.value)
+                ),
+            )
+            .label("low limit")
+            .with(max.span, "high limit")
+            .help("swap or correct the two"),
+        );
+        return (None, None);
     }
     (low, high)
 }

@@ -27,6 +27,7 @@ use scope::Scope;
 /// Builds the model from a specification and the libraries it uses. Mistakes go to `diagnostics`; with an error
 /// among them the model is incomplete and must not be used.
 pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> System {
+    crate::check::keys_have_effect::check(root, diagnostics);
     let scope = Scope::new(root, libraries, diagnostics);
     let languages = match root.languages.as_slice() {
         [] => vec!["en".to_owned()],
@@ -45,6 +46,9 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
             Diagnostic::new(Code::NoDevice, start(root.span), "the specification describes no device")
                 .help("add `devices:` with at least one device, such as `drive: {name: My drive}`"),
         );
+    }
+    if root.profile.is_some() {
+        devices::check_library(root, libraries, &scope, diagnostics);
     }
     let (devices, broken) = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
     let mut system = System {

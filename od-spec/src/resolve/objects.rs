@@ -83,24 +83,12 @@ fn inherited(object: &EntryDecl) -> EntryDecl {
     }
 }
 
-/// Refuses keys that say something about one value on an object that has several.
-fn refuse_value_keys(object: &EntryDecl, what: &str, diagnostics: &mut Diagnostics) {
-    let keys = [("default", &object.default), ("min", &object.min), ("max", &object.max)];
-    for (key, text) in keys.iter().filter_map(|(key, value)| value.as_ref().map(|value| (key, value))) {
-        diagnostics.push(
-            Diagnostic::new(Code::ConflictingKeys, text.span, format!("`{key}` stands beside `{what}`"))
-                .help(format!("move `{key}` to the entries that it is meant for")),
-        );
-    }
-}
-
 fn elements(
     decl: &ObjectDecl,
     array: &ArrayDecl,
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    refuse_value_keys(&decl.entry, "array", diagnostics);
     let highest = array.elements.last().map(|(sub, _)| sub.value.0);
     let count = match (&array.count, highest) {
         (Some(count), Some(highest)) if i128::from(highest) > count.value => {
@@ -182,7 +170,6 @@ fn members(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    refuse_value_keys(&decl.entry, "record", diagnostics);
     let common = inherited(&decl.entry);
     let (mut list, mut broken) = (Vec::new(), false);
     for (sub, member) in &record.members {

@@ -31,7 +31,19 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
     };
     let (low, high) = base.range()?;
     let kind = match (&decl.values, &decl.bits) {
-        (Some(list), None) => TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics)),
+        (Some(list), None) => {
+            if list.is_empty() && !decl.unsure {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::MissingKey,
+                        decl.name.span,
+                        format!("enum `{}` has no values", shorten(&decl.name.value)),
+                    )
+                    .help("list the values with their names"),
+                );
+            }
+            TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics))
+        }
         (None, Some(list)) => TypeKind::Bits(bits(decl, list, base, diagnostics)?),
         (Some(_), Some(_)) => {
             diagnostics.push(
@@ -206,7 +218,7 @@ fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, dia
         }
         at += length.max(1);
     }
-    let Some(usage) = decl.rest else {
+    let Some(Spanned { value: usage, .. }) = decl.rest else {
         if !free.is_empty() && !decl.unsure {
             let runs =
                 free.iter().map(

@@ -213,7 +213,7 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
         let below = steps.floor();
         Box::new(
             Diagnostic::new(Code::InexactValue, span, "the value does not fit the unit's scale")
-                .label(format!("{} steps of {step} {symbol}", steps))
+                .label(format!("{steps} steps of {step} {symbol}"))
                 .help(format!(
                     "write {} (raw {below}) or {} (raw {}), or a raw value",
                     unit.show(below),

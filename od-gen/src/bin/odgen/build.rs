@@ -1,6 +1,6 @@
 //! `odgen build`.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -96,10 +96,8 @@ fn stem(path: &Path) -> String {
 
 /// The first path that two artifacts share.
 fn clash(set: &[Artifact]) -> Option<&str> {
-    let mut seen = BTreeMap::new();
-    set.iter()
-        .find(|artifact| seen.insert(&artifact.path, ()).is_some())
-        .map(|artifact| artifact.path.as_str())
+    let mut seen = BTreeSet::new();
+    set.iter().find(|artifact| !seen.insert(&artifact.path)).map(|artifact| artifact.path.as_str())
 }
 
 fn describe(device: &Dictionary) -> String {

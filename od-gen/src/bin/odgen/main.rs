@@ -1,7 +1,5 @@
 //! `odgen`: checks specifications of CANopen object dictionaries and makes files from them.
 
-#![expect(clippy::print_stdout, reason = "a command prints its results")]
-
 mod args;
 mod build;
 mod check;

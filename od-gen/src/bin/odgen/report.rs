@@ -1,5 +1,6 @@
 //! Messages to standard error, results to standard output.
 
+use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::Path;
 
@@ -35,7 +36,7 @@ impl Report {
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {
             let first = diagnostics.iter().next().map_or("", |first| first.code.id());
-            text.push_str(&format!("{summary}; `odgen explain {first}` tells more\n"));
+            let _ = writeln!(text, "{summary}; `odgen explain {first}` tells more");
         }
         let _ = std::io::stderr().write_all(text.as_bytes());
     }

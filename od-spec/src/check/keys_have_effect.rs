@@ -1,0 +1,83 @@
+//! No key is read and then ignored: what stands in a specification has an effect where it stands.
+
+use crate::ast::{EntryDecl, ObjectDecl, Spec};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::PatternBit;
+use crate::source::Span;
+
+pub(crate) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
+    for object in &root.objects {
+        check_object(object, diagnostics);
+    }
+    for decl in root.types.iter().filter(|decl| decl.values.is_some()) {
+        if let Some(rest) = &decl.rest {
+            refuse(
+                "rest",
+                rest.span,
+                "an enum has no bits",
+                "remove it; `rest:` belongs to `bits:`",
+                diagnostics,
+            );
+        }
+    }
+    if let (None, Some(feature)) = (&root.profile, root.features.first()) {
+        let help = "add `profile:` to make the file a library, or select features under `devices:`";
+        refuse("features", feature.name.span, "only a library offers features", help, diagnostics);
+    }
+    for (_, pattern, _) in root.machines.iter().flat_map(|machine| &machine.states) {
+        let edge = |bit: &PatternBit| matches!(bit, PatternBit::Rising | PatternBit::Falling);
+        if let Some(pattern) = pattern.as_ref().filter(|pattern| pattern.value.0.iter().any(edge)) {
+            diagnostics.push(
+                Diagnostic::new(Code::BadNotation, pattern.span, "a state is shown by levels, not by edges")
+                    .help("write `0`, `1` or `x`; `r` and `f` belong to commands"),
+            );
+        }
+    }
+}
+
+pub(crate) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
+    let ObjectDecl { alias, from, array, record, sub0, omit, outside, rounding, entry, .. } = object;
+    if alias.is_none() {
+        for (key, span) in [("outside", outside.map(|o| o.span)), ("rounding", rounding.map(|r| r.span))] {
+            if let Some(span) = span {
+                refuse(key, span, "the object is no alias", "remove it, or add `alias:`", diagnostics);
+            }
+        }
+    }
+    let structured = array.is_some() || record.is_some() || from.is_some();
+    if let Some(sub0) = sub0.as_ref().filter(|_| !structured) {
+        refuse(
+            "sub0",
+            sub0.span,
+            "a VAR has one entry only",
+            "remove it, or add `array:` or `record:`",
+            diagnostics,
+        );
+    }
+    if let Some(sub) = omit.first().filter(|_| from.is_none()) {
+        let help = "leave the sub-index out of `array:` or `record:` instead";
+        refuse("omit", sub.span, "nothing is taken from a library", help, diagnostics);
+    }
+    if array.is_some() || record.is_some() {
+        let EntryDecl { default, min, max, special, bit_errors, .. } = entry;
+        let keys = [
+            ("default", default.as_ref().map(|key| key.span)),
+            ("min", min.as_ref().map(|key| key.span)),
+            ("max", max.as_ref().map(|key| key.span)),
+            ("special", special.as_ref().map(|key| key.span)),
+            ("bit-errors", bit_errors.as_ref().map(|key| key.span)),
+        ];
+        for (key, span) in keys {
+            if let Some(span) = span {
+                let help = format!("move `{key}` to the entries that it is meant for");
+                refuse(key, span, "the object has several values", &help, diagnostics);
+            }
+        }
+    }
+}
+
+fn refuse(key: &str, span: Span, why: &str, help: &str, diagnostics: &mut Diagnostics) {
+    diagnostics.push(
+        Diagnostic::new(Code::ConflictingKeys, span, format!("`{key}` has no effect here: {why}")).help(help),
+    );
+}

@@ -1,0 +1,58 @@
+//! Texts are in the languages that the specification lists: a text in another one would never be shown.
+
+use super::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::keys::{Keys, Shape};
+use crate::yaml::{Node, NodeKind, shorten};
+
+/// Checks a specification; without `languages:` it has English only.
+pub(super) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+    let listed: Vec<&str> =
+        root.get("languages").map(Node::items).unwrap_or_default().iter().filter_map(text).collect();
+    let listed = if listed.is_empty() { vec!["en"] } else { listed };
+    in_map(root, keys, &listed, diagnostics);
+}
+
+fn text(node: &Node) -> Option<&str> {
+    node.text().map(|text| text.value)
+}
+
+fn in_map(node: &Node, keys: &Keys, listed: &[&str], diagnostics: &mut Diagnostics) {
+    for (name, value) in node.entries() {
+        if let Some(key) = keys.keys.iter().find(|key| key.name == name.value) {
+            in_value(value, key.shape, listed, diagnostics);
+        }
+    }
+}
+
+fn in_value(node: &Node, shape: Shape, listed: &[&str], diagnostics: &mut Diagnostics) {
+    match (shape, &node.kind) {
+        (Shape::Words, NodeKind::Map(entries)) => {
+            for (name, _) in entries.iter().filter(|(name, _)| !listed.contains(&name.value.as_str())) {
+                let diagnostic = Diagnostic::new(
+                    Code::UnknownReference,
+                    name.span,
+                    format!("`languages:` does not list `{}`", shorten(&name.value)),
+                );
+                diagnostics.push(match nearest(&name.value, listed.iter().copied()) {
+                    Some(word) => {
+                        diagnostic.help(format!("add it to `languages:`, or did you mean `{word}`?"))
+                    }
+                    None => diagnostic.help("add the language to `languages:` at the top of the file"),
+                });
+            }
+        }
+        (Shape::Map(keys) | Shape::ShortOr(_, keys), _) => in_map(node, keys, listed, diagnostics),
+        (Shape::MapOf(_, value), NodeKind::Map(entries)) => {
+            for (_, node) in entries {
+                in_value(node, *value, listed, diagnostics);
+            }
+        }
+        (Shape::List(item) | Shape::OneOrMore(item), NodeKind::List(items)) => {
+            for node in items {
+                in_value(node, *item, listed, diagnostics);
+            }
+        }
+        _ => {}
+    }
+}
