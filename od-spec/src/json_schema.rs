@@ -178,7 +178,7 @@ fn schema(shape: Shape) -> Json {
         Shape::Map(keys) => reference(&slug(keys.name)),
         Shape::MapOf(kind, value) => map_of(kind, *value),
         Shape::List(item) => list(*item),
-        Shape::OneOrMore(item) => any_of([schema(*item), list(*item)]),
+        Shape::OneOrMore(item) => any_of([schema(*item), at_least_one(*item)]),
         Shape::ShortOr(short, keys) => any_of([schema(*short), reference(&slug(keys.name))]),
         _ => reference(definition(shape).unwrap_or(TEXT)),
     }
@@ -190,6 +190,10 @@ fn any_of(schemas: impl Into<Vec<Json>>) -> Json {
 
 fn list(item: Shape) -> Json {
     object([("type", text("array")), ("items", schema(item))])
+}
+
+fn at_least_one(item: Shape) -> Json {
+    object([("type", text("array")), ("items", schema(item)), ("minItems", Json::Number(1))])
 }
 
 /// An empty value stands for an empty map: a section whose entries were all commented out holds nothing.
@@ -296,7 +300,8 @@ fn scalar(shape: Shape) -> Json {
         object([("type", texts(types.iter().copied())), ("pattern", text(pattern))])
     };
     match shape {
-        Shape::Words => any_of([reference(TEXT), map_of(KeyKind::Language, Shape::Text)]),
+        Shape::Text => pattern(&["string", "number", "boolean"], "\\S".to_owned()),
+        Shape::Words => any_of([any_text(), map_of(KeyKind::Language, Shape::Value)]),
         Shape::YesNo => object([("enum", yes_no())]),
         Shape::Date => pattern(&["string"], format!("^{DAY}$")),
         Shape::DateTime => pattern(&["string"], format!("^{DAY}[ T]([01][0-9]|2[0-3]):[0-5][0-9]$")),

@@ -21,6 +21,8 @@ const BEYOND_SCHEMA: &[(&str, &str)] = &[
     ),
     ("err_od0203_cob_id", "`cob-id` is needed for some PDO numbers only, and only by valid PDOs"),
     ("err_od0203_entry", "`name`, `type` and `access` may come from the object or a library"),
+    ("err_od0203_empty_enum", "a map may be empty where nothing is listed yet"),
+    ("err_od0203_table_without_content", "which key fills a table depends on what it holds"),
     ("err_od0203_type", "a bit needs a name only where nothing else says what it is"),
 ];
 
@@ -123,7 +125,7 @@ fn every_notation_of_a_valid_value_is_accepted() {
         "pdos: {d: {receive: {0x1: {map: [0x6040, a.b, 8192.1, unsigned8]}}, transmit: }}",
         "errors: {0x1000..0x1FFF: {name: 1}, 8192: {name: b}, \"0xFF_00\": {name: c}}",
         "document: [{title: a, tables: [{errors: all}, {errors: [0x1000, 4096]}, {rows: {columns: [1], rows: [[0], [{de: b}]]}}]}]",
-        "state-machines: {m: {status: a, command: 0x6040, states: {s: {pattern: 00000001}}, transitions: {0x0: {to: s, event: e}}}}",
+        "state-machines: {m: {status: a, command: 0x6040, states: {s: {pattern: 00000001}}, transitions: {0x0: {from: start, to: s, event: e}}}}",
         "history: [{number: 1.00, date: 2008-02-29}]\nerrata:",
     ] {
         let text = format!("od-spec: 1\ntitle: 1.0\n{rest}\n");

@@ -78,7 +78,8 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
             _ => check(node, *short, owner, diagnostics),
         },
         Shape::Words => match &node.kind {
-            NodeKind::Map(_) => check_keyed(node, KeyKind::Language, Shape::Words, diagnostics),
+            // A text may be empty where a name may not.
+            NodeKind::Map(_) => check_keyed(node, KeyKind::Language, Shape::Value, diagnostics),
             NodeKind::Scalar { .. } => {}
             _ => wrong_kind(node, "a text", diagnostics),
         },

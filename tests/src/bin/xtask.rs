@@ -45,7 +45,7 @@ fn main() -> ExitCode {
 /// All Rust tests, then the foreign readers.
 fn test() -> Result<(), Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    run(Command::new(cargo).args(["test", "--workspace"]))?;
+    run(Command::new(cargo).args(["test", "--workspace", "--no-fail-fast"]))?;
     python("tests/readers/selftest/selftest.py", &[])?;
     // A device with every feature and data type, which the shipped devices do not have.
     let system = compile_clean("tests/readers/everything.od.yaml")?;
