@@ -34,22 +34,27 @@ pub struct Selection<'a> {
 pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
     let wanted =
         |device: &&Dictionary| selection.devices.is_empty() || selection.devices.contains(&device.key);
-    let mut list = Vec::new();
-    for device in system.devices.iter().filter(wanted) {
-        let path = format!("eds/{}.eds", device.key);
-        list.push(Artifact {
-            bytes: eds::write_eds(system, device),
-            path,
-            purpose: "import this into the PLC tool",
-        });
-        if let Some(node) = selection.node {
-            let commissioning = eds::Commissioning::of_node(device, node);
-            let path = format!("eds/{}.dcf", device.key);
-            let bytes = eds::write_dcf(system, device, &commissioning, &format!("{}.dcf", device.key));
-            list.push(Artifact { bytes, path, purpose: "the same, configured for one node" });
+    // The dump is half of the work, and independent of the rest.
+    std::thread::scope(|scope| {
+        let dump = scope.spawn(|| json::dump(system, selection.devices));
+        let mut list = Vec::new();
+        for device in system.devices.iter().filter(wanted) {
+            let path = format!("eds/{}.eds", device.key);
+            let bytes = eds::write_eds(system, device);
+            list.push(Artifact { bytes, path, purpose: "import this into the PLC tool" });
+            if let Some(node) = selection.node {
+                let commissioning = eds::Commissioning::of_node(device, node);
+                let path = format!("eds/{}.dcf", device.key);
+                let bytes = eds::write_dcf(system, device, &commissioning, &format!("{}.dcf", device.key));
+                list.push(Artifact { bytes, path, purpose: "the same, configured for one node" });
+            }
         }
-    }
-    let bytes = json::dump(system, selection.devices).into_bytes();
-    list.push(Artifact { bytes, path: format!("{stem}.json"), purpose: "the resolved model, for programs" });
-    list
+        let bytes = dump.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        list.push(Artifact {
+            bytes,
+            path: format!("{stem}.json"),
+            purpose: "the resolved model, for programs",
+        });
+        list
+    })
 }

@@ -3,6 +3,9 @@
 /// Replaces every character outside printable ASCII by its usual transcription: `ä` → `ae`, `°` → `deg`, `²` → `2`.
 /// What has none becomes `?`.
 pub fn transliterate(text: &str) -> String {
+    if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
+        return text.to_owned();
+    }
     text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
         match c {
             ' '..='~' => out.push(c),

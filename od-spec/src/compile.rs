@@ -56,6 +56,8 @@ fn build(
 ) -> Option<System> {
     let node = yaml::parse(root, sources.file(root), diagnostics)?;
     let spec = decode(&node, diagnostics);
+    // The tree is several times as large as the text; what follows can use its memory.
+    drop(node);
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
     Some(resolve::resolve(&spec, &libraries, diagnostics))

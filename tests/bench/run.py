@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measure how long odgen takes, and what other people's tools take on the EDS files that it makes.
 
-    run.py [--odgen FILE] [--runs 20] [--budget 20] [--sizes 150 1500 10000] [--cache target/bench] [--no-peers]
+    run.py [--odgen FILE] [--runs 20] [--budget 10] [--sizes 150 1500 10000] [--cache target/bench] [--no-peers]
 
 Prints Markdown. All commands are run in turn, one run of each per round, so that a busy moment of
 the machine hits all of them. A time is that of the whole process, from starting it to its end.
@@ -70,7 +70,12 @@ class Measured:
         environment = {**os.environ, **self.environment}
         start = time.perf_counter()
         done = subprocess.run(
-            [*prefix, *self.command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env=environment
+            [*prefix, *self.command],
+            check=False,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env=environment,
         )
         seconds = time.perf_counter() - start
         if done.returncode != 0:
@@ -82,7 +87,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--odgen", type=Path, help="the program; without it, it is built with cargo")
     parser.add_argument("--runs", type=int, default=20)
-    parser.add_argument("--budget", type=float, default=20, help="seconds for one command; slow ones run less often, but 3 times")
+    parser.add_argument("--budget", type=float, default=10, help="seconds for one command; slow ones run less often, but 3 times")
     parser.add_argument("--sizes", type=int, nargs="+", default=[150, 1500, LARGE])
     parser.add_argument("--cache", type=Path, default=ROOT / "target" / "bench", help="where the peers are installed")
     parser.add_argument("--no-peers", action="store_true")
@@ -108,12 +113,15 @@ def built() -> Path:
 
 
 def output(command: list[str], folder: Path | None = None) -> str:
+    """What a command prints, messages included."""
     try:
-        done = subprocess.run(command, cwd=folder, text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        done = subprocess.run(
+            command, check=False, cwd=folder, text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        )
     except OSError as error:
         raise Failed(f"{command[0]}: {error.strerror}") from error
     if done.returncode != 0:
-        raise Failed(f"{' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-400:]}")
+        raise Failed(f"{' '.join(command)} ended with {done.returncode}: {done.stdout.strip()[-400:]}")
     return done.stdout.strip()
 
 
@@ -234,9 +242,9 @@ def peak(one: Measured, gnu_time: str | None) -> int | None:
 
 def report(odgen: Path, measured: list[Measured], missing: list[str]) -> str:
     builds = {one.size: one for one in measured if one.name == "odgen build"}
+    machine = f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"
     lines = [
-        f"{output([str(odgen), '--version'])}, Python {platform.python_version()}, {platform.system()} {platform.machine()}, "
-        f"{os.cpu_count()} cores",
+        f"{output([str(odgen), '--version'])}, Python {platform.python_version()}, {machine}",
         "",
         "| command | objects | runs | median ms | min ms | peak MB | time / odgen build |",
         "|---|--:|--:|--:|--:|--:|--:|",
@@ -246,8 +254,7 @@ def report(odgen: Path, measured: list[Measured], missing: list[str]) -> str:
         memory = f"{one.kilobytes / 1024:.0f}" if one.kilobytes else ""
         times = f"{1000 * one.median:.1f} | {1000 * min(one.seconds):.1f}"
         lines.append(f"| {one.name} | {one.size or ''} | {len(one.seconds)} | {times} | {memory} | {ratio} |")
-    lines.append("")
-    lines += (f"Not measured: {reason}." for reason in missing)
+    lines += (f"\nNot measured: {reason}." for reason in missing)
     lines += goals(measured, builds)
     return "\n".join(lines)
 
@@ -262,11 +269,12 @@ def goals(measured: list[Measured], builds: dict[int, Measured]) -> Iterator[str
         f"{1000 * pitch:.1f} ms, {'met' if pitch < bar else 'not met'}."
     )
     if LARGE in builds:
-        large = builds[LARGE].median
-        yield (
-            f"Goal: {LARGE} objects in less than {1000 * LARGE_GOAL:.0f} ms: {1000 * large:.0f} ms with the JSON dump, "
-            f"{'met' if large < LARGE_GOAL else 'not met'}."
-        )
+        one_file = next(one.median for one in measured if one.name == "odgen dcf" and one.size == LARGE)
+        for seconds, files in ((builds[LARGE].median, "EDS and JSON dump"), (one_file, "one file in EDS form, no JSON")):
+            yield (
+                f"Goal: {LARGE} objects in less than {1000 * LARGE_GOAL:.0f} ms: {1000 * seconds:.0f} ms ({files}), "
+                f"{'met' if seconds < LARGE_GOAL else 'not met'}."
+            )
     if not dcf2c:
         for size, seconds in DCF2C_ELSEWHERE.items():
             if size in builds:

@@ -8,6 +8,8 @@ use od_spec::ascii::transliterate;
 const LONGEST_LINE: usize = 255;
 /// Width at which comments are broken.
 const COMMENT_WIDTH: usize = 110;
+/// Longest word of a comment; what is longer is cut.
+const LONGEST_WORD: usize = LONGEST_LINE - COMMENT_WIDTH;
 
 /// An EDS or DCF that is being written.
 pub(super) struct Ini {
@@ -32,28 +34,40 @@ impl Ini {
 
     fn comment(&mut self, text: &str) {
         let text = transliterate(text);
-        let mut line = String::from(";");
-        for word in text.split_whitespace() {
-            if line.len() > 1 && line.len() + 1 + word.len() > COMMENT_WIDTH {
-                self.text.push_str(&line);
-                self.text.push_str("\r\n");
-                line = String::from(";  ");
-            }
-            line.push(' ');
-            line.extend(word.chars().take(LONGEST_LINE - COMMENT_WIDTH));
-        }
-        if line.trim_matches([';', ' ']).is_empty() {
+        let mut words = text.split_whitespace().map(|word| &word[..word.len().min(LONGEST_WORD)]).peekable();
+        if words.peek().is_none() {
             return;
         }
-        self.text.push_str(&line);
+        self.text.push(';');
+        let mut length = 1;
+        for word in words {
+            if length > 1 && length + 1 + word.len() > COMMENT_WIDTH {
+                self.text.push_str("\r\n;  ");
+                length = 3;
+            }
+            self.text.push(' ');
+            self.text.push_str(word);
+            length += 1 + word.len();
+        }
         self.text.push_str("\r\n");
     }
 
     /// A key and its value. Text is transliterated and cut to the line length.
     pub(super) fn key(&mut self, key: &str, value: impl Display) {
-        let mut value = transliterate(&value.to_string());
-        value.truncate(LONGEST_LINE - 1 - key.len());
-        let _ = write!(self.text, "{key}={}\r\n", value.trim());
+        self.text.push_str(key);
+        self.text.push('=');
+        let start = self.text.len();
+        let _ = write!(self.text, "{value}");
+        let written = &self.text[start..];
+        let longest = LONGEST_LINE - 1 - key.len();
+        let is_plain = written.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+        if !is_plain || written.len() > longest || written.trim() != written {
+            let mut value = transliterate(written);
+            value.truncate(longest);
+            self.text.truncate(start);
+            self.text.push_str(value.trim());
+        }
+        self.text.push_str("\r\n");
     }
 
     /// A key whose value is 1 or 0.

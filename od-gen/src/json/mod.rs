@@ -5,10 +5,8 @@ mod document;
 mod rules;
 mod types;
 
-use std::collections::BTreeMap;
-
 use od_spec::model::{self, Date, DateTime, Dictionary, EntryId, System, Text};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
 use device::DeviceView;
@@ -20,7 +18,7 @@ use types::{TypeView, UnitView};
 const FORMAT: u32 = 1;
 
 /// The dump of a system, or of some of its devices; ends with a line break.
-pub fn dump(system: &System, devices: &[String]) -> String {
+pub fn dump(system: &System, devices: &[String]) -> Vec<u8> {
     let wanted = |device: &&Dictionary| devices.is_empty() || devices.contains(&device.key);
     let dump = SystemView {
         od_json: FORMAT,
@@ -36,9 +34,11 @@ pub fn dump(system: &System, devices: &[String]) -> String {
         constraints: system.constraints.iter().map(rules::constraint).collect(),
         errata: system.errata.iter().map(rules::erratum).collect(),
     };
-    // Maps with text keys and plain values only: serialising cannot fail.
-    let mut text = serde_json::to_string_pretty(&dump).unwrap_or_default();
-    text.push('\n');
+    let entries: usize = system.devices.iter().map(|device| device.entries().count()).sum();
+    let mut text = Vec::with_capacity(2048 * entries);
+    // Maps with text keys and plain values only, into memory: this cannot fail.
+    let _ = serde_json::to_writer_pretty(&mut text, &dump);
+    text.push(b'\n');
     text
 }
 
@@ -59,10 +59,17 @@ struct SystemView<'a> {
     errata: Vec<ErratumView<'a>>,
 }
 
-type Words<'a> = &'a BTreeMap<String, String>;
+/// A text as a map from language code to text.
+struct Words<'a>(&'a Text);
 
-fn words(text: &Text) -> Words<'_> {
-    &text.0
+impl Serialize for Words<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter())
+    }
+}
+
+const fn words(text: &Text) -> Words<'_> {
+    Words(text)
 }
 
 fn index(index: model::Index) -> String {

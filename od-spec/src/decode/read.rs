@@ -92,17 +92,13 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn own_words(self) -> Option<Text> {
-        let by_language: Vec<(&str, &Node)> = match &self.node.kind {
+        let text = |node: &'a Node| node.text().map(|text| text.value.trim());
+        let text = match &self.node.kind {
             NodeKind::Map(entries) => {
-                entries.iter().map(|(name, node)| (name.value.as_str(), node)).collect()
+                Text::new(entries.iter().filter_map(|(name, node)| Some((name.value.as_str(), text(node)?))))
             }
-            _ => vec![(self.language, self.node)],
+            _ => Text::new([(self.language, text(self.node)?)]),
         };
-        let texts = by_language.into_iter().filter_map(|(language, node)| {
-            let text = node.text()?.value.trim();
-            Some((language.to_owned(), text.to_owned()))
-        });
-        let text = Text(texts.collect());
         (!text.is_empty()).then_some(text)
     }
 }

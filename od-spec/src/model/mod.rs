@@ -6,6 +6,7 @@
 mod document;
 mod pdo;
 mod ratio;
+mod text;
 mod types;
 mod unit;
 mod value;
@@ -18,6 +19,7 @@ pub use document::{
 };
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
+pub use text::Text;
 pub use types::{
     Access, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding, Storage, SubIndex,
 };
@@ -26,22 +28,6 @@ pub use value::{Value, convert, format_value};
 
 use crate::expr::Expr;
 use crate::source::Span;
-
-/// A text in the languages that the specification has; the key is the language code.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Text(pub BTreeMap<String, String>);
-
-impl Text {
-    /// The text in a language, or else in any other.
-    pub fn get(&self, language: &str) -> Option<&str> {
-        self.0.get(language).or_else(|| self.0.values().next()).map(String::as_str)
-    }
-
-    /// Whether there is no text at all.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
 
 /// Everything that one specification describes.
 #[derive(Debug, Clone)]

@@ -1,6 +1,7 @@
 //! Which declarations make up a device: its own objects, laid over a library's where `from:` says so, and the objects
 //! that its features bring.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::scope::unknown;
@@ -11,20 +12,20 @@ use crate::model::{Index, Origin, SubIndex};
 use crate::source::Spanned;
 
 /// A declaration that is ready to be resolved for one device.
-pub(super) struct Declared {
-    pub decl: ObjectDecl,
+pub(super) struct Declared<'a> {
+    pub decl: Cow<'a, ObjectDecl>,
     pub origin: Origin,
     pub profile: Option<String>,
     pub differs: Vec<String>,
 }
 
 /// All declarations of a device by index.
-pub(super) fn of_device(
-    root: &Spec,
-    libraries: &[Spec],
+pub(super) fn of_device<'a>(
+    root: &'a Spec,
+    libraries: &'a [Spec],
     device: &DeviceDecl,
     diagnostics: &mut Diagnostics,
-) -> BTreeMap<Index, Declared> {
+) -> BTreeMap<Index, Declared<'a>> {
     let here = |decl: &ObjectDecl| {
         decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value))
     };
@@ -46,7 +47,7 @@ pub(super) fn of_device(
                 continue;
             };
             declared.entry(index.value).or_insert_with(|| Declared {
-                decl: decl.clone(),
+                decl: Cow::Borrowed(decl),
                 origin: Origin::Profile,
                 profile: library.profile.as_ref().map(|name| name.value.clone()),
                 differs: Vec::new(),
@@ -57,27 +58,27 @@ pub(super) fn of_device(
 }
 
 /// All declarations of a library that is compiled by itself.
-pub(super) fn of_library(
-    root: &Spec,
-    libraries: &[Spec],
+pub(super) fn of_library<'a>(
+    root: &'a Spec,
+    libraries: &'a [Spec],
     diagnostics: &mut Diagnostics,
-) -> BTreeMap<Index, Declared> {
+) -> BTreeMap<Index, Declared<'a>> {
     own(root, libraries, |_| true, diagnostics)
 }
 
 /// The declarations that stand in the specification itself.
-fn own(
-    root: &Spec,
-    libraries: &[Spec],
+fn own<'a>(
+    root: &'a Spec,
+    libraries: &'a [Spec],
     wanted: impl Fn(&ObjectDecl) -> bool,
     diagnostics: &mut Diagnostics,
-) -> BTreeMap<Index, Declared> {
+) -> BTreeMap<Index, Declared<'a>> {
     let mut declared = BTreeMap::new();
     for decl in root.objects.iter().filter(|decl| wanted(decl)) {
         let one = match &decl.from {
             Some(from) => from_library(decl, from, libraries, diagnostics),
             None => {
-                let (origin, decl) = (Origin::Manual, decl.clone());
+                let (origin, decl) = (Origin::Manual, Cow::Borrowed(decl));
                 Some(Declared { decl, origin, profile: None, differs: Vec::new() })
             }
         };
@@ -127,12 +128,12 @@ fn features<'a>(
     found
 }
 
-fn from_library(
+fn from_library<'a>(
     decl: &ObjectDecl,
     from: &Name,
     libraries: &[Spec],
     diagnostics: &mut Diagnostics,
-) -> Option<Declared> {
+) -> Option<Declared<'a>> {
     let names = libraries.iter().filter_map(|library| library.profile.as_ref());
     let Some(library) =
         libraries.iter().find(|l| l.profile.as_ref().is_some_and(|name| name.value == from.value))
@@ -160,6 +161,7 @@ fn from_library(
     };
     let (merged, differs) = lay_over(decl, below);
     check_own_keys(decl, &merged, diagnostics);
+    let merged = Cow::Owned(merged);
     Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), differs })
 }
 

@@ -105,7 +105,7 @@ struct Builder<'a> {
 
 impl Builder<'_> {
     /// Remembers the objects that may be meant for the device, but whose library or device is unknown.
-    fn left_out(&mut self, root: &Spec, device: &DeviceDecl, declared: &BTreeMap<Index, Declared>) {
+    fn left_out(&mut self, root: &Spec, device: &DeviceDecl, declared: &BTreeMap<Index, Declared<'_>>) {
         let known = |key: &Name| root.devices.iter().any(|device| device.key.value == key.value);
         for decl in root.objects.iter().filter(|decl| !declared.contains_key(&decl.index.value)) {
             let meant = |on: &Vec<Name>| on.iter().any(|key| key.value == device.key.value || !known(key));
@@ -115,7 +115,7 @@ impl Builder<'_> {
         }
     }
 
-    fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared>, diagnostics: &mut Diagnostics) {
+    fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
             if pdos::is_pdo_index(*index) {
                 diagnostics.push(
@@ -139,7 +139,7 @@ impl Builder<'_> {
         }
     }
 
-    fn aliases(&mut self, declared: &BTreeMap<Index, Declared>, diagnostics: &mut Diagnostics) {
+    fn aliases(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         let names = refs::Names::new(self.objects.values());
         for (index, one) in declared {
             let Some(reference) = &one.decl.alias else { continue };
@@ -172,7 +172,7 @@ impl Builder<'_> {
 
     fn alias(
         &self,
-        one: &Declared,
+        one: &Declared<'_>,
         reference: &Name,
         id: EntryId,
         diagnostics: &mut Diagnostics,
@@ -265,7 +265,7 @@ impl Builder<'_> {
 }
 
 /// The alias that a reference names, by index or by name.
-fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared>) -> Option<Spanned<Index>> {
+fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared<'_>>) -> Option<Spanned<Index>> {
     let by_index = crate::decode::lexical::entry_by_index(&reference.value).map(|(id, _)| id.index);
     let mut aliases = declared.values().map(|one| &one.decl).filter(|decl| decl.alias.is_some());
     let is_named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.value == reference.value);

@@ -12,7 +12,7 @@ use crate::yaml::shorten;
 
 /// Resolves a declaration; `None` when nothing usable is left of it.
 pub(super) fn resolve(
-    declared: &Declared,
+    declared: &Declared<'_>,
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Object> {

@@ -359,7 +359,7 @@ fn english(text: &str) -> Text {
     if text.is_empty() {
         return Text::default();
     }
-    Text([("en".to_owned(), text.to_owned())].into())
+    Text::new([("en", text)])
 }
 
 fn communication_object(pdo: &Pdo) -> Object {

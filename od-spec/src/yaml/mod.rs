@@ -345,7 +345,7 @@ impl Builder<'_> {
             Some(Open::Map { entries, seen, key, .. }) => match std::mem::replace(key, Key::Expected) {
                 Key::Read(name) => entries.push((name, node)),
                 Key::Dropped => {}
-                Key::Expected => *key = read_key(node, seen, self.diagnostics),
+                Key::Expected => *key = read_key(node, entries, seen, self.diagnostics),
             },
         }
     }
@@ -395,7 +395,12 @@ impl Builder<'_> {
     }
 }
 
-fn read_key(node: Node, seen: &mut BTreeMap<String, Span>, diagnostics: &mut Diagnostics) -> Key {
+fn read_key(
+    node: Node,
+    entries: &[(Spanned<String>, Node)],
+    seen: &mut BTreeMap<String, Span>,
+    diagnostics: &mut Diagnostics,
+) -> Key {
     let span = node.span;
     let NodeKind::Scalar { text, .. } = node.kind else {
         if !matches!(node.kind, NodeKind::Broken) {
@@ -418,7 +423,7 @@ fn read_key(node: Node, seen: &mut BTreeMap<String, Span>, diagnostics: &mut Dia
         // The key stays, so that nobody misses what it would have brought.
         return Key::Read(Spanned::new(text, span));
     }
-    if let Some(first) = seen.get(&text) {
+    if let Some(first) = earlier(&text, entries, seen) {
         diagnostics.push(
             Diagnostic::new(
                 Code::DuplicateKey,
@@ -426,11 +431,26 @@ fn read_key(node: Node, seen: &mut BTreeMap<String, Span>, diagnostics: &mut Dia
                 format!("key `{}` stands twice in this map", shorten(&text)),
             )
             .label("again here")
-            .with(*first, "first here")
+            .with(first, "first here")
             .help("remove one of the two, or join their values"),
         );
         return Key::Dropped;
     }
-    seen.insert(text.clone(), span);
     Key::Read(Spanned::new(text, span))
+}
+
+/// The place of an equal key. Small maps, which is nearly all of them, are searched; large ones get an index.
+fn earlier(
+    text: &str,
+    entries: &[(Spanned<String>, Node)],
+    seen: &mut BTreeMap<String, Span>,
+) -> Option<Span> {
+    const SMALL: usize = 16;
+    if entries.len() <= SMALL {
+        return entries.iter().find(|(name, _)| name.value == text).map(|(name, _)| name.span);
+    }
+    for (name, _) in &entries[seen.len()..] {
+        seen.insert(name.value.clone(), name.span);
+    }
+    seen.get(text).copied()
 }

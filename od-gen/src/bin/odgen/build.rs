@@ -57,7 +57,10 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
                 ),
         );
     }
-    match write_all(&args.out, &set) {
+    let written = write_all(&args.out, &set);
+    // The process ends next: taking the models apart piece by piece would only cost the user time.
+    std::mem::forget(systems);
+    match written {
         Ok(outcomes) => {
             text.push_str(&list(&args.out, &set, &outcomes));
             print(&text)

@@ -29,7 +29,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args, &report),
         Command::Dcf(args) => dcf::run(&args, &report),
         Command::Dump(args) => match report.compile(&args.spec) {
-            Some(system) => report::print(&od_gen::json::dump(&system, &args.device)),
+            Some(system) => report::print_bytes(&od_gen::json::dump(&system, &args.device)),
             None => ERRORS,
         },
         Command::Errata(args) => errata::run(&args, &report),

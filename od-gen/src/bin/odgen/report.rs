@@ -81,7 +81,12 @@ pub(crate) fn node_id(text: &str) -> Result<u8, Diagnostic> {
 
 /// Writes a result; a reader that went away early is no error.
 pub(crate) fn print(text: &str) -> u8 {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    print_bytes(text.as_bytes())
+}
+
+/// The same for bytes.
+pub(crate) fn print_bytes(bytes: &[u8]) -> u8 {
+    match std::io::stdout().write_all(bytes) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             anstream::eprintln!("error: cannot write to standard output: {error}");
             ERRORS

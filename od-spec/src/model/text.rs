@@ -1,0 +1,48 @@
+//! Texts for people, in several languages.
+
+/// A text in the languages that the specification has.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Text {
+    /// Language code and text, by ascending code. There are thousands of texts, most in one language.
+    by_language: Vec<(Box<str>, Box<str>)>,
+}
+
+impl Text {
+    /// A text from language codes and texts; of two texts in one language the first counts.
+    pub fn new<'a>(texts: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+        let mut by_language: Vec<(Box<str>, Box<str>)> =
+            texts.into_iter().map(|(language, text)| (language.into(), text.into())).collect();
+        by_language.sort_by(|(one, _), (other, _)| one.cmp(other));
+        by_language.dedup_by(|(later, _), (first, _)| later == first);
+        Self { by_language }
+    }
+
+    /// The text in a language, or else in any other.
+    pub fn get(&self, language: &str) -> Option<&str> {
+        self.iter().find(|(code, _)| *code == language).or_else(|| self.iter().next()).map(|(_, text)| text)
+    }
+
+    /// Language codes and texts, by ascending code.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.by_language.iter().map(|(language, text)| (&**language, &**text))
+    }
+
+    /// Whether there is no text at all.
+    pub fn is_empty(&self) -> bool {
+        self.by_language.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Text;
+
+    #[test]
+    fn any_language_is_better_than_none() {
+        let text = Text::new([("en", "lamp"), ("de", "Lampe"), ("en", "light")]);
+        assert_eq!(text.get("de"), Some("Lampe"));
+        assert_eq!(text.get("en"), Some("lamp"));
+        assert_eq!(text.get("fr"), Some("Lampe"));
+        assert_eq!(Text::default().get("en"), None);
+    }
+}
