@@ -1,0 +1,129 @@
+//! A device: its dictionary and what an EDS says about it.
+
+use std::collections::BTreeMap;
+
+use super::{DataType, Direction, Entry, EntryId, Index, Object, ObjectKind, Pdo, Text};
+use crate::source::Span;
+
+/// The object dictionary of one device, with what an EDS says about the device.
+#[derive(Debug, Clone)]
+pub struct Dictionary {
+    /// The device's key in the specification, such as `pmc`.
+    pub key: String,
+    /// Full name.
+    pub name: String,
+    /// Facts for `[DeviceInfo]`.
+    pub info: DeviceInfo,
+    /// Facts for `[FileInfo]`.
+    pub file: FileInfo,
+    /// Description.
+    pub about: Text,
+    /// Objects by index.
+    pub objects: BTreeMap<Index, Object>,
+    /// PDOs, RPDOs first, by number.
+    pub pdos: Vec<Pdo>,
+    /// Where the device is defined.
+    pub span: Span,
+}
+
+impl Dictionary {
+    /// An entry.
+    pub fn entry(&self, id: EntryId) -> Option<&Entry> {
+        self.objects.get(&id.index)?.entry(id.sub)
+    }
+
+    /// All entries with their ids, ascending.
+    pub fn entries(&self) -> impl Iterator<Item = (EntryId, &Object, &Entry)> {
+        self.objects.values().flat_map(|object| {
+            object
+                .entries
+                .iter()
+                .map(move |entry| (EntryId { index: object.index, sub: entry.sub }, object, entry))
+        })
+    }
+
+    /// PDOs of one direction.
+    pub fn pdos_of(&self, direction: Direction) -> impl Iterator<Item = &Pdo> {
+        self.pdos.iter().filter(move |pdo| pdo.direction == direction)
+    }
+
+    /// The name of an entry as a person would look it up: `controlword`, `drive data.error mask`.
+    pub fn entry_name(&self, id: EntryId) -> Option<String> {
+        let object = self.objects.get(&id.index)?;
+        let entry = object.entry(id.sub)?;
+        Some(match object.kind {
+            ObjectKind::Var | ObjectKind::Domain => object.name.clone(),
+            ObjectKind::Array | ObjectKind::Record => format!("{}.{}", object.name, entry.name),
+        })
+    }
+}
+
+/// What `[DeviceInfo]` says about a device.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DeviceInfo {
+    /// Product name.
+    pub product_name: String,
+    /// Product code, 1018h.2.
+    pub product: u32,
+    /// Product revision, 1018h.3; upper half major, lower half minor.
+    pub product_revision: u32,
+    /// Order code.
+    pub order_code: String,
+    /// Supported bit rates in kbit/s, ascending.
+    pub bit_rates: Vec<u16>,
+    /// Device type, 1000h.
+    pub device_type: u32,
+    /// Smallest unit of PDO mapping in bits; 0 when no mapping can be changed.
+    pub granularity: u8,
+    /// Simple boot-up master.
+    pub boot_up_master: bool,
+    /// Simple boot-up slave.
+    pub boot_up_slave: bool,
+    /// Multiplexed PDOs.
+    pub group_messaging: bool,
+    /// LSS slave.
+    pub lss: bool,
+    /// Data types that may stand in an RPDO as placeholders.
+    pub dummies: Vec<DataType>,
+}
+
+/// What `[FileInfo]` says about the EDS.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FileInfo {
+    /// Description.
+    pub description: String,
+    /// When the file was first made.
+    pub created: DateTime,
+    /// Who made it.
+    pub created_by: String,
+    /// When it was last changed.
+    pub modified: DateTime,
+    /// Who changed it.
+    pub modified_by: String,
+    /// Version of the file.
+    pub version: u8,
+    /// Revision of the file.
+    pub revision: u8,
+}
+
+/// A calendar date.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Date {
+    /// Four digits.
+    pub year: u16,
+    /// 1 to 12.
+    pub month: u8,
+    /// 1 to 31.
+    pub day: u8,
+}
+
+/// A date and a time of day, to the minute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct DateTime {
+    /// The day.
+    pub date: Date,
+    /// 0 to 23.
+    pub hour: u8,
+    /// 0 to 59.
+    pub minute: u8,
+}

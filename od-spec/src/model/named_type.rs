@@ -1,0 +1,100 @@
+//! Enums and bit fields.
+
+use super::{DataType, Text};
+
+/// An enum or a bit field with a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedType {
+    /// Name.
+    pub name: String,
+    /// Data type on the bus.
+    pub base: DataType,
+    /// Meaning.
+    pub about: Text,
+    /// Values or bits.
+    pub kind: TypeKind,
+}
+
+/// What a [`NamedType`] consists of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TypeKind {
+    /// Named values, ascending.
+    Enum(Vec<EnumValue>),
+    /// Fields by ascending bit; they cover every bit of the base type.
+    Bits(Vec<BitField>),
+}
+
+/// One value of an enum.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EnumValue {
+    /// Raw value.
+    pub value: i128,
+    /// Name.
+    pub name: String,
+    /// Whether this device accepts or sends it; `false` for values that only a standard defines.
+    pub supported: bool,
+    /// Meaning.
+    pub about: Text,
+}
+
+/// One bit, or a run of bits that belong together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BitField {
+    /// Lowest bit.
+    pub first: u8,
+    /// Highest bit.
+    pub last: u8,
+    /// What the bits are for.
+    pub usage: BitUsage,
+    /// Name; empty for bits without use.
+    pub name: String,
+    /// Meaning.
+    pub about: Text,
+    /// Error codes that the device reports with this bit.
+    pub errors: Vec<u16>,
+    /// Terminal at which the signal is found.
+    pub clamp: Option<String>,
+    /// The level that means "active"; 1 unless stated.
+    pub active: u8,
+    /// The change that triggers the function, where a level does not.
+    pub edge: Option<Edge>,
+    /// Error priority, as the manual classes it.
+    pub priority: Option<String>,
+    /// Named values of a run of bits.
+    pub values: Vec<EnumValue>,
+    /// Meanings that apply only in one mode of operation: mode, name, meaning.
+    pub modes: Vec<(String, String, Text)>,
+}
+
+/// What bits are for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BitUsage {
+    /// They mean something.
+    Used,
+    /// Reserved by a standard or for later.
+    Reserved,
+    /// Free.
+    Unused,
+}
+
+/// A change of a bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Edge {
+    /// 0 to 1.
+    Rising,
+    /// 1 to 0.
+    Falling,
+    /// Either.
+    Both,
+}
+
+impl Edge {
+    /// The word that a specification uses.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Edge::Rising => "rising",
+            Edge::Falling => "falling",
+            Edge::Both => "both",
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! Objects and their entries.
+
+use std::sync::Arc;
+
+use super::{
+    Access, Category, DataType, EntryId, Index, NamedType, Outside, PdoMapping, Ratio, Rounding, Storage,
+    SubIndex, Text, Unit, Value,
+};
+use crate::expr::Expr;
+use crate::source::Span;
+
+/// Shape of an object (CiA 301 table 37).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ObjectKind {
+    /// One value at sub-index 0.
+    Var,
+    /// Elements of one type behind a count.
+    Array,
+    /// Members of any types behind a count.
+    Record,
+    /// A block of variable length.
+    Domain,
+}
+
+impl ObjectKind {
+    /// `VAR`, `ARRAY`, `RECORD`, `DOMAIN`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            ObjectKind::Var => "VAR",
+            ObjectKind::Array => "ARRAY",
+            ObjectKind::Record => "RECORD",
+            ObjectKind::Domain => "DOMAIN",
+        }
+    }
+
+    /// Object code of CiA 301.
+    pub const fn code(self) -> u8 {
+        match self {
+            ObjectKind::Domain => 2,
+            ObjectKind::Var => 7,
+            ObjectKind::Array => 8,
+            ObjectKind::Record => 9,
+        }
+    }
+}
+
+/// Where an object of a dictionary comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Origin {
+    /// Written in the specification's `objects:`.
+    Manual,
+    /// Brought in by a feature of a profile library.
+    Profile,
+    /// Made from `pdos:`.
+    Pdo,
+}
+
+impl Origin {
+    /// `manual`, `profile`, `pdo`.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Origin::Manual => "manual",
+            Origin::Profile => "profile",
+            Origin::Pdo => "pdo",
+        }
+    }
+}
+
+/// One object of a dictionary.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// Index.
+    pub index: Index,
+    /// Name, as the manual's heading spells it.
+    pub name: String,
+    /// Shape.
+    pub kind: ObjectKind,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// The library that defines it, such as `cia301`.
+    pub profile: Option<String>,
+    /// Facts in which the specification departs from the library, such as `name` or `access`.
+    pub differs: Vec<String>,
+    /// Whether a standard demands it.
+    pub category: Option<Category>,
+    /// Manual revision that introduced it.
+    pub since: Option<String>,
+    /// Meaning.
+    pub about: Text,
+    /// Entries by ascending sub-index; a VAR or DOMAIN has exactly one, at 0.
+    pub entries: Vec<Entry>,
+    /// Where it is written.
+    pub span: Span,
+}
+
+impl Object {
+    /// The entry at a sub-index.
+    pub fn entry(&self, sub: SubIndex) -> Option<&Entry> {
+        self.entries.binary_search_by_key(&sub, |entry| entry.sub).ok().map(|at| &self.entries[at])
+    }
+
+    /// Whether the object has sub-indices.
+    pub const fn is_structured(&self) -> bool {
+        matches!(self.kind, ObjectKind::Array | ObjectKind::Record)
+    }
+
+    /// Whether a "store parameters" command or the device itself keeps any entry.
+    pub fn is_stored(&self) -> bool {
+        self.entries.iter().any(|entry| entry.stored != Storage::No)
+    }
+}
+
+/// One addressable value.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// Sub-index.
+    pub sub: SubIndex,
+    /// Name; for a VAR the object's.
+    pub name: String,
+    /// Data type on the bus.
+    pub data_type: DataType,
+    /// The enum or bit field that gives the values their meaning.
+    pub named_type: Option<Arc<NamedType>>,
+    /// Access over the bus.
+    pub access: Access,
+    /// Writable only while the device is unlocked for service (the manual's `r(w)`).
+    pub locked: bool,
+    /// PDO mapping.
+    pub pdo: PdoMapping,
+    /// Value after factory reset.
+    pub default: Option<Value>,
+    /// Smallest allowed value (raw), beside the special values.
+    pub low: Option<i128>,
+    /// Largest allowed value (raw), beside the special values.
+    pub high: Option<i128>,
+    /// Physical unit and scale.
+    pub unit: Option<Arc<Unit>>,
+    /// Raw values with a meaning of their own; allowed even outside the limits.
+    pub special: Vec<SpecialValue>,
+    /// What keeps the value over power-off.
+    pub stored: Storage,
+    /// The entry this one is another view of.
+    pub alias: Option<Alias>,
+    /// Whether a standard demands it.
+    pub category: Option<Category>,
+    /// Manual revision that introduced it.
+    pub since: Option<String>,
+    /// Condition under which a write is accepted.
+    pub writable_when: Option<Expr>,
+    /// Error codes of the named type's bits, where the type is shared: bit number, codes.
+    pub bit_errors: Vec<(u8, Vec<u16>)>,
+    /// What the EDS shows of it.
+    pub eds: EdsPolicy,
+    /// Meaning.
+    pub about: Text,
+    /// Where it is written.
+    pub span: Span,
+}
+
+impl Entry {
+    /// Smallest and largest value that an EDS or a server can state as plain limits: the declared
+    /// limits, widened to take in the special values. `None` where nothing limits that side.
+    pub fn hull(&self) -> (Option<i128>, Option<i128>) {
+        let special = self.special.iter().map(|special| special.value);
+        let low = self.low.map(|low| special.clone().fold(low, i128::min));
+        let high = self.high.map(|high| special.fold(high, i128::max));
+        (low, high)
+    }
+
+    /// Whether a raw value is allowed: inside the limits, or special.
+    pub fn allows(&self, value: i128) -> bool {
+        self.special.iter().any(|special| special.value == value)
+            || (self.low.is_none_or(|low| value >= low) && self.high.is_none_or(|high| value <= high))
+    }
+}
+
+/// A raw value with a meaning of its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SpecialValue {
+    /// Raw value.
+    pub value: i128,
+    /// What it means, in a few words.
+    pub name: String,
+    /// More about it.
+    pub about: Text,
+}
+
+/// A view of another entry in a narrower type or another unit; it has no storage of its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Alias {
+    /// The entry that holds the value.
+    pub target: EntryId,
+    /// Raw alias value per raw target value: 1, or the units' quotient.
+    pub factor: Ratio,
+    /// How a value between two steps is rounded on reading.
+    pub rounding: Rounding,
+    /// What happens to a value outside the alias' range on reading.
+    pub outside: Outside,
+}
+
+/// What the EDS shows of an entry beyond its own facts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct EdsPolicy {
+    /// Access written into the EDS.
+    pub access: Access,
+    /// Whether `DefaultValue` is written. Some PLCs write every default back at boot.
+    pub default: bool,
+    /// `ObjFlags` bit 0: tools must not write the entry on download.
+    pub no_write: bool,
+    /// `ObjFlags` bit 1: tools must not read the entry on scan.
+    pub no_scan: bool,
+}
+
+impl EdsPolicy {
+    /// Value of `ObjFlags`.
+    pub const fn flags(self) -> u32 {
+        self.no_write as u32 | (self.no_scan as u32) << 1
+    }
+}
