@@ -41,8 +41,17 @@ struct Staged {
 }
 
 /// Writes the files below `directory`. Each is first written completely under a temporary name beside its target; only
-/// when all of them are on the disk, they are renamed. On an error everything is as it was before.
+/// when all of them are on the disk, they are renamed. On an error every file is as it was before; directories that were
+/// made for the files stay.
 pub fn write_all(directory: &Path, artifacts: &[Artifact]) -> Result<Vec<Outcome>, WriteError> {
+    write_with(directory, artifacts, |from, to| fs::rename(from, to))
+}
+
+fn write_with(
+    directory: &Path,
+    artifacts: &[Artifact],
+    rename: impl Fn(&Path, &Path) -> io::Result<()>,
+) -> Result<Vec<Outcome>, WriteError> {
     let mut staged: Vec<Staged> = Vec::new();
     let mut outcomes = Vec::new();
     for artifact in artifacts {
@@ -61,7 +70,7 @@ pub fn write_all(directory: &Path, artifacts: &[Artifact]) -> Result<Vec<Outcome
         outcomes.push(Outcome::Changed);
     }
     for (at, one) in staged.iter().enumerate() {
-        if let Err(error) = fs::rename(&one.new, &one.target) {
+        if let Err(error) = rename(&one.new, &one.target) {
             roll_back(&staged[..at]);
             discard(&staged);
             return Err(WriteError { path: one.target.clone(), error });
@@ -128,7 +137,7 @@ mod tests {
     use super::*;
 
     fn artifact(path: &str, text: &str) -> Artifact {
-        Artifact { path: path.to_owned(), bytes: text.as_bytes().to_vec(), purpose: "" }
+        Artifact { path: path.to_owned(), bytes: text.as_bytes().to_vec(), purpose: String::new() }
     }
 
     fn names(directory: &Path) -> Vec<String> {
@@ -178,10 +187,12 @@ mod tests {
     fn a_failing_rename_brings_the_old_files_back() {
         let scratch = Scratch::new("rename");
         write_all(&scratch.0, &[artifact("a", "old")]).unwrap();
-        let first = stage(&scratch.0.join("a"), b"new").unwrap();
-        fs::rename(&first.new, &first.target).unwrap();
-        roll_back(std::slice::from_ref(&first));
-        discard(&[first]);
+        let refuse_c = |from: &Path, to: &Path| {
+            if to.ends_with("c") { Err(io::Error::other("the disk is gone")) } else { fs::rename(from, to) }
+        };
+        let set = [artifact("a", "new"), artifact("b", "new"), artifact("c", "new")];
+        let error = write_with(&scratch.0, &set, refuse_c).unwrap_err();
+        assert!(error.path.ends_with("c"), "{error}");
         assert_eq!(fs::read_to_string(scratch.0.join("a")).unwrap(), "old");
         assert_eq!(names(&scratch.0), ["a"]);
     }

@@ -18,7 +18,7 @@ pub struct Artifact {
     /// Contents.
     pub bytes: Vec<u8>,
     /// What the file is for, in a few words.
-    pub purpose: &'static str,
+    pub purpose: String,
 }
 
 /// What [`artifacts`] makes.
@@ -41,19 +41,20 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
         for device in system.devices.iter().filter(wanted) {
             let path = format!("eds/{}.eds", device.key);
             let bytes = eds::write_eds(system, device);
-            list.push(Artifact { bytes, path, purpose: "import this into the PLC tool" });
+            list.push(Artifact { bytes, path, purpose: "import this into the PLC tool".to_owned() });
             if let Some(node) = selection.node {
                 let commissioning = eds::Commissioning::of_node(device, node);
                 let path = format!("eds/{}.dcf", device.key);
                 let bytes = eds::write_dcf(system, device, &commissioning, &format!("{}.dcf", device.key));
-                list.push(Artifact { bytes, path, purpose: "the same, configured for one node" });
+                let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
+                list.push(Artifact { path, bytes, purpose });
             }
         }
         let bytes = dump.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         list.push(Artifact {
             bytes,
             path: format!("{stem}.json"),
-            purpose: "the resolved model, for programs",
+            purpose: "the resolved model, for programs".to_owned(),
         });
         list
     })

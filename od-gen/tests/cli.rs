@@ -252,7 +252,8 @@ fn dcf_refuses_what_the_device_would_refuse() {
         }
         arguments.extend(extra);
         let output = odgen(&scratch.0, &arguments);
-        assert_eq!(code(&output), 1, "{}", stdout(&output));
+        let expected = if extra.contains(&"--node") { 2 } else { 1 };
+        assert_eq!(code(&output), expected, "{}", stdout(&output));
         assert!(files(&scratch.0).is_empty());
         stderr(&output)
     };
@@ -261,6 +262,53 @@ fn dcf_refuses_what_the_device_would_refuse() {
     assert_snapshot!(refused(&["--set", "607D.1=9000", "--set", "607D.2=100"]));
     assert_snapshot!(refused(&["--bit-rate", "333"]));
     assert_snapshot!(refused(&["--node", "0"]));
+}
+
+#[test]
+fn dcf_refuses_names_that_a_line_cannot_hold() {
+    let scratch = Scratch::new("names");
+    let run = |option: &str, name: &str| {
+        let start = ["--format", "short", "dcf", PITCH, "--device", "pmc", "--node", "5"];
+        let output = odgen(&scratch.0, &[&start[..], &[option, name]].concat());
+        (code(&output), stderr(&output))
+    };
+    for (option, longest) in [("--node-name", 246), ("--net-name", 243)] {
+        assert_eq!(run(option, &"n".repeat(longest)).0, 0);
+        for name in [&"n".repeat(longest + 1), "a;b", "a#b", "a=b", "a\nb"] {
+            let (code, said) = run(option, name);
+            assert_eq!(code, 1);
+            assert!(said.starts_with(&format!("error[OD0318]: the text of `{option}` ")), "{said}");
+        }
+    }
+    assert_eq!(files(&scratch.0), ["pmc-5.dcf"]);
+}
+
+#[test]
+fn dcf_is_written_beside_what_it_is_made_from() {
+    let scratch = Scratch::new("beside");
+    let library = "od-spec: 1\ntitle: Own\nprofile: own\n";
+    scratch.file("own.od.yaml", library);
+    let spec = LAMP.replace("uses: [cia301]", "uses: [cia301, own.od.yaml]");
+    scratch.file("lamp.od.yaml", &spec);
+    fs::create_dir(scratch.0.join("sub")).unwrap();
+    let refused = |out: &str| {
+        let start = ["--format", "short", "dcf", "lamp.od.yaml", "--device", "lamp", "--node", "5", "--out"];
+        let output = odgen(&scratch.0, &[&start[..], &[out]].concat());
+        assert_eq!(code(&output), 1, "{}", stderr(&output));
+        stderr(&output)
+    };
+    for out in ["lamp.od.yaml", "sub/../lamp.od.yaml", "own.od.yaml"] {
+        let said = refused(out);
+        let expected = format!("error[OD0709]: cannot write `{out}`: the DCF is made from this file");
+        assert!(said.contains(&expected), "{said}");
+    }
+    for out in ["..", "/", "sub/.."] {
+        let said = refused(out);
+        assert!(said.contains(&format!("error[OD0709]: cannot write `{out}`: it names no file")), "{said}");
+    }
+    assert_eq!(files(&scratch.0), ["lamp.od.yaml", "own.od.yaml"]);
+    assert_eq!(fs::read_to_string(scratch.0.join("lamp.od.yaml")).unwrap(), spec);
+    assert_eq!(fs::read_to_string(scratch.0.join("own.od.yaml")).unwrap(), library);
 }
 
 #[test]
@@ -277,7 +325,7 @@ fn explain_errata_and_completions() {
     let scratch = Scratch::new("texts");
     assert_snapshot!(stdout(&odgen(&scratch.0, &["explain", "od0507"])));
     let errata = stdout(&odgen(&scratch.0, &["errata", PITCH, "--at", "6041", "--kind", "access"]));
-    assert!(errata.contains("6041h [access]"), "{errata}");
+    assert!(errata.contains("6041h on pmc [access]"), "{errata}");
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let output = odgen(&scratch.0, &["completions", shell]);
         assert!(code(&output) == 0 && stdout(&output).contains("deny-warnings"), "{shell}");

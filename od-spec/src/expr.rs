@@ -19,6 +19,8 @@ use crate::yaml::shorten;
 
 /// Nesting of parentheses and minus signs that is read.
 const MAX_DEPTH: usize = 32;
+/// Terms of one condition that are read.
+const MAX_TERMS: usize = 500;
 
 /// A condition.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -158,14 +160,19 @@ pub enum Outcome {
 impl Expr {
     /// All entries that the condition names.
     pub fn entries(&self) -> Vec<&EntryRef> {
-        let mut entries = Vec::new();
+        self.operands().into_iter().map(|(entry, _)| entry).collect()
+    }
+
+    /// All entries that the condition names, with the bit that it asks for.
+    pub fn operands(&self) -> Vec<(&EntryRef, Option<u8>)> {
+        let mut operands = Vec::new();
         for comparison in &self.comparisons {
-            comparison.first.collect(&mut entries);
+            comparison.first.operands(&mut operands);
             for (_, term) in &comparison.rest {
-                term.collect(&mut entries);
+                term.operands(&mut operands);
             }
         }
-        entries
+        operands
     }
 
     /// Whether the condition holds for these values. A failing link is reported also where an earlier link is unknown.
@@ -196,7 +203,7 @@ impl Expr {
 
     /// Reads a condition. An error is a byte range in `text` and what is wrong there.
     pub fn parse(text: &str) -> Result<Expr, (std::ops::Range<usize>, String)> {
-        let mut parser = Parser { text, at: 0, depth: 0, places: Vec::new() };
+        let mut parser = Parser { text, at: 0, depth: 0, terms: 0, places: Vec::new() };
         let mut comparisons = vec![parser.comparison()?];
         while parser.word("and") {
             comparisons.push(parser.comparison()?);
@@ -210,15 +217,23 @@ impl Expr {
 }
 
 impl Term {
-    fn collect<'a>(&'a self, entries: &mut Vec<&'a EntryRef>) {
+    fn operands<'a>(&'a self, operands: &mut Vec<(&'a EntryRef, Option<u8>)>) {
         match self {
             Term::Number(_) => {}
-            Term::Entry(entry) | Term::Bit(entry, _) => entries.push(entry),
+            Term::Entry(entry) => operands.push((entry, None)),
+            Term::Bit(entry, bit) => operands.push((entry, Some(*bit))),
             Term::Binary(left, _, right) => {
-                left.collect(entries);
-                right.collect(entries);
+                left.operands(operands);
+                right.operands(operands);
             }
         }
+    }
+
+    /// Whether an entry stands in the term.
+    pub fn names_entry(&self) -> bool {
+        let mut operands = Vec::new();
+        self.operands(&mut operands);
+        !operands.is_empty()
     }
 
     /// Value of the term; `None` when something is missing.
@@ -264,6 +279,7 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     depth: usize,
+    terms: usize,
     places: Vec<std::ops::Range<usize>>,
 }
 
@@ -377,6 +393,10 @@ impl<'a> Parser<'a> {
 
     fn factor(&mut self) -> Parsed<Term> {
         self.depth += 1;
+        self.terms += 1;
+        if self.terms > MAX_TERMS {
+            return Err((self.at..self.text.len(), format!("more than {MAX_TERMS} terms")));
+        }
         if self.depth > MAX_DEPTH {
             return Err((self.at..self.text.len(), "too many parentheses".to_owned()));
         }
@@ -525,5 +545,6 @@ mod tests {
             assert!(message.contains(expected), "{text}: {message}");
         }
         assert!(Expr::parse(&"(".repeat(1000)).is_err());
+        assert!(Expr::parse(&format!("0x2000 < 1{}", "+1".repeat(200_000))).is_err());
     }
 }

@@ -214,6 +214,7 @@ fn key_pattern(kind: KeyKind) -> Option<String> {
     let run = |number: &str| format!(" *{number} *(\\.\\. *{number} *)?");
     Some(match kind {
         KeyKind::Name => return None,
+        KeyKind::DeviceKey => "[a-z0-9][a-z0-9-]{0,31}".to_owned(),
         KeyKind::Language => "[A-Za-z0-9-]{2,}".to_owned(),
         KeyKind::Index => unsigned(4, 5),
         KeyKind::SubIndex | KeyKind::Number => unsigned(2, 3),

@@ -79,6 +79,8 @@ pub enum Shape {
 pub enum KeyKind {
     /// A name.
     Name,
+    /// A short key of lower-case letters, digits and `-`, which also names the device's files.
+    DeviceKey,
     /// A language code.
     Language,
     /// An index.
@@ -148,7 +150,7 @@ keys! {
         "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
         "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, or the path of a library file", "[cia301]";
         "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
-        "devices": Shape::MapOf(KeyKind::Name, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
+        "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
         "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
         "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
         "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";

@@ -40,5 +40,5 @@ pub mod yaml;
 
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
 pub use json_schema::json_schema;
-pub use parameters::{Assignment, ParameterValues, assign};
+pub use parameters::{Assignment, ParameterValues, assign, eds_text_problem};
 pub use reference::reference;

@@ -157,6 +157,7 @@ fn one_of(words: &[&str]) -> String {
 const fn key_kind(kind: KeyKind) -> &'static str {
     match kind {
         KeyKind::Name => "name",
+        KeyKind::DeviceKey => "short key of lower-case letters, digits and `-`",
         KeyKind::Language => "language code",
         KeyKind::Index => "index",
         KeyKind::SubIndex => "sub-index, 1 to 254",
@@ -201,8 +202,8 @@ const INTRODUCTION: &str = r#"# The specification language
 
 A specification is one YAML file, `NAME.od.yaml`, that describes the CANopen object dictionaries of one device or of several that
 belong together: their objects with types, units, limits and defaults, their PDOs and error codes, the state machines behind control
-and status words, and, if wanted, the printed manual's tables. The compiler reads it, checks it, and makes Rust code, EDS and DCF files
-and documentation from it.
+and status words, and, if wanted, the printed manual's tables. The compiler reads it, checks it, and makes EDS, DCF and JSON files
+from it.
 
 This is a complete specification of a small I/O module:
 

@@ -2,9 +2,11 @@
 """Check generated EDS and DCF files with five CANopen tools of other people.
 
     run.py [--out CACHE] [--eds-dir generated/eds] [--dump generated/pitch-control-system.json] [--node 1]
+           [--values FILE]
 
 Installs the tools into the cache, reads KEY.eds and KEY.dcf of every device in the dump with each of
-them and compares what they read with the dump. Exit code 0: everything was read and agrees; 1: a
+them and compares what they read with the dump. With --values it reads KEY.dcf only, which must hold the
+parameter values of that file: a line `INDEX.SUB VALUE` each, raw numbers or text. Exit code 0: everything was read and agrees; 1: a
 difference, or a file missing or too many; 3: a tool could not be installed, so part was not checked.
 """
 
@@ -136,6 +138,32 @@ def check(reader: Reader, file: Path, dump: Path, device: str, node: int) -> Out
     return Outcome(ok, (done.stdout + done.stderr).rstrip(), time.monotonic() - start)
 
 
+def with_values(dump: Path, values: Path, copy: Path) -> Path:
+    """A copy of a dump of one device in which the entries carry their configured value as `dcf`."""
+    model = json.loads(dump.read_text(encoding="utf-8"))
+    (device,) = model["devices"]
+    entries = {
+        (int(obj["index"], 16), entry["sub"]): entry for obj in device["objects"] for entry in obj["entries"]
+    }
+    for line in values.read_text(encoding="utf-8").splitlines():
+        place, text = line.split(" ", 1)
+        index, sub = place.split(".")
+        entries[int(index, 16), int(sub)]["dcf"] = {"raw": raw(text), "text": text}
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    copy.write_text(json.dumps(model), encoding="utf-8")
+    return copy
+
+
+def raw(text: str) -> int | float | None:
+    """The number, if the text is one; whether it is meant as one is for the entry's type to say."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return None
+
+
 def wrong_files(folder: Path, wanted: list[Path]) -> list[str]:
     there = {path for path in folder.glob("*") if path.suffix.lower() in (".eds", ".dcf")}
     lines = [f"{path}: not there" for path in wanted if path not in there]
@@ -144,12 +172,15 @@ def wrong_files(folder: Path, wanted: list[Path]) -> list[str]:
 
 def run(args: argparse.Namespace) -> int:
     keys = [device["key"] for device in json.loads(args.dump.read_text(encoding="utf-8"))["devices"]]
-    wanted = [(key, args.eds_dir / f"{key}{suffix}") for key in keys for suffix in (".eds", ".dcf")]
+    dump, suffixes = args.dump, (".eds", ".dcf")
+    if args.values:
+        dump, suffixes = with_values(dump, args.values, args.out / "with-values.json"), (".dcf",)
+    wanted = [(key, args.eds_dir / f"{key}{suffix}") for key in keys for suffix in suffixes]
     problems = wrong_files(args.eds_dir, [file for _, file in wanted])
     readers, missing = installed(args.out.resolve())
     work = [(reader, file, key) for reader in readers for key, file in wanted if file.is_file()]
     with ThreadPoolExecutor(max_workers=2) as pool:
-        outcomes = list(pool.map(lambda w: check(w[0], w[1], args.dump, w[2], args.node), work))
+        outcomes = list(pool.map(lambda w: check(w[0], w[1], dump, w[2], args.node), work))
     for outcome in outcomes:
         print(f"{'ok  ' if outcome.ok else 'FAIL'} {outcome.text} [{outcome.seconds:.2f} s]")
     return conclude(outcomes, problems, missing, len(wanted))
@@ -176,6 +207,7 @@ def main() -> int:
     parser.add_argument("--eds-dir", type=Path, default=ROOT / "generated" / "eds")
     parser.add_argument("--dump", type=Path, default=ROOT / "generated" / "pitch-control-system.json")
     parser.add_argument("--node", type=int, default=1)
+    parser.add_argument("--values", type=Path, help="values that the DCF of the only device must hold")
     return run(parser.parse_args())
 
 

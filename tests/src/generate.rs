@@ -71,7 +71,7 @@ fn messages() -> String {
     );
     for code in Code::ALL {
         let severity = code.severity().word();
-        let _ = write!(text, "\n## {code}\n\n*{severity}*: {}\n\n{}\n", code.title(), code.explanation());
+        let _ = write!(text, "\n## {code}: {}\n\n*{severity}* — {}\n", code.title(), code.explanation());
     }
     text
 }

@@ -14,8 +14,10 @@ pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
 pub(super) fn entry(device: &Dictionary, entry: &Entry, language: &str) -> Vec<String> {
     let mut lines: Vec<String> = entry.about.get(language).map(ToOwned::to_owned).into_iter().collect();
     lines.extend(facts(device, entry));
+    let is_bits = matches!(entry.named_type.as_ref().map(|named| &named.kind), Some(TypeKind::Bits(_)));
     for special in &entry.special {
-        lines.push(format!("{}: {}", special.value, special.name));
+        let value = if is_bits { format!("{:X}h", special.value) } else { special.value.to_string() };
+        lines.push(format!("{value}: {}", special.name));
     }
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) if values.len() <= MOST_MEMBERS => {

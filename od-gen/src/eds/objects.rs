@@ -122,7 +122,7 @@ fn show(object: &Object, entry: &Entry, value: &Value, node: Option<u8>) -> Stri
         (Value::NodeId(offset), None) => format!("$NODEID+0x{offset:X}"),
         (Value::NodeId(offset), Some(node)) => format!("0x{:0width$X}", offset + u64::from(node)),
         (Value::Integer(raw), _) => integer(*raw),
-        (Value::Real(number), _) => number.to_string(),
+        (Value::Real(_), _) => format_value(entry, value),
         (Value::Text(text), _) => text.clone(),
         (Value::Bytes(_), _) => format_value(entry, value),
     }

@@ -86,13 +86,19 @@ fn comments(ini: &mut Ini, system: &System, device: &Dictionary) {
         let Date { year, month, day } = revision.date;
         lines.push(format!("Holds issue {} of {year:04}-{month:02}-{day:02}", revision.number));
     }
+    if system.vendor.number == 0 || device.info.product == 0 {
+        lines.push(
+            "Vendor number or product code is 0, not known: fill them in before a PLC checks identities."
+                .to_owned(),
+        );
+    }
     let withheld =
         device.entries().filter(|(.., entry)| entry.default.is_some() && !entry.eds.default).count();
     if withheld > 0 {
         lines.push(format!(
             "{withheld} defaults of stored or locked parameters are left out, so that no PLC writes them back at boot."
         ));
-        lines.push("Comments above the sections tell them, with units and meanings.".to_owned());
+        lines.push("The comments above each section list them, with units and meanings.".to_owned());
     }
     ini.section("Comments", &[]);
     ini.key("Lines", lines.len());

@@ -1,11 +1,12 @@
 //! PDOs that are valid after start-up have COB-IDs of their own.
 
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::model::{Dictionary, Pdo, Value};
+use crate::model::{Dictionary, EntryId, Index, Pdo, SubIndex, Value};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     let valid: Vec<&Pdo> = device.pdos.iter().filter(|pdo| pdo.valid).collect();
     for (at, pdo) in valid.iter().enumerate() {
+        check_services(device, pdo, diagnostics);
         for other in &valid[at + 1..] {
             if let Some(node) = clash(&pdo.cob_id, &other.cob_id) {
                 let of_node = match (&pdo.cob_id, &other.cob_id) {
@@ -31,6 +32,31 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
                     .help("give one of them another `cob-id:`, or make it `valid: no`"),
                 );
             }
+        }
+    }
+}
+
+/// Services of the device whose COB-IDs a PDO must leave alone: index and name.
+const SERVICES: [(u16, &str); 3] = [(0x1005, "SYNC"), (0x1012, "TIME"), (0x1014, "EMCY")];
+
+fn check_services(device: &Dictionary, pdo: &Pdo, diagnostics: &mut Diagnostics) {
+    for (index, service) in SERVICES {
+        let id = EntryId { index: Index(index), sub: SubIndex(0) };
+        let Some(own) = device.entry(id).and_then(|entry| entry.default.as_ref()) else { continue };
+        if clash(&pdo.cob_id, own).is_some() {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::CobIdClash,
+                    pdo.span,
+                    format!(
+                        "{} {} of `{}` has the COB-ID of {service} ({id})",
+                        pdo.direction.pdo(),
+                        pdo.number,
+                        device.key
+                    ),
+                )
+                .help("give the PDO another `cob-id:`"),
+            );
         }
     }
 }

@@ -3,6 +3,7 @@
 mod cob_ids_differ;
 mod constants_have_values;
 mod definitions_are_used;
+mod entries_are_consistent;
 mod error_codes_are_listed;
 mod error_control_exists;
 mod granularity_fits_mapping;
@@ -14,6 +15,8 @@ mod mappable_entries_have_pdos;
 mod names_fit_eds;
 mod object_names_unique;
 mod real_defaults;
+mod reserved_bits_are_zero;
+mod stored_entries_can_be_stored;
 
 use crate::ast::Spec;
 use crate::diag::Diagnostics;
@@ -32,20 +35,25 @@ const PRESENCE: [Rule; 5] = [
     real_defaults::check,
 ];
 
-/// Rules about what is not there. With an error in the specification they would blame what was only left out for it.
-const ABSENCE: [Rule; 6] = [
+/// Rules about what is not there, or was derived. With an error in the specification they would blame what is only a
+/// consequence of it.
+const ABSENCE: [Rule; 9] = [
+    entries_are_consistent::check,
     constants_have_values::check,
     error_control_exists::check,
     granularity_fits_mapping::check,
     lss_has_serial_number::check,
     mandatory_objects_exist::check,
     mappable_entries_have_pdos::check,
+    reserved_bits_are_zero::check,
+    stored_entries_can_be_stored::check,
 ];
 
 /// Applies every rule.
 pub(crate) fn run(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
     let complete = !diagnostics.has_errors();
     error_codes_are_listed::check(root, system, diagnostics);
+    names_fit_eds::check_vendor(root, diagnostics);
     if complete {
         definitions_are_used::check(root, system, diagnostics);
     }

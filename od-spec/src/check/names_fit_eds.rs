@@ -1,5 +1,6 @@
 //! Names can be written into an EDS that every tool reads alike.
 
+use crate::ast::Spec;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{Dictionary, Entry, Value};
 use crate::source::Span;
@@ -23,13 +24,23 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// A string cannot be quoted in an EDS: blanks at its ends and comment characters would be lost.
+/// Longest `DefaultValue` on a line of 255 characters.
+const LONGEST_VALUE: usize = 255 - "DefaultValue=".len();
+
+/// A default stands on one line, without quotes and in ASCII.
 fn check_text_default(entry: &Entry, diagnostics: &mut Diagnostics) {
-    let Some(Value::Text(text)) = entry.default.as_ref().filter(|_| entry.eds.default) else { return };
-    let problem = if text.trim() != text {
+    let Some(default) = entry.default.as_ref().filter(|_| entry.eds.default) else { return };
+    let shown = crate::model::format_value(entry, default);
+    let is_text = matches!(default, Value::Text(_));
+    let is_line = matches!(default, Value::Text(_) | Value::Bytes(_));
+    let problem = if is_line && shown.chars().count() > LONGEST_VALUE {
+        format!("the default has {} characters, an EDS line holds {LONGEST_VALUE}", shown.chars().count())
+    } else if is_text && shown.trim() != shown {
         "blanks at the start or end of the default are lost in an EDS".to_owned()
-    } else if let Some(c) = text.chars().find(|c| is_unfit(*c)) {
-        format!("the default holds {}, which EDS readers misread", describe(c))
+    } else if is_text && !shown.is_ascii() {
+        "the default has characters that an EDS cannot hold".to_owned()
+    } else if let Some(c) = shown.chars().find(|c| is_text && is_unfit(*c)) {
+        format!("the default holds `{}`, which EDS readers misread", c.escape_default())
     } else {
         return;
     };
@@ -38,6 +49,18 @@ fn check_text_default(entry: &Entry, diagnostics: &mut Diagnostics) {
             "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`",
         ),
     );
+}
+
+/// The vendor's name stands in every EDS.
+pub(super) fn check_vendor(root: &Spec, diagnostics: &mut Diagnostics) {
+    let Some(name) = root.vendor.as_ref().and_then(|vendor| vendor.name.as_ref()) else { return };
+    let length = crate::ascii::transliterate(&name.value).len();
+    if length > 244 || name.value.chars().any(is_unfit) {
+        diagnostics.push(
+            Diagnostic::new(Code::NotForEds, name.span, "the vendor's name does not fit an EDS")
+                .help("at most 244 characters, without `;`, `#` and `=`"),
+        );
+    }
 }
 
 /// Texts of `[FileInfo]` and `[DeviceInfo]` with the length that CiA 306 4.4 and 4.5 give them.
@@ -89,6 +112,11 @@ fn check_name(name: &str, span: Span, diagnostics: &mut Diagnostics) {
             shorten(name),
             name.chars().count()
         )
+    } else if crate::ascii::transliterate(name).chars().all(|c| c == '?')
+        && !name.contains('?')
+        && !name.is_empty()
+    {
+        "no character of the name has a form in ASCII".to_owned()
     } else if let Some(c) = name.chars().find(|c| is_unfit(*c)) {
         format!("the name `{}` holds {}, which EDS readers misread", shorten(name), describe(c))
     } else {

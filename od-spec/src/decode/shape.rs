@@ -126,6 +126,12 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
         let integer = || scalar::integer(text).ok();
         let fits = match kind {
             KeyKind::Name => !text.is_empty(),
+            KeyKind::DeviceKey => {
+                let fine = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+                text.starts_with(|c: char| c.is_ascii_alphanumeric())
+                    && text.len() <= 32
+                    && text.chars().all(fine)
+            }
             KeyKind::Language => {
                 text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
             }
@@ -154,6 +160,7 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
 const fn key_words(kind: KeyKind) -> &'static str {
     match kind {
         KeyKind::Name => "names",
+        KeyKind::DeviceKey => "short keys of lower-case letters, digits and `-`, such as `pmc`",
         KeyKind::Language => "language codes such as `en`",
         KeyKind::Index => "indices such as `0x6040`, 0001h to FFFFh",
         KeyKind::SubIndex => "sub-indices, 1 to 254",

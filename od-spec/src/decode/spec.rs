@@ -147,11 +147,16 @@ fn device(key: Spanned<&str>, r: Reader<'_>) -> DeviceDecl {
 }
 
 fn unit(name: Spanned<&str>, r: Reader<'_>) -> UnitDecl {
+    let scale = r.value("scale", |text| scalar::ratio(text).filter(|ratio| ratio.numerator() > 0));
+    let base = r.value("base", |text| shape::base(text).map(|(ratio, symbol)| (ratio, symbol.to_owned())));
+    // A unit whose scale cannot be read is no unit of scale 1.
+    let unreadable = |key: &str, readable: bool| r.node.get(key).is_some() && !readable;
+    let broken = unreadable("scale", scale.is_some()) || unreadable("base", base.is_some());
     UnitDecl {
         name: owned(name),
-        symbol: r.text("symbol"),
-        scale: r.value("scale", scalar::ratio),
-        base: r.value("base", |text| shape::base(text).map(|(ratio, symbol)| (ratio, symbol.to_owned()))),
+        symbol: r.text("symbol").filter(|_| !broken),
+        scale,
+        base,
         about: r.words("about"),
     }
 }

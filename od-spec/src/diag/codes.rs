@@ -238,6 +238,10 @@ codes! {
         "A unit or type is defined but no entry refers to it. A leftover, or an entry lost its `unit:` or `type:`?"
     RealDefault Warning "OD0807" "a default of a REAL type":
         "Tools read `DefaultValue` of REAL32 and REAL64 differently: some as decimal text, some as the bit pattern of IEEE 754. It is written as decimal text."
+    StoredWithoutStore Warning "OD0809" "stored, but nothing stores":
+        "An entry is saved by a \"store parameters\" command that the device does not have: 1010h lacks the sub-index of its group (2 communication, 3 application, 4 manufacturer). Add the feature `store parameters`, or correct `stored:`."
+    ReservedBitSet Warning "OD0810" "a default sets reserved bits":
+        "Reserved bits are written as 0. Correct the default, or say what the bits mean."
     UnlistedErrorCode Warning "OD0808" "an error code that is not listed":
         "A bit refers to an error code that `errors:` does not have."
 }

@@ -43,7 +43,7 @@ pub fn format_value(entry: &Entry, value: &Value) -> String {
     match value {
         Value::Integer(raw) => format_integer(entry, *raw),
         Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
-        Value::Real(number) => format!("{number}"),
+        Value::Real(number) => format!("{number:?}"),
         Value::Text(text) => text.clone(),
         Value::Bytes(bytes) => bytes.iter().fold(String::new(), |mut digits, byte| {
             let _ = write!(digits, "{byte:02X}");

@@ -3,7 +3,7 @@
 use crate::ast::{ConstraintDecl, Name, Spec};
 use crate::decode::{inside, nearest};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::expr::{EntryRef, Expr, Outcome, Term, Values};
+use crate::expr::{Comparison, EntryRef, Expr, Outcome, Term, Values};
 use crate::model::{Constraint, Dictionary, EntryId, Ratio};
 use crate::source::Spanned;
 use crate::yaml::shorten;
@@ -32,12 +32,16 @@ fn check_write_conditions(
 ) {
     let members = decl.record.iter().flat_map(|record| &record.members);
     let elements = decl.array.iter().flat_map(|array| &array.elements);
-    let entries = members.chain(elements).map(|(_, entry)| entry).chain([&decl.entry]);
+    let common = decl.array.iter().map(|array| &array.entry);
+    let entries = members.chain(elements).map(|(_, entry)| entry).chain(common).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
         let here = |device: &&Dictionary| device.objects.contains_key(&decl.index.value);
         for device in devices.iter().filter(here) {
             check_known(condition, std::slice::from_ref(&device), broken, diagnostics);
         }
+        check_names_entries(condition, diagnostics);
+        check_operands(condition, devices, diagnostics);
+        check_units(condition, devices, diagnostics);
     }
 }
 
@@ -74,6 +78,39 @@ fn check_known(
         }
     }
     known
+}
+
+/// A comparison between numbers alone says nothing; the author forgot the `0x` of an entry.
+fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics) {
+    let names_one = |comparison: &Comparison| {
+        let terms = comparison.rest.iter().map(|(_, term)| term).chain([&comparison.first]);
+        terms.into_iter().any(Term::names_entry)
+    };
+    if !condition.value.comparisons.iter().all(names_one) {
+        diagnostics.push(
+            Diagnostic::new(Code::BadNotation, condition.span, "a comparison names no entry, only numbers")
+                .help("write entries with `0x`, such as `0x607D.1`; without it, they are decimal numbers"),
+        );
+    }
+}
+
+/// Conditions compute with integers, and ask for bits that exist.
+fn check_operands(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &mut Diagnostics) {
+    for (entry, bit) in condition.value.operands() {
+        let named = |device: &&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
+        let Some(found) = devices.iter().filter(named).find_map(|device| device.entry(entry.id)) else {
+            continue;
+        };
+        let problem = match (found.data_type.range(), found.data_type.bits(), bit) {
+            (None, ..) => format!("{entry} is {}: conditions compute with integers", found.data_type),
+            (_, Some(width), Some(bit)) if u16::from(bit) >= width => format!("{entry} has no bit {bit}"),
+            _ => continue,
+        };
+        diagnostics.push(
+            Diagnostic::new(Code::BadNotation, condition.span, problem)
+                .help("name an integer entry, and a bit below its width"),
+        );
+    }
 }
 
 /// Entries that are compared directly are measured in one base unit. Products and quotients are left to the author.
@@ -119,6 +156,8 @@ fn constraint(
     }
     let (errors, _) = diagnostics.count();
     for condition in &conditions {
+        check_names_entries(condition, diagnostics);
+        check_operands(condition, devices, diagnostics);
         check_units(condition, devices, diagnostics);
     }
     if diagnostics.count().0 > errors {

@@ -169,6 +169,33 @@ fn from_library<'a>(
 fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
     let shaped = ObjectDecl { entry: decl.entry.clone(), ..merged.clone() };
     keys_have_effect::check_object(&shaped, diagnostics);
+    if let (Some(from), Some(alias)) = (&decl.from, &decl.alias) {
+        diagnostics.push(
+            Diagnostic::new(Code::ConflictingKeys, alias.span, "an alias takes nothing from a library")
+                .with(from.span, "the library")
+                .help("keep one of `alias:` and `from:`"),
+        );
+    }
+    let EntryDecl { type_name, unit, access, pdo, .. } = &decl.entry;
+    let keys = [
+        ("type", type_name.as_ref().map(|key| key.span)),
+        ("unit", unit.as_ref().map(|key| key.span)),
+        ("access", access.as_ref().map(|key| key.span)),
+        ("pdo", pdo.as_ref().map(|key| key.span)),
+    ];
+    let structured = merged.array.is_some() || merged.record.is_some();
+    for (key, span) in keys.into_iter().filter(|_| structured) {
+        if let Some(span) = span {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::ConflictingKeys,
+                    span,
+                    format!("`{key}` has no effect here: the library's entries have their own"),
+                )
+                .help(format!("write `{key}` under `array:` or at the members of `record:`")),
+            );
+        }
+    }
     let elements = merged.array.as_ref().map_or(0, |array| {
         let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
         array.count.map_or(0, |count| count.value).max(highest)
@@ -208,7 +235,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
                 span: over.span,
                 count: over.count.or(below.count),
                 entry: over.entry.over(&below.entry),
-                elements: merge_members(&over.elements, &below.elements, &mut note),
+                elements: merge_members(&over.elements, &within(&below.elements, over.count), &mut note),
             })
         }
         // An object that says it is something else than the library's object is that.
@@ -249,6 +276,12 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
         entry: over.entry.over(&below.entry),
     };
     (merged, differs)
+}
+
+/// The library's elements that an array with this count still has.
+fn within(elements: &Members, count: Option<Spanned<i128>>) -> Members {
+    let fits = |sub: SubIndex| count.is_none_or(|count| i128::from(sub.0) <= count.value);
+    elements.iter().filter(|(sub, _)| fits(sub.value)).cloned().collect()
 }
 
 type Members = Vec<(Spanned<SubIndex>, EntryDecl)>;

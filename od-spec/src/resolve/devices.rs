@@ -12,7 +12,7 @@ use crate::ast::{DeviceDecl, Name, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{
     Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index, Object,
-    ObjectKind, Outside, Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
+    ObjectKind, Outside, PdoMapping, Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
 };
 use crate::source::Spanned;
 
@@ -45,7 +45,7 @@ pub(super) fn resolve(
             built.plain_objects(&declared, diagnostics);
             built.aliases(&declared, diagnostics);
             let info = info(device, diagnostics);
-            built.identity(&info, vendor);
+            built.identity(&info, vendor, diagnostics);
             let list =
                 root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
             let pdos = pdos::resolve(list, &info, &mut built.objects, &mut built.broken, diagnostics);
@@ -178,6 +178,10 @@ impl Builder<'_> {
         diagnostics: &mut Diagnostics,
     ) -> Option<Object> {
         let decl = &one.decl;
+        if decl.from.is_some() {
+            // Reported where the library's object was laid under.
+            return None;
+        }
         let target_object = self.objects.get(&id.index)?;
         let target = target_object.entry(id.sub)?;
         let own = [
@@ -195,8 +199,30 @@ impl Builder<'_> {
             return None;
         }
         let mut whole = decl.entry.clone();
-        whole.access.get_or_insert(Spanned::new((target.access, target.locked), reference.span));
-        whole.pdo.get_or_insert(Spanned::new(target.pdo, reference.span));
+        let access = whole.access.get_or_insert(Spanned::new((target.access, target.locked), reference.span));
+        if access.value.0.is_writable() && !target.access.is_writable() {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::BadAlias,
+                    access.span,
+                    format!("{id} is `{}`: its alias cannot be written", target.access.word()),
+                )
+                .with(target.span, "the target")
+                .help("remove `access:`; an alias follows its target"),
+            );
+            return None;
+        }
+        // A lock on the target also locks its views.
+        access.value.1 |= target.locked && access.value.0.is_writable();
+        let mapping = match (access.value.0.is_writable(), target.pdo) {
+            (false, PdoMapping::Both) => PdoMapping::Transmit,
+            (false, PdoMapping::Receive) => PdoMapping::None,
+            (_, mapping) => mapping,
+        };
+        whole.pdo.get_or_insert(Spanned::new(mapping, reference.span));
+        if let Some(unit) = &target.unit {
+            whole.unit.get_or_insert_with(|| Spanned::new(unit.name.clone(), reference.span));
+        }
         let target_name = if target_object.is_structured() {
             format!("{} {}", target_object.name, target.name)
         } else {
@@ -207,10 +233,7 @@ impl Builder<'_> {
         let name = whole.name.as_ref().map_or(default_name, |name| name.value.clone());
         let mut entry = entries::resolve(&whole, SubIndex(0), name.clone(), self.around, diagnostics)?;
         let factor = check_alias(&entry, decl.entry.type_name.as_ref(), target, id, reference, diagnostics)?;
-        if entry.unit.is_none() {
-            entry.unit.clone_from(&target.unit);
-        }
-        if entry.writable_when.is_none() {
+        if entry.writable_when.is_none() && entry.access.is_writable() {
             entry.writable_when.clone_from(&target.writable_when);
         }
         let alias = Alias {
@@ -219,11 +242,15 @@ impl Builder<'_> {
             rounding: decl.rounding.map_or(Rounding::Down, |rounding| rounding.value),
             outside: decl.outside.map_or(Outside::Saturate, |outside| outside.value),
         };
-        let show = |raw: i128| convert(raw, alias.factor, alias.rounding, alias.outside, entry.data_type);
+        // A default that the alias cannot show as it is would be another value.
+        let show = |raw: i128| convert(raw, alias.factor, alias.rounding, Outside::Abort, entry.data_type);
         entry.default = match &target.default {
             Some(Value::Integer(raw)) => show(*raw).map(Value::Integer),
             _ => None,
         };
+        if factor == Ratio::ONE {
+            follow_values(&mut entry, target);
+        }
         entry.eds = entries::alias_policy(&entry, target, &decl.entry, self.around.safe_eds);
         entry.stored = Storage::No;
         entry.alias = Some(alias);
@@ -243,7 +270,7 @@ impl Builder<'_> {
     }
 
     /// Fills in what the device itself decides: 1000h, 1008h, 1018h.
-    fn identity(&mut self, info: &DeviceInfo, vendor: &Vendor) {
+    fn identity(&mut self, info: &DeviceInfo, vendor: &Vendor, diagnostics: &mut Diagnostics) {
         let numbers = [
             (0x1000, 0, info.device_type),
             (0x1018, 1, vendor.number),
@@ -257,8 +284,25 @@ impl Builder<'_> {
                 .objects
                 .get_mut(&Index(index))
                 .and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == SubIndex(sub)));
-            if let Some(entry) = entry.filter(|entry| entry.default.is_none()) {
-                entry.default = Some(value);
+            let Some(entry) = entry else { continue };
+            match &entry.default {
+                None => entry.default = Some(value),
+                Some(own) if *own != value && index != 0x1008 => {
+                    let id = EntryId { index: Index(index), sub: SubIndex(sub) };
+                    let device = crate::model::format_value(entry, &value);
+                    diagnostics.push(
+                        Diagnostic::new(
+                            Code::ConflictingKeys,
+                            entry.span,
+                            format!(
+                                "{id} says {}, the device {device}",
+                                crate::model::format_value(entry, own)
+                            ),
+                        )
+                        .help("remove the default; it follows from the vendor and the device"),
+                    );
+                }
+                Some(_) => {}
             }
         }
     }
@@ -272,6 +316,18 @@ fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared<'_>>) -> Op
     let named =
         aliases.find(|decl| by_index.map_or(is_named(&decl.entry.name), |index| decl.index.value == index));
     named.map(|decl| decl.index)
+}
+
+/// Where the raw values are the same, limits and special values of the target are those of the alias, as far as its
+/// type can show them.
+fn follow_values(alias: &mut Entry, target: &Entry) {
+    let Some((low, high)) = alias.data_type.range() else { return };
+    let shows = |raw: &i128| (low..=high).contains(raw);
+    alias.low = alias.low.or(target.low.filter(shows));
+    alias.high = alias.high.or(target.high.filter(shows));
+    if alias.special.is_empty() {
+        alias.special = target.special.iter().filter(|special| shows(&special.value)).cloned().collect();
+    }
 }
 
 /// Checks that an alias can show its target, and gives the raw factor between them.

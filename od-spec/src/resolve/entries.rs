@@ -55,8 +55,11 @@ pub(super) fn resolve(
     let unit = decl.unit.as_ref().and_then(|unit| around.scope.unit(unit, diagnostics));
     let expected = Expected { data_type, named: named_type.as_deref(), unit: unit.as_deref() };
     let special = special_values(decl.special.as_ref(), data_type, diagnostics);
-    let (low, high) = limits(decl, expected, diagnostics);
-    let default = values::read_into(decl.default.as_ref(), expected, diagnostics);
+    // Values in a unit that is broken or unknown cannot be read; that was said already.
+    let readable = decl.unit.is_some() == unit.is_some();
+    let (low, high) = if readable { limits(decl, expected, diagnostics) } else { (None, None) };
+    let default = decl.default.as_ref().filter(|_| readable);
+    let default = values::read_into(default, expected, diagnostics);
     let stored = decl.stored.map_or(Storage::No, |stored| stored.value);
     let entry = Entry {
         sub,
@@ -83,6 +86,16 @@ pub(super) fn resolve(
     };
     check_default(&entry, decl.default.as_ref(), diagnostics);
     check_const(&entry, decl, diagnostics);
+    if let Some(condition) = decl.writable_when.as_ref().filter(|_| !access.is_writable()) {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::ConflictingKeys,
+                condition.span,
+                format!("`writable-when` has no effect here: the entry is `{}`", access.word()),
+            )
+            .help("remove it, or correct the access"),
+        );
+    }
     Some(Entry { eds: eds_policy(&entry, decl, around.safe_eds), ..entry })
 }
 
@@ -171,6 +184,13 @@ fn special_values(
     diagnostics: &mut Diagnostics,
 ) -> Vec<SpecialValue> {
     let Some(list) = list else { return Vec::new() };
+    if data_type.range().is_none() {
+        diagnostics.push(
+            Diagnostic::new(Code::LimitOnType, list.span, format!("{data_type} has no special values"))
+                .help("remove `special:`; only integers have such values"),
+        );
+        return Vec::new();
+    }
     let mut values = Vec::new();
     for decl in &list.value {
         if let Err(diagnostic) =
@@ -204,7 +224,14 @@ fn limits(
             );
             return None;
         }
-        values::read_into(Some(text), expected, diagnostics)?.integer()
+        let value = values::read_into(Some(text), expected, diagnostics)?;
+        if value.integer().is_none() {
+            diagnostics.push(
+                Diagnostic::new(Code::BadValue, text.span, "a limit cannot depend on the node-ID")
+                    .help("write a number"),
+            );
+        }
+        value.integer()
     };
     let (low, high) = (limit(decl.min.as_ref()), limit(decl.max.as_ref()));
     if let (Some(low), Some(high), Some(min), Some(max)) = (low, high, &decl.min, &decl.max)

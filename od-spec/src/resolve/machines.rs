@@ -10,6 +10,7 @@ use crate::ast::{MachineDecl, Name, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{BitPattern, Command, Dictionary, EntryId, State, StateMachine, Transition};
 use crate::source::Spanned;
+use crate::yaml::shorten;
 
 pub(super) fn resolve(
     root: &Spec,
@@ -30,12 +31,37 @@ fn machine(
     diagnostics: &mut Diagnostics,
 ) -> Option<StateMachine> {
     let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
-    let device = devices.iter().find(|device| on.is_empty() || on.contains(&device.key))?;
-    let names = Names::new(device.objects.values());
-    let mut find = |name: &Option<Name>| {
-        names.find(name.as_ref()?, |id| device.entry(id).is_some(), broken, diagnostics)
-    };
-    let (status, command) = (find(&decl.status)?, find(&decl.command)?);
+    let meant = |device: &&Dictionary| on.is_empty() || on.contains(&device.key);
+    let mut found: Option<(&Dictionary, EntryId, EntryId)> = None;
+    for device in devices.iter().filter(meant) {
+        let names = Names::new(device.objects.values());
+        let mut find = |name: &Option<Name>| {
+            names.find(name.as_ref()?, |id| device.entry(id).is_some(), broken, diagnostics)
+        };
+        let (status, command) = (find(&decl.status)?, find(&decl.command)?);
+        match found {
+            Some((first, ..)) if !matches!(found, Some((_, one, other)) if (one, other) == (status, command)) =>
+            {
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::DuplicateName,
+                        decl.name.span,
+                        format!(
+                            "state machine `{}` has other entries on `{}` than on `{}`",
+                            shorten(&decl.name.value),
+                            device.key,
+                            first.key
+                        ),
+                    )
+                    .help("describe a machine per device, each with its `on:`"),
+                );
+                return None;
+            }
+            Some(_) => {}
+            None => found = Some((device, status, command)),
+        }
+    }
+    let (device, status, command) = found?;
     let states: Vec<State> = decl
         .states
         .iter()
@@ -99,7 +125,7 @@ fn commands(
         }
         let (mask, value) = pattern.value.mask_and_value();
         if let Some(send) = &one.send
-            && u64::from(to_u32(send.value)) & mask != value
+            && (u64::from(to_u32(send.value)) & mask != value || send.value >> pattern.value.0.len() != 0)
         {
             diagnostics.push(
                 Diagnostic::new(

@@ -21,6 +21,7 @@ use crate::source::Span;
 
 pub(crate) use constraints::{Lookup, check as check_constraint};
 pub(crate) use entries::allowed;
+pub(crate) use pdos::RESTRICTED as RESTRICTED_COB_IDS;
 pub(crate) use refs::lookup;
 use scope::Scope;
 

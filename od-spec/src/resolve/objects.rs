@@ -127,7 +127,8 @@ fn elements(
         let own = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
         let merged = own.map_or_else(|| common.clone(), |own| own.over(&common));
         let pattern = array.entry.name.as_ref().map(|pattern| pattern.value.replace("{n}", &sub.to_string()));
-        let Some(name) = merged.name.as_ref().map(|name| name.value.clone()).or(pattern) else {
+        let own_name = merged.name.as_ref().map(|name| name.value.replace("{n}", &sub.to_string()));
+        let Some(name) = own_name.or(pattern) else {
             if !merged.unsure {
                 diagnostics.push(
                     Diagnostic::new(
@@ -190,7 +191,7 @@ fn members(
             broken = true;
             continue;
         };
-        let merged = member.over(&common);
+        let merged = with_fitting_condition(member.over(&common), member);
         match entries::resolve(&merged, sub.value, name.value.clone(), around, diagnostics) {
             Some(entry) => list.push(entry),
             None => broken = true,
@@ -200,6 +201,13 @@ fn members(
         return None;
     }
     finish(decl, list, around, diagnostics)
+}
+
+/// A condition that the object states for all its members concerns those that can be written.
+fn with_fitting_condition(merged: EntryDecl, own: &EntryDecl) -> EntryDecl {
+    let writable = merged.access.is_some_and(|access| access.value.0.is_writable());
+    let writable_when = if writable { merged.writable_when } else { own.writable_when.clone() };
+    EntryDecl { writable_when, ..merged }
 }
 
 /// Puts sub-index 0 in front.

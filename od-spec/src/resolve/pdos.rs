@@ -80,6 +80,7 @@ fn pdo(
         });
         return None;
     }
+    check_granularity(decl, info, &map, &title, diagnostics);
     let capacity = capacity(decl, info, &map, &title, diagnostics)?;
     if decl.direction == Direction::Receive && decl.no_rtr.is_some_and(|flag| flag.value) {
         let span = decl.no_rtr.map_or(decl.span, |flag| flag.span);
@@ -119,6 +120,27 @@ fn pdo(
         about: words(&decl.about),
         span: decl.number.span,
     })
+}
+
+/// What is mapped comes in multiples of the device's granularity.
+fn check_granularity(
+    decl: &PdoDecl,
+    info: &DeviceInfo,
+    map: &[Mapped],
+    title: &str,
+    diagnostics: &mut Diagnostics,
+) {
+    let granularity = info.granularity.max(1);
+    if let Some(mapped) = map.iter().find(|mapped| mapped.bits % granularity != 0) {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::BadPdoKey,
+                decl.span,
+                format!("{title} maps {} bits, the device's granularity is {granularity}", mapped.bits),
+            )
+            .help("lower the device's `granularity:`, or map entries of its multiples"),
+        );
+    }
 }
 
 /// The COB-ID entry with its flag bits.
@@ -165,9 +187,9 @@ fn cob_id(decl: &PdoDecl, valid: bool, diagnostics: &mut Diagnostics) -> Option<
 }
 
 /// CAN identifiers that CiA 301 table 35 keeps from configurable services.
-const RESTRICTED: [(i128, i128); 8] = [
+pub(crate) const RESTRICTED: [(i128, i128); 8] = [
     (0x000, 0x000),
-    (0x001, 0x001),
+    (0x001, 0x07F),
     (0x101, 0x180),
     (0x581, 0x5FF),
     (0x601, 0x67F),

@@ -112,7 +112,7 @@ pub(crate) fn lookup(dictionary: &Dictionary, text: &str) -> Result<EntryId, Opt
     }
 }
 
-/// `607A`, `0x607A`, `607Ah`, with `.3` or `sub3`; the index is always hexadecimal.
+/// `607A`, `0x607A`, `607Ah`, with `.3`; the index is always hexadecimal.
 fn hex_reference(text: &str) -> Option<EntryId> {
     let (object, sub) = match text.split_once('.') {
         Some((object, sub)) => (object, crate::yaml::scalar::integer(sub).ok()?),

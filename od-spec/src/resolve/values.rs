@@ -29,7 +29,13 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
             _ => bad(format!("found `{shown}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
         },
         DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(Value::Real(value)),
+            #[expect(clippy::cast_possible_truncation, reason = "whether the value survives is the question")]
+            Ok(value)
+                if value.is_finite()
+                    && (expected.data_type == DataType::Real64 || (value as f32).is_finite()) =>
+            {
+                Ok(Value::Real(value))
+            }
             _ => bad(
                 format!("found `{shown}`, expected a finite number"),
                 "write a decimal number such as `0.5`",
@@ -95,7 +101,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
     }
     let raw = match scalar::integer(text) {
         Ok(raw) => raw,
-        Err(NumberError::NotANumber) => match split_physical(text) {
+        Err(NumberError::NotANumber) => match split_physical(text).filter(|_| values.is_empty()) {
             Some((number, symbol)) => physical(number, symbol, span, expected.unit)?,
             None if !values.is_empty() => {
                 let names = values.iter().map(|value| value.name.as_str());

@@ -281,7 +281,7 @@ impl Builder<'_> {
         for _ in 0..2 {
             let start = before
                 .rfind(|c: char| c.is_whitespace() || matches!(c, '[' | '{' | ','))
-                .map_or(0, |at| at + 1);
+                .map_or(0, |at| at + before[at..].chars().next().map_or(0, char::len_utf8));
             if before[start..].starts_with('!') {
                 return self.range(start, before.len());
             }

@@ -124,6 +124,10 @@ FAULTS = (
     Fault("node id", DCF, put("DeviceComissioning", "NodeID", "2"), (NODE,)),
     Fault("configured value", DCF, put("1800sub2", "ParameterValue", "11"), (UTILS, NODE)),
     Fault("configured value lost", DCF, put("1800sub2", "ParameterValue", None), (UTILS, NODE)),
+    Fault("configured signed value", DCF, put("2002sub7", "ParameterValue", "42"), (UTILS, NODE, RUST)),
+    Fault("configured real", DCF, put("2002sub9", "ParameterValue", "0.25"), (LELY, UTILS, NODE)),
+    Fault("configured octets", DCF, put("2002subA", "ParameterValue", "0A0C"), (UTILS, NODE)),
+    Fault("configured text", DCF, put("2002subB", "ParameterValue", "Set there"), (UTILS, NODE)),
     Fault("value that nobody configured", DCF, put("2000", "ParameterValue", "7"), (UTILS, NODE)),
     Fault("default in the DCF", DCF, put("2000", "DefaultValue", "-6")),
 )

@@ -44,9 +44,12 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
         }
     }
     for (stem, system) in &systems {
-        for device in &system.devices {
-            text.push_str(&describe(device));
+        let wanted = |device: &&Dictionary| args.device.is_empty() || args.device.contains(&device.key);
+        let devices: Vec<&Dictionary> = system.devices.iter().filter(wanted).collect();
+        if devices.is_empty() {
+            continue;
         }
+        text.extend(devices.into_iter().map(describe));
         set.extend(artifacts(system, stem, &Selection { devices: &args.device, node }));
     }
     if let Some(path) = clash(&set) {
@@ -100,7 +103,10 @@ fn stem(path: &Path) -> String {
 /// The first path that two artifacts share.
 fn clash(set: &[Artifact]) -> Option<&str> {
     let mut seen = BTreeSet::new();
-    set.iter().find(|artifact| !seen.insert(&artifact.path)).map(|artifact| artifact.path.as_str())
+    // Some file systems do not tell capitals from small letters.
+    set.iter()
+        .find(|artifact| !seen.insert(artifact.path.to_lowercase()))
+        .map(|artifact| artifact.path.as_str())
 }
 
 fn describe(device: &Dictionary) -> String {

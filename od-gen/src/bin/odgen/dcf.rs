@@ -1,18 +1,24 @@
 //! `odgen dcf`.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_gen::eds::{Commissioning, write_dcf};
 use od_gen::files::write_all;
-use od_spec::assign;
+use od_gen::source::FileLoader;
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
 use od_spec::model::Dictionary;
 use od_spec::source::{SourceMap, Spanned};
+use od_spec::{assign, eds_text_problem};
 
 use super::ERRORS;
 use super::args::DcfArgs;
 use super::report::{Report, node_id, print};
+
+/// Longest `NodeName` and `NetworkName`: a line has 255 characters.
+const LONGEST_NODE_NAME: usize = 246;
+const LONGEST_NET_NAME: usize = 243;
 
 pub(crate) fn run(args: &DcfArgs, report: &Report) -> u8 {
     match dcf(args, report) {
@@ -22,22 +28,17 @@ pub(crate) fn run(args: &DcfArgs, report: &Report) -> u8 {
 }
 
 fn dcf(args: &DcfArgs, report: &Report) -> Result<String, u8> {
-    let node = node_id(&args.node).map_err(|diagnostic| report.refuse(diagnostic))?;
+    let refuse = |diagnostic| report.refuse(diagnostic);
+    let node = node_id(&args.node).map_err(refuse)?;
     let mut sources = SourceMap::new();
-    let compiled =
-        od_gen::source::compile_file(&args.spec, &mut sources, &mut od_gen::source::FileLoader::default());
+    let mut loader = FileLoader::default();
+    let compiled = od_gen::source::compile_file(&args.spec, &mut sources, &mut loader);
     report.show(&compiled.diagnostics, &sources);
     let system = compiled.system.ok_or(ERRORS)?;
     let device = report.device(&system, &args.device)?;
-    let mut commissioning = Commissioning::of_node(device, node);
-    if let Some(text) = &args.bit_rate {
-        commissioning.bit_rate = bit_rate(device, text).map_err(|diagnostic| report.refuse(diagnostic))?;
-    }
-    if let Some(name) = &args.node_name {
-        commissioning.node_name.clone_from(name);
-    }
-    commissioning.net_number = args.net_number;
-    commissioning.net_name.clone_from(&args.net_name);
+    let mut commissioning = commissioning(args, device, node).map_err(refuse)?;
+    let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
+    let name = file_name(&path, &loader.read).map_err(refuse)?;
     let settings: Vec<Spanned<String>> = args
         .settings
         .iter()
@@ -47,19 +48,17 @@ fn dcf(args: &DcfArgs, report: &Report) -> Result<String, u8> {
         })
         .collect();
     let mut diagnostics = Diagnostics::new();
-    commissioning.values = assign(&system, device, &settings, &mut diagnostics);
+    commissioning.values = assign(&system, device, node, &settings, &mut diagnostics);
     diagnostics.sort();
     report.show(&diagnostics, &sources);
     if diagnostics.has_errors() {
         return Err(ERRORS);
     }
-    let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
-    let artifact = Artifact { path: name, bytes, purpose: "" };
+    let artifact = Artifact { path: name, bytes, purpose: String::new() };
     write_all(directory, std::slice::from_ref(&artifact)).map_err(|error| {
-        report.refuse(
+        refuse(
             Diagnostic::without_place(Code::WriteFailed, error.to_string())
                 .help("nothing was changed; check the directory, its permissions and the free space"),
         )
@@ -67,6 +66,54 @@ fn dcf(args: &DcfArgs, report: &Report) -> Result<String, u8> {
     let size = artifact.bytes.len().div_ceil(1024);
     let count = commissioning.values.len();
     Ok(format!("  {}  {size} kB  {} node {node}, {count} values set\n", path.display(), device.key))
+}
+
+/// What the command line says about the node, without its parameter values.
+fn commissioning(args: &DcfArgs, device: &Dictionary, node: u8) -> Result<Commissioning, Diagnostic> {
+    let mut commissioning = Commissioning::of_node(device, node);
+    if let Some(text) = &args.bit_rate {
+        commissioning.bit_rate = bit_rate(device, text)?;
+    }
+    if let Some(name) = &args.node_name {
+        commissioning.node_name = text("--node-name", name, LONGEST_NODE_NAME)?;
+    }
+    commissioning.net_number = args.net_number;
+    commissioning.net_name = text("--net-name", &args.net_name, LONGEST_NET_NAME)?;
+    Ok(commissioning)
+}
+
+/// A text of `[DeviceComissioning]`.
+fn text(option: &str, text: &str, longest: usize) -> Result<String, Diagnostic> {
+    let text = text.trim();
+    match eds_text_problem(text, longest) {
+        None => Ok(text.to_owned()),
+        Some(problem) => {
+            Err(Diagnostic::without_place(Code::NotForEds, format!("the text of `{option}` {problem}"))
+                .help("choose another text"))
+        }
+    }
+}
+
+/// The name of the file to write, which is none of those that were read.
+fn file_name(path: &Path, read: &[PathBuf]) -> Result<String, Diagnostic> {
+    let refuse = |problem: &str, help: &str| {
+        let message = format!("cannot write `{}`: {problem}", path.display());
+        Err(Diagnostic::without_place(Code::WriteFailed, message).help(help.to_owned()))
+    };
+    let Some(name) = path.file_name() else {
+        return refuse("it names no file", "write the file's name behind the directory");
+    };
+    let Some(name) = name.to_str() else {
+        return refuse("its name is not Unicode", "choose another name");
+    };
+    let same = |file: &PathBuf| match (fs::canonicalize(path), fs::canonicalize(file)) {
+        (Ok(target), Ok(file)) => target == file,
+        _ => false,
+    };
+    if read.iter().any(same) {
+        return refuse("the DCF is made from this file", "write the DCF to another file");
+    }
+    Ok(name.to_owned())
 }
 
 fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {

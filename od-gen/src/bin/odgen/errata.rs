@@ -45,12 +45,17 @@ fn index(text: &str) -> Option<Index> {
     u16::from_str_radix(digits, 16).ok().map(Index)
 }
 
+/// The entries, and the devices where it is not about all of them.
 fn places(erratum: &Erratum) -> String {
     let places = erratum.at.iter().map(|place| match place {
         ErratumPlace::Object(index) => index.to_string(),
         ErratumPlace::Entry(id) => format!("{}.{}", id.index, id.sub),
     });
-    places.collect::<Vec<_>>().join(", ")
+    let places = places.collect::<Vec<_>>().join(", ");
+    match erratum.devices.as_slice() {
+        [] => places,
+        devices => format!("{places} on {}", devices.join(", ")).trim_start().to_owned(),
+    }
 }
 
 fn plain(system: &System, errata: &[&Erratum]) -> String {

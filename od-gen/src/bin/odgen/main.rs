@@ -28,10 +28,7 @@ fn main() -> ExitCode {
         Command::Build(args) => build::run(&args, &report),
         Command::Check(args) => check::run(&args, &report),
         Command::Dcf(args) => dcf::run(&args, &report),
-        Command::Dump(args) => match report.compile(&args.spec) {
-            Some(system) => report::print_bytes(&od_gen::json::dump(&system, &args.device)),
-            None => ERRORS,
-        },
+        Command::Dump(args) => dump(&args, &report),
         Command::Errata(args) => errata::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Reference => report::print(&od_spec::reference()),
@@ -44,6 +41,14 @@ fn main() -> ExitCode {
         }
     };
     ExitCode::from(code)
+}
+
+fn dump(args: &args::DumpArgs, report: &report::Report) -> u8 {
+    let Some(system) = report.compile(&args.spec) else { return ERRORS };
+    match args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
+        Ok(()) => report::print_bytes(&od_gen::json::dump(&system, &args.device)),
+        Err(code) => code,
+    }
 }
 
 fn explain(id: &str) -> u8 {

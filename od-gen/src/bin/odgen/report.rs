@@ -12,7 +12,7 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
 use super::args::Color;
-use super::{ERRORS, FINE};
+use super::{ERRORS, FINE, USAGE};
 
 /// Writes diagnostics the way the user asked for.
 pub(crate) struct Report {
@@ -53,8 +53,12 @@ impl Report {
     pub(crate) fn refuse(&self, diagnostic: Diagnostic) -> u8 {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(diagnostic);
+        let code = match diagnostics.iter().next().map(|diagnostic| diagnostic.code) {
+            Some(Code::BadNodeId | Code::UnknownDevice | Code::UnknownWord | Code::BadNotation) => USAGE,
+            _ => ERRORS,
+        };
         self.show(&diagnostics, &SourceMap::new());
-        ERRORS
+        code
     }
 
     /// The device with this key.
