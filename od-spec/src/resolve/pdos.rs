@@ -186,7 +186,7 @@ fn cob_id(decl: &PdoDecl, valid: bool, diagnostics: &mut Diagnostics) -> Option<
     })
 }
 
-/// CAN identifiers that CiA 301 table 35 keeps from configurable services.
+/// CAN identifiers that CiA 301 table 35 keeps from configurable services; 002h to 07Fh since version 4.2.
 pub(crate) const RESTRICTED: [(i128, i128); 8] = [
     (0x000, 0x000),
     (0x001, 0x07F),
