@@ -36,24 +36,27 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
         |device: &&Dictionary| selection.devices.is_empty() || selection.devices.contains(&device.key);
     // The dump is half of the work, and independent of the rest.
     std::thread::scope(|scope| {
-        let dump = scope.spawn(|| json::dump(system, selection.devices));
-        let mut list = Vec::new();
-        for device in system.devices.iter().filter(wanted) {
-            let path = format!("eds/{}.eds", device.key);
-            let bytes = eds::write_eds(system, device);
-            list.push(Artifact { bytes, path, purpose: "import this into the PLC tool".to_owned() });
-            if let Some(node) = selection.node {
-                let commissioning = eds::Commissioning::of_node(device, node);
-                let path = format!("eds/{}.dcf", device.key);
-                let bytes = eds::write_dcf(system, device, &commissioning, &format!("{}.dcf", device.key));
-                let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
-                list.push(Artifact { path, bytes, purpose });
+        let files = scope.spawn(|| {
+            let mut list = Vec::new();
+            for device in system.devices.iter().filter(wanted) {
+                let path = format!("eds/{}.eds", device.key);
+                let bytes = eds::write_eds(system, device);
+                list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
+                if let Some(node) = selection.node {
+                    let commissioning = eds::Commissioning::of_node(device, node);
+                    let file = format!("{}.dcf", device.key);
+                    let bytes = eds::write_dcf(system, device, &commissioning, &file);
+                    let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
+                    list.push(Artifact { path: format!("eds/{file}"), bytes, purpose });
+                }
             }
-        }
-        let bytes = dump.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            list
+        });
+        let bytes = json::dump(system, selection.devices);
+        let mut list = files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         list.push(Artifact {
-            bytes,
             path: format!("{stem}.json"),
+            bytes,
             purpose: "the resolved model, for programs".to_owned(),
         });
         list
