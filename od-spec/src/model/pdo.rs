@@ -37,11 +37,7 @@ pub struct Pdo {
 impl Pdo {
     /// Index of the communication parameter object.
     pub const fn communication_index(&self) -> u16 {
-        let base = match self.direction {
-            Direction::Receive => 0x1400,
-            Direction::Transmit => 0x1800,
-        };
-        base + self.number - 1
+        self.direction.first_communication_index() + self.number - 1
     }
 
     /// Index of the mapping parameter object.

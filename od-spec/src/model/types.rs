@@ -358,6 +358,14 @@ impl Direction {
             Direction::Transmit => "TPDO",
         }
     }
+
+    /// Index of the communication parameter of PDO 1 (CiA 301).
+    pub const fn first_communication_index(self) -> u16 {
+        match self {
+            Direction::Receive => 0x1400,
+            Direction::Transmit => 0x1800,
+        }
+    }
 }
 
 word_enum! {

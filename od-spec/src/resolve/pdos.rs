@@ -46,10 +46,7 @@ pub(super) fn resolve(
 
 /// The communication and mapping parameter of a PDO.
 fn parameters(decl: &PdoDecl) -> [Index; 2] {
-    let base = match decl.direction {
-        Direction::Receive => 0x1400,
-        Direction::Transmit => 0x1800,
-    };
+    let base = decl.direction.first_communication_index();
     [base, base + 0x200].map(|base| Index(base + (decl.number.value - 1) % 0x200))
 }
 
