@@ -227,6 +227,8 @@ entry_decl! {
     since: String,
     writable_when: Expr,
     bit_errors: Vec<BitErrorDecl>,
+    capacity: i128,
+    identifier: String,
     eds: EdsDecl,
     about: Text,
 }

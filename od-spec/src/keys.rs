@@ -340,6 +340,18 @@ const ENTRY_EDS: Key = entry_key(
     "what the EDS shows, where the device's policy does not fit",
     Some("{flags: [no-write]}"),
 );
+const ENTRY_CAPACITY: Key = entry_key(
+    "capacity",
+    Shape::Integer(1, 65_535),
+    "most bytes of a string that the device can hold; in a UNICODE_STRING, each character takes two or four",
+    Some("16"),
+);
+const ENTRY_IDENTIFIER: Key = entry_key(
+    "identifier",
+    Shape::Text,
+    "name in generated code, where the one made from `name` will not do",
+    Some("speed_limit_2"),
+);
 const ENTRY_NAME: Key =
     entry_key("name", Shape::Text, "name, as the manual spells it", Some("actual position"));
 
@@ -348,6 +360,7 @@ pub static ENTRY: Keys = Keys {
     name: "an entry",
     keys: &[
         ENTRY_NAME,
+        ENTRY_IDENTIFIER,
         ENTRY_TYPE,
         ENTRY_UNIT,
         ENTRY_ACCESS,
@@ -361,6 +374,7 @@ pub static ENTRY: Keys = Keys {
         ENTRY_SINCE,
         ENTRY_WHEN,
         ENTRY_BIT_ERRORS,
+        ENTRY_CAPACITY,
         ENTRY_EDS,
         ENTRY_ABOUT,
     ],
@@ -371,6 +385,7 @@ pub static OBJECT: Keys = Keys {
     name: "an object",
     keys: &[
         ENTRY_NAME,
+        ENTRY_IDENTIFIER,
         Key {
             name: "on",
             shape: NAMES,
@@ -447,6 +462,7 @@ pub static OBJECT: Keys = Keys {
         ENTRY_SINCE,
         ENTRY_WHEN,
         ENTRY_BIT_ERRORS,
+        ENTRY_CAPACITY,
         ENTRY_EDS,
         ENTRY_ABOUT,
     ],
@@ -490,6 +506,7 @@ pub static ARRAY: Keys = Keys {
         ENTRY_SINCE,
         ENTRY_WHEN,
         ENTRY_BIT_ERRORS,
+        ENTRY_CAPACITY,
         ENTRY_EDS,
         ENTRY_ABOUT,
     ],

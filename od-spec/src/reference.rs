@@ -438,7 +438,7 @@ array also take every other key that stands at `array:`; its `name` is a pattern
 taken as a whole.
 
 `default`, `min` and `max` are about one value and are refused beside `array:` or `record:`. The other keys of an entry that do not go down
-(`special`, `bit-errors`) have a meaning at a VAR only; `category`, `since` and `about` are about the object itself.
+(`special`, `bit-errors`, `capacity`) have a meaning at a VAR only; `category`, `since` and `about` are about the object itself.
 
 An array needs `count:` or `elements:`, and its elements are of one type.
 ";
@@ -478,6 +478,12 @@ How an entry is **stored**:
 {STORAGE}
 
 A `const` entry is not stored.
+
+A string has the **capacity** that `capacity:` says, in bytes; an EDS does not show it. A constant needs none, as its length is that of its
+default. Firmware that is generated from the specification needs the capacity of every other string, to set the memory aside.
+
+Generated code takes its **identifiers** from the names: `actual velocity 16bit` becomes `actual_velocity_16bit`. Where that gives one name
+to two things, or a name that the generated code needs itself, `identifier:` gives another; nothing is renamed silently.
 ";
 
 const STORAGE: &[(&str, &str)] = &[

@@ -70,6 +70,8 @@ struct ObjectView<'a> {
     name: &'a str,
     #[serde(rename = "eds-name", skip_serializing_if = "Option::is_none")]
     eds_name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    identifier: Option<&'a str>,
     kind: String,
     origin: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -89,6 +91,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         index: index(object.index),
         name: &object.name,
         eds_name: eds_name(&object.name),
+        identifier: object.identifier.as_deref(),
         kind: object.kind.name().to_lowercase(),
         origin: object.origin.word(),
         profile: object.profile.as_deref(),
@@ -123,6 +126,10 @@ struct EntryView<'a> {
     low: Option<Json>,
     high: Option<Json>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    min: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     unit: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     special: Vec<Json>,
@@ -135,6 +142,10 @@ struct EntryView<'a> {
     since: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     writable_when: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    capacity: Option<u16>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    identifier: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     bit_errors: Vec<Json>,
     eds: Json,
@@ -155,6 +166,8 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
         default: entry.default.as_ref().map(|default| value(entry, default)),
         low: low.map(integer),
         high: high.map(integer),
+        min: entry.low.filter(|min| low != Some(*min)).map(integer),
+        max: entry.high.filter(|max| high != Some(*max)).map(integer),
         unit: entry.unit.as_ref().map(|unit| unit.name.as_str()),
         special: entry
             .special
@@ -173,6 +186,8 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
         category: entry.category.map(model::Category::word),
         since: entry.since.as_deref(),
         writable_when: entry.writable_when.as_ref().map(|condition| condition.text.as_str()),
+        capacity: entry.capacity,
+        identifier: entry.identifier.as_deref(),
         bit_errors: entry
             .bit_errors
             .iter()

@@ -59,13 +59,14 @@ pub(crate) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
         refuse("omit", sub.span, "nothing is taken from a library", help, diagnostics);
     }
     if array.is_some() || record.is_some() {
-        let EntryDecl { default, min, max, special, bit_errors, .. } = entry;
+        let EntryDecl { default, min, max, special, bit_errors, capacity, .. } = entry;
         let keys = [
             ("default", default.as_ref().map(|key| key.span)),
             ("min", min.as_ref().map(|key| key.span)),
             ("max", max.as_ref().map(|key| key.span)),
             ("special", special.as_ref().map(|key| key.span)),
             ("bit-errors", bit_errors.as_ref().map(|key| key.span)),
+            ("capacity", capacity.as_ref().map(|key| key.span)),
         ];
         for (key, span) in keys {
             if let Some(span) = span {

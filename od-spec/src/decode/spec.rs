@@ -309,6 +309,8 @@ fn entry(r: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) 
         stored: r.value("stored", Storage::from_word),
         category: r.value("category", Category::from_word),
         since: r.text("since"),
+        capacity: r.integer("capacity"),
+        identifier: r.text("identifier"),
         writable_when: r.value("writable-when", |text| Expr::parse(text).ok()),
         bit_errors: r.child("bit-errors").map(|child| {
             let codes = r.entries("bit-errors").filter_map(|(key, r)| {

@@ -73,6 +73,8 @@ pub struct Object {
     pub index: Index,
     /// Name, as the manual's heading spells it.
     pub name: String,
+    /// Name in generated code, where the specification gives one.
+    pub identifier: Option<String>,
     /// Shape.
     pub kind: ObjectKind,
     /// Where it comes from.
@@ -147,6 +149,10 @@ pub struct Entry {
     pub since: Option<String>,
     /// Condition under which a write is accepted.
     pub writable_when: Option<Expr>,
+    /// Most bytes of a string that the device can hold, where that is stated or follows from a constant.
+    pub capacity: Option<u16>,
+    /// Name in generated code, where the specification gives one.
+    pub identifier: Option<String>,
     /// Error codes of the named type's bits, where the type is shared: bit number, codes.
     pub bit_errors: Vec<(u8, Vec<u16>)>,
     /// What the EDS shows of it.

@@ -223,6 +223,11 @@ impl DataType {
         )
     }
 
+    /// Whether it is a string, whose length varies up to a capacity.
+    pub const fn is_string(self) -> bool {
+        matches!(self, DataType::VisibleString | DataType::OctetString | DataType::UnicodeString)
+    }
+
     /// Whether it is an INTEGERn or UNSIGNEDn.
     pub const fn is_integer(self) -> bool {
         self.is_signed() || self.is_unsigned()

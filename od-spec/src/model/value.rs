@@ -29,6 +29,29 @@ impl Value {
         }
     }
 
+    /// The bytes of the value on the bus, least significant first, with a node-ID of 0 in a formula; `None` when the
+    /// type does not have this value.
+    pub fn bytes_in(&self, data_type: DataType) -> Option<Vec<u8>> {
+        let integer = |raw: i128| {
+            let (low, high) = data_type.range()?;
+            let size = usize::from(data_type.bits()?.div_ceil(8));
+            (low..=high).contains(&raw).then(|| raw.to_le_bytes()[..size].to_vec())
+        };
+        match (self, data_type) {
+            (Value::Integer(raw), _) => integer(*raw),
+            (Value::NodeId(offset), _) => integer(i128::from(*offset)),
+            #[expect(clippy::cast_possible_truncation, reason = "the nearest value that the type has")]
+            (Value::Real(number), DataType::Real32) => Some((*number as f32).to_le_bytes().to_vec()),
+            (Value::Real(number), DataType::Real64) => Some(number.to_le_bytes().to_vec()),
+            (Value::Text(text), DataType::VisibleString) => Some(text.clone().into_bytes()),
+            (Value::Text(text), DataType::UnicodeString) => {
+                Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect())
+            }
+            (Value::Bytes(bytes), DataType::OctetString) => Some(bytes.clone()),
+            _ => None,
+        }
+    }
+
     /// The integer, if the value is one and no formula.
     pub const fn integer(&self) -> Option<i128> {
         match self {

@@ -219,7 +219,10 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
 fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) {
     let mut differs = Vec::new();
     let mut note = |prefix: &str, facts: Vec<&'static str>| {
-        for fact in facts.into_iter().filter(|fact| !matches!(*fact, "about" | "since" | "stored" | "eds")) {
+        for fact in facts
+            .into_iter()
+            .filter(|fact| !matches!(*fact, "about" | "since" | "stored" | "eds" | "capacity" | "identifier"))
+        {
             let fact = fact.trim_end_matches("_name").replace('_', "-");
             differs.push(format!("{prefix}{fact}"));
         }

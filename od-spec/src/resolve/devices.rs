@@ -257,6 +257,7 @@ impl Builder<'_> {
         Some(Object {
             index: decl.index.value,
             name,
+            identifier: entry.identifier.clone(),
             kind: ObjectKind::Var,
             origin: one.origin,
             profile: one.profile.clone(),

@@ -77,6 +77,8 @@ pub(super) fn resolve(
         category: decl.category.map(|category| category.value),
         since: decl.since.as_ref().map(|since| since.value.clone()),
         writable_when: decl.writable_when.as_ref().map(|condition| condition.value.clone()),
+        capacity: capacity(decl, data_type, diagnostics),
+        identifier: identifier(decl, diagnostics),
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
         eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
         about: words(&decl.about),
@@ -85,6 +87,7 @@ pub(super) fn resolve(
         unit,
     };
     check_default(&entry, decl.default.as_ref(), diagnostics);
+    check_length(&entry, decl, diagnostics);
     check_const(&entry, decl, diagnostics);
     if let Some(condition) = decl.writable_when.as_ref().filter(|_| !access.is_writable()) {
         diagnostics.push(
@@ -97,6 +100,64 @@ pub(super) fn resolve(
         );
     }
     Some(Entry { eds: eds_policy(&entry, decl, around.safe_eds), ..entry })
+}
+
+fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics) -> Option<u16> {
+    let capacity = decl.capacity?;
+    if !data_type.is_string() {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::ConflictingKeys,
+                capacity.span,
+                format!("`capacity` has no effect here: {data_type} is no string"),
+            )
+            .help("remove it; only strings have a capacity"),
+        );
+        return None;
+    }
+    let bytes = super::to_u16(capacity.value);
+    if data_type == DataType::UnicodeString && bytes % 2 == 1 {
+        diagnostics.push(
+            Diagnostic::new(Code::BadNotation, capacity.span, "a UNICODE_STRING has an even number of bytes")
+                .help("write the number of 16-bit units times two"),
+        );
+        return None;
+    }
+    Some(bytes)
+}
+
+/// The name in generated code; `None` also for one that is none, which is reported.
+pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Option<String> {
+    let name = decl.identifier.as_ref()?;
+    let lower = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
+    let plain = name.value.bytes().all(lower) && !name.value.contains("__") && !name.value.ends_with('_');
+    if plain && name.value.starts_with(|first: char| first.is_ascii_lowercase()) {
+        return Some(name.value.clone());
+    }
+    diagnostics.push(
+        Diagnostic::new(Code::BadNotation, name.span, format!("`{}` is no identifier", shorten(&name.value)))
+            .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`"),
+    );
+    None
+}
+
+/// A default is no longer than the string may be.
+fn check_length(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {
+    let (Some(capacity), Some(text), Some(default)) = (decl.capacity, &decl.default, &entry.default) else {
+        return;
+    };
+    let Some(length) = default.bytes_in(entry.data_type).map(|bytes| bytes.len()) else { return };
+    if i128::try_from(length).is_ok_and(|length| length > capacity.value) {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::ValueDoesNotFit,
+                text.span,
+                format!("the default has {length} bytes, the capacity is {}", capacity.value),
+            )
+            .with(capacity.span, "the capacity")
+            .help("raise the capacity, or shorten the default"),
+        );
+    }
 }
 
 /// The data type and the named type of an entry.

@@ -56,6 +56,7 @@ pub(super) fn resolve(
     Some(Object {
         index: decl.index.value,
         name: name.value.clone(),
+        identifier: entries::identifier(&decl.entry, diagnostics),
         kind,
         origin: declared.origin,
         profile: declared.profile.clone(),
@@ -269,6 +270,8 @@ fn finish(
         category: None,
         since: None,
         writable_when: None,
+        capacity: None,
+        identifier: None,
         bit_errors: Vec::new(),
         eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
         about: Text::default(),

@@ -353,6 +353,8 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
             category: None,
             since: None,
             writable_when: None,
+            capacity: None,
+            identifier: None,
             bit_errors: Vec::new(),
             eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
             about: english(parameter.about),
@@ -362,6 +364,7 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
     Object {
         index: Index(index),
         name,
+        identifier: None,
         kind: ObjectKind::Record,
         origin: Origin::Pdo,
         profile: None,
