@@ -1,2 +1,54 @@
-//! Will hold the `no_std` run-time half of generated dictionaries: lookup, checked access, PDO mapping; empty for now.
+//! What generated CANopen object dictionaries call at run time.
+//!
+//! A generated dictionary is a byte image with typed accessors, and a constant table in flash that says what every byte is
+//! ([`Table`]). This crate does the rest, for every dictionary with the same code: lookup, reading, checked writing with the
+//! abort codes of CiA 301 ([`Dictionary`]), the application's hooks ([`Application`]), aliases ([`View`]), PDO mapping
+//! ([`pdo`]), parameter storage, conditions between entries ([`Constrained`]), physical units ([`Quantity`]).
+//!
+//! An SDO server needs five functions: [`Dictionary::upload`] and [`Dictionary::write`] for values,
+//! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
+//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`].
+//!
+//! `no_std`, no allocation, no `unsafe`; no function panics on any input. There is no hidden state: a dictionary is a plain
+//! value, and a program can have several.
+//!
+//! # Features
+//!
+//! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
+//! - `critical-section`: `Shared`, a dictionary behind short critical sections
+
 #![no_std]
+
+mod abort;
+mod alias;
+mod application;
+mod communication;
+mod constraint;
+mod dictionary;
+pub mod image;
+pub mod named;
+pub mod pdo;
+pub mod quantity;
+#[cfg(feature = "critical-section")]
+mod shared;
+mod special;
+pub mod table;
+pub mod text;
+mod value;
+
+pub use abort::AbortCode;
+pub use alias::{Alias, Outside, Rounding, View};
+pub use application::Application;
+pub use constraint::{Constrained, Constraint};
+#[cfg(feature = "defmt")]
+pub use defmt;
+pub use dictionary::{Dictionary, Info};
+pub use image::{OutOfRange, get, put};
+pub use named::{BitField, Enumeration, UnknownValue};
+pub use quantity::Quantity;
+#[cfg(feature = "critical-section")]
+pub use shared::Shared;
+pub use special::Special;
+pub use table::{DataType, Storage, Table};
+pub use text::{NoFit, Time, Utf16};
+pub use value::Value;

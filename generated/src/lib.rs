@@ -1,2 +1,12 @@
-//! Holds what the shipped specifications produce: `eds/`, `dcf/` and `json/` beside this crate; typed Rust comes with its backend.
+//! What the shipped specifications produce: the object dictionaries of the OAT Pitch Control System as Rust modules.
+//!
+//! The modules are generated and checked in, so that they can be read and reviewed; `cargo xtask generate` makes them anew,
+//! and a test compares. `eds/` beside them holds the EDS and DCF files of the same devices.
+
 #![no_std]
+
+/// Pitch Management Module (PMM): supply, battery, booster and brake chopper.
+pub mod pmm;
+
+/// Pitch Motion Controller (PMC): the axis controller.
+pub mod pmc;

@@ -5,7 +5,9 @@
 
 pub mod eds;
 pub mod files;
+#[cfg(feature = "json")]
 pub mod json;
+pub mod rust;
 pub mod source;
 
 use od_spec::model::{Dictionary, System};

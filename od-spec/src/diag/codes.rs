@@ -244,6 +244,14 @@ codes! {
         "Reserved bits are written as 0. Correct the default, or say what the bits mean."
     UnlistedErrorCode Warning "OD0808" "an error code that is not listed":
         "A bit refers to an error code that `errors:` does not have."
+    IdentifierClash Error "OD0901" "two things with one identifier":
+        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
+    NoIdentifier Error "OD0902" "a name without an identifier":
+        "Generated code makes identifiers from the letters and digits of a name, and this one has none. Write `identifier:`."
+    NoCapacity Error "OD0903" "a string without a capacity":
+        "Generated firmware sets aside memory for every string that can change. Write `capacity:`, the most bytes that the device can hold."
+    NotInFirmware Error "OD0904" "something that generated code cannot do":
+        "Generated code computes with 64-bit integers and addresses entries with 16-bit numbers. The message tells which part of the specification needs more."
 }
 
 impl Code {

@@ -103,6 +103,10 @@ pub(crate) struct BuildArgs {
     /// Also a DCF of each device for this node-ID (1 to 127)
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
+
+    /// Also a Rust module of each device, `src/KEY.rs`
+    #[arg(long)]
+    pub rust: bool,
 }
 
 #[derive(Debug, Args)]

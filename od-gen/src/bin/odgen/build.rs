@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use od_gen::files::{Outcome, write_all};
+use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
-use od_spec::diag::{Code, Diagnostic};
+use od_spec::diag::{Code, Diagnostic, Diagnostics};
 use od_spec::model::{Dictionary, Origin, PdoMapping, System};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
@@ -26,16 +27,17 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
         Ok(node) => node,
         Err(diagnostic) => return report.refuse(diagnostic),
     };
-    let Some(systems) = compile_all(args, report) else { return ERRORS };
-    // The files that come with odgen include a DCF of node 1.
-    let node = if args.specs.is_empty() { node.or(Some(1)) } else { node };
+    // The files that come with odgen include a DCF of node 1, and Rust.
+    let shipped = args.specs.is_empty();
+    let node = if shipped { node.or(Some(1)) } else { node };
+    let Some(mut systems) = compile_all(args, args.rust || shipped, report) else { return ERRORS };
     let mut set: Vec<Artifact> = Vec::new();
     let mut text = String::new();
     for key in &args.device {
-        if !systems.iter().any(|(_, system)| system.device(key).is_some()) {
+        if !systems.iter().any(|built| built.system.device(key).is_some()) {
             let keys = systems
                 .iter()
-                .flat_map(|(_, system)| &system.devices)
+                .flat_map(|built| &built.system.devices)
                 .map(|device| format!("`{}`", device.key));
             return report.refuse(
                 Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
@@ -43,14 +45,14 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
             );
         }
     }
-    for (stem, system) in &systems {
-        let wanted = |device: &&Dictionary| args.device.is_empty() || args.device.contains(&device.key);
-        let devices: Vec<&Dictionary> = system.devices.iter().filter(wanted).collect();
+    for Built { stem, system, rust } in &mut systems {
+        let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
             continue;
         }
         text.extend(devices.into_iter().map(describe));
         set.extend(artifacts(system, stem, &Selection { devices: &args.device, node }));
+        set.append(rust);
     }
     if let Some(path) = clash(&set) {
         return report.refuse(
@@ -75,22 +77,48 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
     }
 }
 
-/// Compiles everything, so that all messages are shown; `None` if any has errors.
-fn compile_all(args: &BuildArgs, report: &Report) -> Option<Vec<(String, System)>> {
-    let systems: Vec<(String, Option<System>)> = if args.specs.is_empty() {
-        SHIPPED.iter().map(|(name, text)| (stem(Path::new(name)), shipped(name, text, report))).collect()
-    } else {
-        args.specs.iter().map(|path| (stem(path), report.compile(path))).collect()
-    };
-    systems.into_iter().map(|(stem, system)| Some((stem, system?))).collect()
+/// A specification that was compiled.
+struct Built {
+    stem: String,
+    system: System,
+    /// Its Rust modules, if they are wanted.
+    rust: Vec<Artifact>,
 }
 
-fn shipped(name: &str, text: &str, report: &Report) -> Option<System> {
+/// Compiles everything, so that all messages are shown; `None` if any has errors.
+fn compile_all(args: &BuildArgs, rust: bool, report: &Report) -> Option<Vec<Built>> {
+    let compiled: Vec<(String, Option<(System, SourceMap)>)> = if args.specs.is_empty() {
+        SHIPPED.iter().map(|(name, text)| (stem(Path::new(name)), shipped(name, text, report))).collect()
+    } else {
+        args.specs.iter().map(|path| (stem(path), report.compile_with_sources(path))).collect()
+    };
+    let built = compiled.into_iter().map(|(stem, compiled)| {
+        let (system, sources) = compiled?;
+        let rust = if rust { modules(args, &system, &sources, report)? } else { Vec::new() };
+        Some(Built { stem, system, rust })
+    });
+    built.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// The Rust modules of the wanted devices; `None` if any cannot be made.
+fn modules(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Report) -> Option<Vec<Artifact>> {
+    let mut diagnostics = Diagnostics::new();
+    let devices = system.devices.iter().filter(|device| wanted(args, device));
+    let modules = rust::artifacts(system, devices, &Provenance::of(sources), &mut diagnostics);
+    report.show(&diagnostics, sources);
+    (!diagnostics.has_errors()).then_some(modules)
+}
+
+fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {
+    args.device.is_empty() || args.device.contains(&device.key)
+}
+
+fn shipped(name: &str, text: &str, report: &Report) -> Option<(System, SourceMap)> {
     let mut sources = SourceMap::new();
     let root = sources.add(name, text);
     let compiled = compile(&mut sources, root, &mut NoFiles);
     report.show(&compiled.diagnostics, &sources);
-    compiled.system
+    Some((compiled.system?, sources))
 }
 
 /// `pitch.od.yaml` → `pitch`.

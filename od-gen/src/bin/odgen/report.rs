@@ -43,10 +43,15 @@ impl Report {
 
     /// Compiles a file and shows what there is to say; `None` when it has errors.
     pub(crate) fn compile(&self, path: &Path) -> Option<System> {
+        self.compile_with_sources(path).map(|(system, _)| system)
+    }
+
+    /// [`compile`](Self::compile), with the texts that were read.
+    pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(System, SourceMap)> {
         let mut sources = SourceMap::new();
         let Compiled { system, diagnostics } = compile_file(path, &mut sources, &mut FileLoader::default());
         self.show(&diagnostics, &sources);
-        system
+        Some((system?, sources))
     }
 
     /// Shows one message that has no place in a source text.

@@ -1,0 +1,60 @@
+//! What a dictionary asks the application.
+
+use crate::abort::AbortCode;
+use crate::dictionary::Dictionary;
+
+/// The application's part in accesses over the bus. Every method has a default, so that `&mut ()` is an application that
+/// agrees to everything the dictionary allows, and never unlocks.
+pub trait Application<D: Dictionary> {
+    /// Whether the device is unlocked for service, so that locked entries can be written. Never unless overridden.
+    fn is_unlocked(&self) -> bool {
+        false
+    }
+
+    /// Called before an entry is read by [`Dictionary::upload`] or packed into a PDO: the moment to bring values up to date
+    /// that are not kept current all the time.
+    fn refresh(&mut self, dictionary: &mut D, entry: D::Entry) {
+        let _ = (dictionary, entry);
+    }
+
+    /// The application's veto, after every check of the dictionary has passed. `value` has the length of the entry's type.
+    ///
+    /// Commands such as "store parameters" (1010h) are carried out here: a client is answered only when they are done, and a
+    /// failure is an abort code such as [`AbortCode::HARDWARE`].
+    fn accept(&mut self, dictionary: &mut D, entry: D::Entry, value: &[u8]) -> Result<(), AbortCode> {
+        let _ = (dictionary, entry, value);
+        Ok(())
+    }
+
+    /// Called after an entry got a value over the bus. Of an alias, the entry is its target.
+    fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {
+        let _ = (dictionary, entry);
+    }
+
+    /// Reads a DOMAIN from an offset on; returns the number of bytes, 0 at its end.
+    fn read_domain(
+        &mut self,
+        dictionary: &mut D,
+        entry: D::Entry,
+        offset: u32,
+        buffer: &mut [u8],
+    ) -> Result<usize, AbortCode> {
+        let _ = (dictionary, entry, offset, buffer);
+        Err(AbortCode::NO_DATA)
+    }
+
+    /// Takes a part of a DOMAIN; `last` tells that it is complete.
+    fn write_domain(
+        &mut self,
+        dictionary: &mut D,
+        entry: D::Entry,
+        offset: u32,
+        data: &[u8],
+        last: bool,
+    ) -> Result<(), AbortCode> {
+        let _ = (dictionary, entry, offset, data, last);
+        Err(AbortCode::NOT_STORED)
+    }
+}
+
+impl<D: Dictionary> Application<D> for () {}

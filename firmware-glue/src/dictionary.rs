@@ -1,0 +1,446 @@
+//! Access to a dictionary by index and sub-index: what an SDO server needs.
+
+use core::fmt::Debug;
+
+use crate::abort::AbortCode;
+use crate::application::Application;
+use crate::communication;
+use crate::table::{Attributes, DataType, Flags, NONE, Place, Region, Row, Storage, Table};
+use crate::value::{Value, number, prefix, trimmed};
+
+/// A dictionary: values in a byte image, everything else in a constant table. The generator implements the required part;
+/// the rest follows.
+pub trait Dictionary: Sized {
+    /// Every entry, by name.
+    type Entry: Copy + Eq + Debug + 'static;
+
+    /// What every entry is.
+    const TABLE: &'static Table;
+
+    /// The entry of a row; `None` beyond the table.
+    fn entry(row: Row) -> Option<Self::Entry>;
+
+    /// The row of an entry.
+    fn row(entry: Self::Entry) -> Row;
+
+    /// The values.
+    fn image(&self) -> &[u8];
+
+    /// The values, to be changed. No check stands between the caller and the bytes.
+    fn image_mut(&mut self) -> &mut [u8];
+
+    /// Whether the write condition of this number holds now.
+    fn condition(&self, number: u16) -> bool;
+
+    /// The entry at an index and sub-index.
+    ///
+    /// # Errors
+    /// [`AbortCode::NO_OBJECT`], [`AbortCode::NO_SUB_INDEX`].
+    #[inline]
+    fn find(index: u16, sub: u8) -> Result<Self::Entry, AbortCode> {
+        let row = Self::TABLE.find(index, sub)?;
+        Self::entry(row).ok_or(AbortCode::INTERNAL)
+    }
+
+    /// What is known about an entry.
+    #[inline]
+    fn info(entry: Self::Entry) -> Info {
+        Info { table: Self::TABLE, row: Self::row(entry), shared: Self::TABLE.attributes(Self::row(entry)) }
+    }
+
+    /// The value of an entry, as an SDO client reads it.
+    ///
+    /// # Errors
+    /// That it does not exist; [`AbortCode::WRITE_ONLY`]; [`AbortCode::NO_DATA`] for an entry of the error history that is
+    /// not filled; [`AbortCode::UNSUPPORTED_ACCESS`] for a DOMAIN, which the application has
+    /// ([`upload_domain`](Self::upload_domain)); what an alias says about a value that it cannot show.
+    #[inline]
+    fn read(&self, index: u16, sub: u8) -> Result<Value<'_>, AbortCode> {
+        let row = Self::TABLE.find(index, sub)?;
+        if !Self::TABLE.attributes(row).flags.has(Flags::READ) {
+            return Err(AbortCode::WRITE_ONLY);
+        }
+        if index == 0x1003 && sub > 0 {
+            communication::history_has(Self::TABLE, self.image(), sub)?;
+        }
+        value(Self::TABLE, self.image(), row)
+    }
+
+    /// [`read`](Self::read), after the application had the chance to bring the value up to date.
+    fn upload<A: Application<Self>>(
+        &mut self,
+        index: u16,
+        sub: u8,
+        application: &mut A,
+    ) -> Result<Value<'_>, AbortCode> {
+        let row = Self::TABLE.find(index, sub)?;
+        if let (Some(entry), true) = (Self::entry(row), Self::TABLE.attributes(row).flags.has(Flags::READ)) {
+            application.refresh(self, Self::entry(holder(Self::TABLE, row)).unwrap_or(entry));
+        }
+        self.read(index, sub)
+    }
+
+    /// Writes an entry as an SDO client does. The checks come in the order of CiA 301's servers: the entry exists, its
+    /// access and lock, the length, the value (type, limits, values of an enum; of an alias, also those of its target), rules
+    /// of the communication objects, the write condition, the application's veto. A refused write changes nothing.
+    ///
+    /// Returns the entry that has a new value: of an alias, its target. A signature written to 1010h or 1011h is a command
+    /// and no value; nothing is stored, and the entry is returned.
+    ///
+    /// # Errors
+    /// The abort code for the client.
+    fn write<A: Application<Self>>(
+        &mut self,
+        index: u16,
+        sub: u8,
+        data: &[u8],
+        application: &mut A,
+    ) -> Result<Self::Entry, AbortCode> {
+        let row = Self::TABLE.find(index, sub)?;
+        let shared = Self::TABLE.attributes(row);
+        if !shared.flags.has(Flags::WRITE) {
+            return Err(AbortCode::READ_ONLY);
+        }
+        write_row(self, row, (index, sub), data, application)
+    }
+
+    /// Reads a DOMAIN from an offset on, from the application; returns the number of bytes, 0 at its end.
+    ///
+    /// # Errors
+    /// That it does not exist, [`AbortCode::WRITE_ONLY`], [`AbortCode::UNSUPPORTED_ACCESS`] for an entry that is none, what
+    /// the application says.
+    fn upload_domain<A: Application<Self>>(
+        &mut self,
+        index: u16,
+        sub: u8,
+        offset: u32,
+        buffer: &mut [u8],
+        application: &mut A,
+    ) -> Result<usize, AbortCode> {
+        let entry = domain::<Self>(index, sub, Flags::READ, AbortCode::WRITE_ONLY)?;
+        application.read_domain(self, entry, offset, buffer)
+    }
+
+    /// Gives a part of a DOMAIN to the application; `last` tells that it is complete.
+    ///
+    /// # Errors
+    /// That it does not exist, its access, lock and write condition, what the application says.
+    fn download_domain<A: Application<Self>>(
+        &mut self,
+        index: u16,
+        sub: u8,
+        offset: u32,
+        data: &[u8],
+        last: bool,
+        application: &mut A,
+    ) -> Result<(), AbortCode> {
+        let entry = domain::<Self>(index, sub, Flags::WRITE, AbortCode::READ_ONLY)?;
+        permitted(self, Self::TABLE.attributes(Self::row(entry)), application)?;
+        application.write_domain(self, entry, offset, data, last)
+    }
+
+    /// Puts every value back to the one after a factory reset, for a node-ID.
+    fn reset(&mut self, node_id: u8) {
+        let whole = Region { storage: Storage::No, start: 0, end: u32::MAX, layout: 0 };
+        reset_region(self, &whole, node_id);
+    }
+
+    /// Puts the values of one storage group back, as "restore defaults" (1011h) does.
+    fn reset_stored(&mut self, storage: Storage, node_id: u8) {
+        if let Some(region) = Self::TABLE.region(storage) {
+            reset_region(self, region, node_id);
+        }
+    }
+
+    /// The bytes that a "store parameters" command (1010h) saves.
+    fn stored(&self, storage: Storage) -> &[u8] {
+        Self::TABLE.region(storage).and_then(|region| self.image().get(bounds(region))).unwrap_or_default()
+    }
+
+    /// Takes back bytes that [`stored`](Self::stored) gave, with the number that [`layout`](Self::layout) had then; `false`,
+    /// and no change, if they are not of this layout.
+    #[must_use]
+    fn restore(&mut self, storage: Storage, layout: u32, bytes: &[u8]) -> bool {
+        let Some(region) = Self::TABLE.region(storage) else { return false };
+        match self.image_mut().get_mut(bounds(region)) {
+            Some(place) if place.len() == bytes.len() && region.layout == layout => {
+                place.copy_from_slice(bytes);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// A number that changes whenever another set of entries, types or places is stored in a group.
+    fn layout(storage: Storage) -> u32 {
+        Self::TABLE.region(storage).map_or(0, |region| region.layout)
+    }
+}
+
+fn bounds(region: &Region) -> core::ops::Range<usize> {
+    let place = |offset: u32| usize::try_from(offset).unwrap_or(usize::MAX);
+    place(region.start)..place(region.end)
+}
+
+fn reset_region<D: Dictionary>(dictionary: &mut D, region: &Region, node_id: u8) {
+    let part = bounds(region);
+    let image = dictionary.image_mut();
+    for (at, (byte, factory)) in image.iter_mut().zip(D::TABLE.factory).enumerate() {
+        if part.contains(&at) {
+            *byte = *factory;
+        }
+    }
+    for place in D::TABLE.node_id_places {
+        let at = usize::try_from(place.offset).unwrap_or(usize::MAX);
+        if part.contains(&at) {
+            crate::image::add(image, at, place.size.into(), node_id);
+        }
+    }
+}
+
+/// The row that holds the value: of an alias, its target's.
+fn holder(table: &Table, row: Row) -> Row {
+    match table.attributes(row).place {
+        Place::Alias => table.alias(row).map_or(row, |alias| alias.target),
+        _ => row,
+    }
+}
+
+/// The value of a row, whatever its access.
+#[inline]
+pub(crate) fn value<'a>(table: &'static Table, image: &'a [u8], row: Row) -> Result<Value<'a>, AbortCode> {
+    let shared = table.attributes(row);
+    let bytes = match shared.place {
+        Place::Image => image,
+        Place::Constant => table.constants,
+        Place::Alias => return alias_value(table, image, row),
+        Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
+    };
+    let at = table.offset(row);
+    let variable = shared.data_type.is_string() && shared.place == Place::Image;
+    let size = usize::from(shared.size) + if variable { prefix(shared.data_type) } else { 0 };
+    let bytes = bytes.get(at..at + size).ok_or(AbortCode::INTERNAL)?;
+    Ok(Value::of(if variable { trimmed(shared.data_type, bytes) } else { bytes }))
+}
+
+fn alias_value(table: &'static Table, image: &[u8], row: Row) -> Result<Value<'static>, AbortCode> {
+    let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
+    let target = value(table, image, alias.target)?;
+    let number = number(table.attributes(alias.target).data_type, &target);
+    Ok(Value::computed(alias.view.show(number)?, table.attributes(row).size))
+}
+
+fn domain<D: Dictionary>(index: u16, sub: u8, flag: u8, refusal: AbortCode) -> Result<D::Entry, AbortCode> {
+    let entry = D::find(index, sub)?;
+    let shared = D::TABLE.attributes(D::row(entry));
+    if !shared.flags.has(flag) {
+        Err(refusal)
+    } else if shared.place != Place::Application {
+        Err(AbortCode::UNSUPPORTED_ACCESS)
+    } else {
+        Ok(entry)
+    }
+}
+
+/// Lock and write condition.
+fn permitted<D: Dictionary, A: Application<D>>(
+    dictionary: &D,
+    shared: &Attributes,
+    application: &A,
+) -> Result<(), AbortCode> {
+    let locked = shared.flags.has(Flags::LOCKED) && !application.is_unlocked();
+    let open = shared.condition == NONE || dictionary.condition(shared.condition);
+    if !locked && open { Ok(()) } else { Err(AbortCode::DEVICE_STATE) }
+}
+
+/// Checks and writes the value of a row whose access is settled; `id` is its index and sub-index.
+pub(crate) fn write_row<D: Dictionary, A: Application<D>>(
+    dictionary: &mut D,
+    row: Row,
+    id: (u16, u8),
+    data: &[u8],
+    application: &mut A,
+) -> Result<D::Entry, AbortCode> {
+    let shared = D::TABLE.attributes(row);
+    if shared.flags.has(Flags::LOCKED) && !application.is_unlocked() {
+        return Err(AbortCode::DEVICE_STATE);
+    }
+    let mut buffer = [0; 8];
+    let (holder, data) = checked(D::TABLE, row, data, &mut buffer)?;
+    let (index, sub) = if holder == row { id } else { D::TABLE.id(holder) };
+    let store = !(0x1000..0x2000).contains(&index)
+        || communication::check(D::TABLE, dictionary.image(), index, sub, data)?;
+    permitted(dictionary, shared, application)?;
+    if holder != row {
+        permitted(dictionary, D::TABLE.attributes(holder), application)?;
+    }
+    let entry = D::entry(holder).ok_or(AbortCode::INTERNAL)?;
+    application.accept(dictionary, entry, data)?;
+    if store {
+        put(D::TABLE, dictionary.image_mut(), holder, data)?;
+    }
+    application.changed(dictionary, entry);
+    Ok(entry)
+}
+
+/// Checks length and value; returns the row that gets it and, of an alias, what its target gets.
+fn checked<'a>(
+    table: &'static Table,
+    row: Row,
+    data: &'a [u8],
+    buffer: &'a mut [u8; 8],
+) -> Result<(Row, &'a [u8]), AbortCode> {
+    let shared = table.attributes(row);
+    check_value(table, shared, data)?;
+    match shared.place {
+        Place::Image => Ok((row, data)),
+        Place::Constant => Err(AbortCode::READ_ONLY),
+        Place::Application => Err(AbortCode::UNSUPPORTED_ACCESS),
+        Place::Alias => {
+            let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
+            let target = table.attributes(alias.target);
+            *buffer = alias.view.target(number(shared.data_type, data))?.to_le_bytes();
+            let (value, rest) = buffer.split_at(usize::from(target.size).min(8));
+            let sign = if target.data_type.is_signed() && value.last().is_some_and(|last| last & 0x80 != 0) {
+                0xFF
+            } else {
+                0
+            };
+            if rest.iter().any(|byte| *byte != sign) {
+                return Err(AbortCode::INVALID_VALUE);
+            }
+            check_value(table, target, value)?;
+            Ok((alias.target, value))
+        }
+    }
+}
+
+fn check_value(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), AbortCode> {
+    let size = usize::from(shared.size);
+    if shared.place == Place::Application {
+        return Err(AbortCode::UNSUPPORTED_ACCESS);
+    }
+    if data.len() > size {
+        return Err(AbortCode::TOO_LONG);
+    }
+    if shared.data_type.is_string() {
+        return check_text(shared.data_type, data);
+    }
+    if data.len() < size {
+        return Err(AbortCode::TOO_SHORT);
+    }
+    if shared.data_type == DataType::Boolean && data.iter().any(|byte| *byte > 1) {
+        return Err(AbortCode::INVALID_VALUE);
+    }
+    if shared.limits == NONE && shared.values == NONE {
+        return Ok(());
+    }
+    let number = number(shared.data_type, data);
+    let listed =
+        table.values.get(usize::from(shared.values)).is_some_and(|list| list.binary_search(&number).is_ok());
+    if listed {
+        return Ok(());
+    }
+    if shared.flags.has(Flags::ONLY_VALUES) {
+        return Err(AbortCode::INVALID_VALUE);
+    }
+    match table.limits.get(usize::from(shared.limits)) {
+        Some(limits) if number > limits.high => Err(AbortCode::TOO_HIGH),
+        Some(limits) if number < limits.low => Err(AbortCode::TOO_LOW),
+        _ => Ok(()),
+    }
+}
+
+/// A VISIBLE_STRING holds 20h to 7Eh (and 00h, which ends it), a UNICODE_STRING whole units.
+fn check_text(data_type: DataType, data: &[u8]) -> Result<(), AbortCode> {
+    let printable = |byte: &u8| *byte == 0 || (0x20..=0x7E).contains(byte);
+    match data_type {
+        DataType::VisibleString if !data.iter().all(printable) => Err(AbortCode::INVALID_VALUE),
+        DataType::UnicodeString if data.len() % 2 == 1 => Err(AbortCode::LENGTH),
+        _ => Ok(()),
+    }
+}
+
+fn put(table: &Table, image: &mut [u8], row: Row, data: &[u8]) -> Result<(), AbortCode> {
+    let shared = table.attributes(row);
+    let at = table.offset(row);
+    let size = usize::from(shared.size) + prefix(shared.data_type);
+    let place = image.get_mut(at..at + size).ok_or(AbortCode::INTERNAL)?;
+    store(place, shared.data_type, data);
+    Ok(())
+}
+
+/// Puts a value that fits into its place; a string is padded with zeros.
+pub(crate) fn store(place: &mut [u8], data_type: DataType, data: &[u8]) {
+    let length = u16::try_from(data.len()).unwrap_or_default().to_le_bytes();
+    let (head, rest) = place.split_at_mut(prefix(data_type).min(place.len()));
+    head.iter_mut().zip(length).for_each(|(byte, new)| *byte = new);
+    let (text, padding) = rest.split_at_mut(data.len().min(rest.len()));
+    text.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
+    padding.fill(0);
+}
+
+/// What is known about an entry, read from the table in flash.
+#[derive(Debug, Clone, Copy)]
+pub struct Info {
+    table: &'static Table,
+    row: Row,
+    shared: &'static Attributes,
+}
+
+impl Info {
+    /// Index and sub-index.
+    pub fn id(&self) -> (u16, u8) {
+        self.table.id(self.row)
+    }
+
+    /// Data type.
+    pub const fn data_type(&self) -> DataType {
+        self.shared.data_type
+    }
+
+    /// Bytes of a value; of a string, the most that it can have; 0 of a DOMAIN.
+    pub const fn size(&self) -> u16 {
+        self.shared.size
+    }
+
+    /// Whether an SDO client can read it.
+    pub const fn is_readable(&self) -> bool {
+        self.shared.flags.has(Flags::READ)
+    }
+
+    /// Whether an SDO client can write it (in some state of the device).
+    pub const fn is_writable(&self) -> bool {
+        self.shared.flags.has(Flags::WRITE)
+    }
+
+    /// Whether it can be written only while the device is unlocked for service.
+    pub const fn is_locked(&self) -> bool {
+        self.shared.flags.has(Flags::LOCKED)
+    }
+
+    /// Whether RPDOs can carry it.
+    pub const fn is_receivable(&self) -> bool {
+        self.shared.flags.has(Flags::RECEIVE)
+    }
+
+    /// Whether TPDOs can carry it.
+    pub const fn is_transmittable(&self) -> bool {
+        self.shared.flags.has(Flags::TRANSMIT)
+    }
+
+    /// What keeps its value over power-off.
+    pub const fn storage(&self) -> Storage {
+        self.shared.storage
+    }
+
+    /// Whether it is a view of another entry.
+    pub const fn is_alias(&self) -> bool {
+        matches!(self.shared.place, Place::Alias)
+    }
+
+    /// Smallest and largest value that can be written, where there are limits. Of UNSIGNED64, the numbers minus 2^63.
+    pub fn limits(&self) -> Option<(i64, i64)> {
+        self.table.limits.get(usize::from(self.shared.limits)).map(|limits| (limits.low, limits.high))
+    }
+}

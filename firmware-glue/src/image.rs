@@ -1,0 +1,180 @@
+//! Numbers in a byte image, least significant byte first.
+//!
+//! Generated accessors pass constant offsets, which the generator has checked; the compiler turns each call into one load
+//! or store. An offset outside the image reads zeros and writes nothing: nothing here panics.
+
+#![expect(
+    clippy::inline_always,
+    reason = "only where it is inlined, the constant offset makes the bounds check vanish"
+)]
+
+/// The `N` bytes at an offset.
+#[inline(always)]
+pub fn get<const N: usize>(image: &[u8], at: usize) -> [u8; N] {
+    match image.get(at..).and_then(<[u8]>::first_chunk::<N>) {
+        Some(bytes) => *bytes,
+        None => [0; N],
+    }
+}
+
+/// Puts `N` bytes at an offset.
+#[inline(always)]
+pub fn put<const N: usize>(image: &mut [u8], at: usize, bytes: [u8; N]) {
+    if let Some(place) = image.get_mut(at..).and_then(<[u8]>::first_chunk_mut::<N>) {
+        *place = bytes;
+    }
+}
+
+/// An unsigned number of `N` bytes, up to 8.
+#[inline(always)]
+pub fn get_unsigned<const N: usize>(image: &[u8], at: usize) -> u64 {
+    unsigned(&get::<N>(image, at))
+}
+
+/// A signed number of `N` bytes, up to 8.
+#[inline(always)]
+pub fn get_signed<const N: usize>(image: &[u8], at: usize) -> i64 {
+    signed(&get::<N>(image, at))
+}
+
+/// Offset of an element: sub-indices 1 to `highest`, the first at `start`, each of `size` bytes.
+#[inline]
+pub const fn element(sub: u8, highest: usize, start: usize, size: usize) -> Option<usize> {
+    let sub = sub as usize;
+    if sub >= 1 && sub <= highest { Some(start + (sub - 1) * size) } else { None }
+}
+
+/// A number that the generator knows to fit; 0 should it not.
+#[inline(always)]
+pub fn narrow<T: TryFrom<i64> + Default>(number: i64) -> T {
+    T::try_from(number).unwrap_or_default()
+}
+
+/// Where a value lies that has the node-ID added to it after a factory reset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NodeIdPlace {
+    /// Offset in the image.
+    pub offset: u32,
+    /// Bytes.
+    pub size: u8,
+}
+
+/// A factory image with the node-ID added at its places.
+pub const fn with_node_id<const N: usize>(
+    mut image: [u8; N],
+    places: &[NodeIdPlace],
+    node_id: u8,
+) -> [u8; N] {
+    let mut at = 0;
+    while at < places.len() {
+        let place = places[at];
+        add(&mut image, place.offset as usize, place.size as usize, node_id);
+        at += 1;
+    }
+    image
+}
+
+/// Adds to a number in the image, from its lowest byte on.
+pub(crate) const fn add(image: &mut [u8], offset: usize, size: usize, node_id: u8) {
+    let (mut at, mut carry) = (offset, node_id);
+    while at < offset + size && at < image.len() {
+        let (sum, over) = image[at].overflowing_add(carry);
+        image[at] = sum;
+        carry = over as u8;
+        at += 1;
+    }
+}
+
+/// A value outside the range of a type whose width Rust does not have, such as INTEGER24.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OutOfRange;
+
+/// Puts an unsigned number of `N` bytes.
+#[inline(always)]
+pub fn put_unsigned<const N: usize>(image: &mut [u8], at: usize, value: u64) -> Result<(), OutOfRange> {
+    let bytes = value.to_le_bytes();
+    let (low, high) = bytes.split_first_chunk::<N>().ok_or(OutOfRange)?;
+    if high.iter().any(|byte| *byte != 0) {
+        return Err(OutOfRange);
+    }
+    put(image, at, *low);
+    Ok(())
+}
+
+/// Puts a signed number of `N` bytes.
+#[inline(always)]
+pub fn put_signed<const N: usize>(image: &mut [u8], at: usize, value: i64) -> Result<(), OutOfRange> {
+    let bytes = value.to_le_bytes();
+    let (low, _) = bytes.split_first_chunk::<N>().ok_or(OutOfRange)?;
+    if signed(low) != value {
+        return Err(OutOfRange);
+    }
+    put(image, at, *low);
+    Ok(())
+}
+
+/// Up to 8 bytes as an unsigned number.
+#[inline]
+pub(crate) fn unsigned(bytes: &[u8]) -> u64 {
+    match *bytes {
+        [a] => a.into(),
+        [a, b] => u16::from_le_bytes([a, b]).into(),
+        [a, b, c, d] => u32::from_le_bytes([a, b, c, d]).into(),
+        _ => bytes.iter().take(8).rev().fold(0, |value, byte| value << 8 | u64::from(*byte)),
+    }
+}
+
+/// Up to 8 bytes as a signed number.
+#[inline]
+pub(crate) fn signed(bytes: &[u8]) -> i64 {
+    match *bytes {
+        [a] => i8::from_le_bytes([a]).into(),
+        [a, b] => i16::from_le_bytes([a, b]).into(),
+        [a, b, c, d] => i32::from_le_bytes([a, b, c, d]).into(),
+        _ => {
+            let unused = 64 - 8 * bytes.len().clamp(1, 8);
+            (unsigned(bytes) << unused).cast_signed() >> unused
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_any_width() {
+        assert_eq!(signed(&[0xFF, 0xFF, 0x7F]), 0x7F_FFFF);
+        assert_eq!(signed(&[0, 0, 0x80]), -0x80_0000);
+        assert_eq!(signed(&[0xFE, 0xFF, 0xFF, 0xFF, 0xFF]), -2);
+        assert_eq!(signed(&[0; 0]), 0);
+        assert_eq!(unsigned(&[1, 2, 3, 4, 5, 6, 7]), 0x0007_0605_0403_0201);
+        assert_eq!(unsigned(&[0xFF; 8]), u64::MAX);
+        assert_eq!(signed(&[0xFF; 8]), -1);
+    }
+
+    #[test]
+    fn outside_the_image_nothing_happens() {
+        let mut image = [1, 2, 3];
+        assert_eq!(get::<2>(&image, 1), [2, 3]);
+        assert_eq!(get::<2>(&image, 2), [0, 0]);
+        assert_eq!(get::<2>(&image, usize::MAX), [0, 0]);
+        put(&mut image, 2, [9, 9]);
+        assert_eq!(image, [1, 2, 3]);
+    }
+
+    #[test]
+    fn odd_widths_refuse_what_does_not_fit() {
+        let mut image = [0; 4];
+        for value in [-0x80_0000, -1, 0, 0x7F_FFFF] {
+            assert_eq!(put_signed::<3>(&mut image, 1, value), Ok(()));
+            assert_eq!(get_signed::<3>(&image, 1), value);
+        }
+        assert_eq!(put_signed::<3>(&mut image, 1, 0x80_0000), Err(OutOfRange));
+        assert_eq!(put_signed::<3>(&mut image, 1, -0x80_0001), Err(OutOfRange));
+        assert_eq!(put_unsigned::<3>(&mut image, 1, 0xFF_FFFF), Ok(()));
+        assert_eq!(get_unsigned::<3>(&image, 1), 0xFF_FFFF);
+        assert_eq!(put_unsigned::<3>(&mut image, 1, 0x100_0000), Err(OutOfRange));
+        assert_eq!(image[0], 0);
+    }
+}

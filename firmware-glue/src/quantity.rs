@@ -1,0 +1,195 @@
+//! Physical units with exact scales.
+
+use core::fmt;
+
+use crate::image::OutOfRange;
+
+/// A raw value with its unit. One raw step is [`SCALE`](Self::SCALE) times [`SYMBOL`](Self::SYMBOL); nothing is ever a float.
+pub trait Quantity: Copy {
+    /// The unit's symbol, such as `mV`.
+    const SYMBOL: &'static str;
+    /// One raw step in the symbol: numerator and denominator.
+    const SCALE: (u64, u64);
+    /// One raw step in the unit's base.
+    const STEP: (u64, u64);
+    /// What quantities have to share to be converted into each other, such as V for millivolts and volts.
+    type Base;
+    /// The same unit around another raw type.
+    type With<T>;
+
+    /// The raw value.
+    fn number(self) -> i128;
+
+    /// A quantity with this raw value, if the raw type has it.
+    fn from_number<T: Raw>(number: i128) -> Option<Self::With<T>>;
+
+    /// The same quantity in another unit.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] when it is no whole number of the other unit's steps, or does not fit its raw type.
+    fn convert<Q, T>(self) -> Result<Q::With<T>, OutOfRange>
+    where
+        Q: Quantity<Base = Self::Base>,
+        T: Raw,
+    {
+        let (value, rest) = self.in_steps_of::<Q>().ok_or(OutOfRange)?;
+        if rest { Err(OutOfRange) } else { Q::from_number(value).ok_or(OutOfRange) }
+    }
+
+    /// The same quantity in another unit, rounded down to its steps.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] when it does not fit the raw type.
+    fn convert_down<Q, T>(self) -> Result<Q::With<T>, OutOfRange>
+    where
+        Q: Quantity<Base = Self::Base>,
+        T: Raw,
+    {
+        let (value, _) = self.in_steps_of::<Q>().ok_or(OutOfRange)?;
+        Q::from_number(value).ok_or(OutOfRange)
+    }
+
+    /// The number of whole steps of another unit, and whether there is a rest.
+    #[doc(hidden)]
+    fn in_steps_of<Q: Quantity>(self) -> Option<(i128, bool)> {
+        let wide = |number: u64| i128::from(number);
+        let numerator = wide(Self::STEP.0).checked_mul(wide(Q::STEP.1))?;
+        let denominator = wide(Self::STEP.1).checked_mul(wide(Q::STEP.0))?;
+        let product = self.number().checked_mul(numerator)?;
+        Some((product.checked_div_euclid(denominator)?, product.checked_rem_euclid(denominator)? != 0))
+    }
+}
+
+/// An integer type that raw values have.
+pub trait Raw: Copy {
+    /// The value.
+    fn number(self) -> i128;
+    /// The value, if the type has it.
+    fn from_number(number: i128) -> Option<Self>;
+}
+
+macro_rules! raw {
+    ($($type:ty)+) => {
+        $(impl Raw for $type {
+            #[inline]
+            fn number(self) -> i128 {
+                self.into()
+            }
+
+            #[inline]
+            fn from_number(number: i128) -> Option<Self> {
+                Self::try_from(number).ok()
+            }
+        })+
+    };
+}
+
+raw!(i8 i16 i32 i64 u8 u16 u32 u64);
+
+/// Writes a quantity with its unit: `50.0 °C`; where the scale is no short decimal, `7 × 1/3 s`.
+#[doc(hidden)]
+pub fn show<Q: Quantity>(quantity: Q, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let (numerator, denominator) = Q::SCALE;
+    let raw = quantity.number();
+    let places =
+        (0u32..=12).find(|places| 10u64.checked_pow(*places).is_some_and(|power| power % denominator == 0));
+    let scaled = places.and_then(|places| {
+        let factor = u128::from(10u64.checked_pow(places)? / denominator);
+        Some((raw.unsigned_abs().checked_mul(factor.checked_mul(numerator.into())?)?, places))
+    });
+    let sign = if raw < 0 { "-" } else { "" };
+    match scaled {
+        Some((value, 0)) => write!(f, "{sign}{value} {}", Q::SYMBOL),
+        Some((value, places)) => {
+            let power = 10u128.pow(places);
+            let width = usize::try_from(places).unwrap_or_default();
+            write!(f, "{sign}{}.{:0width$} {}", value / power, value % power, Q::SYMBOL)
+        }
+        None => write!(f, "{raw} × {numerator}/{denominator} {}", Q::SYMBOL),
+    }
+}
+
+/// Makes a unit: a newtype around any raw integer.
+#[macro_export]
+macro_rules! unit {
+    (
+        $(#[$about:meta])*
+        pub struct $name:ident = $symbol:literal, scale $n:literal / $d:literal, step $sn:literal / $sd:literal of $base:ident;
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+        #[repr(transparent)]
+        pub struct $name<T>(pub T);
+
+        impl<T: $crate::quantity::Raw> $crate::Quantity for $name<T> {
+            const SYMBOL: &'static str = $symbol;
+            const SCALE: (u64, u64) = ($n, $d);
+            const STEP: (u64, u64) = ($sn, $sd);
+            type Base = bases::$base;
+            type With<U> = $name<U>;
+
+            fn number(self) -> i128 {
+                self.0.number()
+            }
+
+            fn from_number<U: $crate::quantity::Raw>(number: i128) -> Option<$name<U>> {
+                U::from_number(number).map($name)
+            }
+        }
+
+        /// The value with its unit.
+        impl<T: $crate::quantity::Raw> ::core::fmt::Display for $name<T> {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                $crate::quantity::show(*self, f)
+            }
+        }
+
+        /// The value with its unit.
+        impl<T: $crate::quantity::Raw> ::core::fmt::Debug for $name<T> {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                $crate::quantity::show(*self, f)
+            }
+        }
+
+        $crate::defmt_quantity!($name);
+    };
+}
+
+#[cfg(feature = "defmt")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! defmt_quantity {
+    ($name:ident) => {
+        impl<T: $crate::quantity::Raw> $crate::defmt::Format for $name<T> {
+            fn format(&self, f: $crate::defmt::Formatter<'_>) {
+                $crate::quantity::log(*self, f);
+            }
+        }
+    };
+}
+
+#[cfg(not(feature = "defmt"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! defmt_quantity {
+    ($name:ident) => {};
+}
+
+/// Logs a quantity: raw value, scale and symbol.
+#[cfg(feature = "defmt")]
+#[doc(hidden)]
+pub fn log<Q: Quantity>(quantity: Q, f: defmt::Formatter<'_>) {
+    let (numerator, denominator) = Q::SCALE;
+    if (numerator, denominator) == (1, 1) {
+        defmt::write!(f, "{=i128} {=str}", quantity.number(), Q::SYMBOL);
+    } else {
+        defmt::write!(
+            f,
+            "{=i128} × {=u64}/{=u64} {=str}",
+            quantity.number(),
+            numerator,
+            denominator,
+            Q::SYMBOL
+        );
+    }
+}

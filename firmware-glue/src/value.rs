@@ -1,0 +1,82 @@
+//! The bytes of an entry, and the numbers in them.
+
+use core::ops::Deref;
+
+use crate::image::{signed, unsigned};
+use crate::table::DataType;
+
+/// The value of an entry as it travels: the least significant byte first, strings without padding.
+#[derive(Debug, Clone, Copy)]
+pub struct Value<'a>(Bytes<'a>);
+
+#[derive(Debug, Clone, Copy)]
+enum Bytes<'a> {
+    /// In the image or in flash.
+    Place(&'a [u8]),
+    /// Computed, because it is an alias: bytes and their number.
+    Computed([u8; 8], u8),
+}
+
+impl<'a> Value<'a> {
+    #[inline]
+    pub(crate) const fn of(bytes: &'a [u8]) -> Self {
+        Self(Bytes::Place(bytes))
+    }
+
+    #[inline]
+    pub(crate) fn computed(number: i64, size: u16) -> Self {
+        Self(Bytes::Computed(number.to_le_bytes(), u8::try_from(size.min(8)).unwrap_or(8)))
+    }
+
+    /// The bytes.
+    #[inline]
+    pub fn bytes(&self) -> &[u8] {
+        match &self.0 {
+            Bytes::Place(bytes) => bytes,
+            Bytes::Computed(bytes, size) => bytes.get(..usize::from(*size)).unwrap_or(bytes),
+        }
+    }
+}
+
+impl Deref for Value<'_> {
+    type Target = [u8];
+
+    #[inline]
+    fn deref(&self) -> &[u8] {
+        self.bytes()
+    }
+}
+
+/// The number that stands for a value wherever values are compared: the value itself, but of UNSIGNED64 the value minus
+/// 2^63, which keeps the order and fits.
+#[inline]
+pub(crate) fn number(data_type: DataType, bytes: &[u8]) -> i64 {
+    if data_type.is_signed() {
+        return signed(bytes);
+    }
+    let value = unsigned(bytes);
+    if data_type == DataType::Unsigned64 { (value ^ 1 << 63).cast_signed() } else { value.cast_signed() }
+}
+
+/// A string without what pads it: up to the first 0 byte, or the first 0 unit of 16 bits.
+#[inline]
+pub(crate) fn trimmed(data_type: DataType, bytes: &[u8]) -> &[u8] {
+    let length = match data_type {
+        DataType::VisibleString => bytes.iter().position(|byte| *byte == 0),
+        DataType::UnicodeString => bytes.chunks(2).position(|unit| unit == [0, 0]).map(|units| units * 2),
+        DataType::OctetString => return octets(bytes),
+        _ => None,
+    };
+    bytes.get(..length.unwrap_or(bytes.len())).unwrap_or(bytes)
+}
+
+/// An OCTET_STRING in the image: its length in two bytes, then its bytes.
+fn octets(bytes: &[u8]) -> &[u8] {
+    let Some((length, rest)) = bytes.split_first_chunk::<2>() else { return &[] };
+    rest.get(..usize::from(u16::from_le_bytes(*length))).unwrap_or(rest)
+}
+
+/// Bytes in the image that a string of a data type has beside its capacity.
+pub(crate) const fn prefix(data_type: DataType) -> usize {
+    if matches!(data_type, DataType::OctetString) { 2 } else { 0 }
+}

@@ -1,0 +1,188 @@
+//! Where values lie: in the image, in flash, or nowhere.
+
+use std::collections::BTreeMap;
+
+use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::model::{
+    Access, DataType, Dictionary, Entry, EntryId, Object, Origin, Storage, SubIndex, Value,
+};
+
+/// Where the value of an entry lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Offset in the image.
+    Image(usize),
+    /// Offset in the constants.
+    Constant(usize),
+    /// Nowhere: it is a view of another entry.
+    Alias,
+    /// With the application.
+    Application,
+}
+
+/// A part of the image that is stored together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Region {
+    pub storage: Storage,
+    pub start: usize,
+    pub end: usize,
+    pub layout: u32,
+}
+
+/// The values of a dictionary in memory.
+#[derive(Debug, Default)]
+pub(super) struct Layout {
+    /// Place and size of every entry; the size of a string is its capacity.
+    pub places: BTreeMap<EntryId, (Place, usize)>,
+    /// The image after a factory reset of node 0.
+    pub factory: Vec<u8>,
+    /// Alignment of the image.
+    pub align: usize,
+    /// Values that never change; equal ones lie in one place.
+    pub constants: Vec<u8>,
+    /// Offset and size of values that have the node-ID added to them.
+    pub node_ids: Vec<(usize, usize)>,
+    /// Stored parts of the image, by offset.
+    pub regions: Vec<Region>,
+}
+
+/// Groups in the order in which they lie in the image.
+const GROUPS: [Storage; 5] =
+    [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent, Storage::No];
+
+/// Lays out a dictionary: stored groups first, each in one piece, and in each group the widest values first, so that every
+/// value is aligned without gaps. Elements of an array stay together.
+pub(super) fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
+    let mut layout = Layout { align: 4, ..Layout::default() };
+    let mut groups: BTreeMap<usize, Vec<(usize, EntryId, &Entry, usize)>> = BTreeMap::new();
+    for (id, object, entry) in device.entries() {
+        let Some(size) = size(id, entry, diagnostics) else { continue };
+        if entry.alias.is_some() {
+            layout.places.insert(id, (Place::Alias, size));
+        } else if entry.data_type == DataType::Domain {
+            layout.places.insert(id, (Place::Application, size));
+        } else if let Some(bytes) = constant(object, entry) {
+            let at = layout.constant(&bytes);
+            layout.places.insert(id, (Place::Constant(at), size));
+        } else {
+            let group = GROUPS.iter().position(|group| *group == entry.stored).unwrap_or(GROUPS.len());
+            groups.entry(group).or_default().push((align(entry.data_type), id, entry, size));
+        }
+    }
+    for (group, mut entries) in groups {
+        entries.sort_by_key(|(align, id, ..)| (std::cmp::Reverse(*align), *id));
+        layout.group(GROUPS.get(group).copied().unwrap_or(Storage::No), &entries);
+    }
+    let end = layout.factory.len().next_multiple_of(layout.align);
+    layout.factory.resize(end, 0);
+    layout
+}
+
+impl Layout {
+    fn constant(&mut self, bytes: &[u8]) -> usize {
+        let found = self.constants.windows(bytes.len().max(1)).position(|window| window == bytes);
+        found.unwrap_or_else(|| {
+            self.constants.extend_from_slice(bytes);
+            self.constants.len() - bytes.len()
+        })
+    }
+
+    fn group(&mut self, storage: Storage, entries: &[(usize, EntryId, &Entry, usize)]) {
+        let first = entries.first().map_or(1, |(align, ..)| *align);
+        self.align = self.align.max(first);
+        self.factory.resize(self.factory.len().next_multiple_of(first), 0);
+        let (start, mut hash) = (self.factory.len(), Fnv::new());
+        for (_, id, entry, size) in entries {
+            let at = self.factory.len();
+            let prefix = prefix(entry.data_type);
+            let value = entry.default.as_ref().and_then(|value| value.bytes_in(entry.data_type));
+            let mut bytes = value.unwrap_or_default();
+            if prefix > 0 {
+                let length = u16::try_from(bytes.len()).unwrap_or_default();
+                bytes.splice(0..0, length.to_le_bytes());
+            }
+            bytes.resize(size + prefix, 0);
+            if matches!(entry.default, Some(Value::NodeId(_))) {
+                self.node_ids.push((at, *size));
+            }
+            for part in [id.index.0.into(), id.sub.0.into(), entry.data_type.code().into(), at - start, *size]
+            {
+                hash.add(part);
+            }
+            self.factory.extend(bytes);
+            self.places.insert(*id, (Place::Image(at), *size));
+        }
+        if storage != Storage::No {
+            self.regions.push(Region { storage, start, end: self.factory.len(), layout: hash.0 });
+        }
+    }
+}
+
+/// The value of an entry that never changes: a constant, or what follows from the shape of the dictionary.
+fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
+    let counts = object.is_structured() && entry.sub == SubIndex(0);
+    let derived = !entry.access.is_writable() && (counts || object.origin == Origin::Pdo);
+    let plain = !matches!(entry.default, Some(Value::NodeId(_)));
+    if plain && (entry.access == Access::Const || derived) {
+        return entry.default.as_ref()?.bytes_in(entry.data_type);
+    }
+    None
+}
+
+/// Bytes of a value; of a string its capacity, of a DOMAIN 0.
+fn size(id: EntryId, entry: &Entry, diagnostics: &mut Diagnostics) -> Option<usize> {
+    if let Some(bits) = entry.data_type.bits() {
+        return Some(usize::from(bits.div_ceil(8)));
+    }
+    if entry.data_type == DataType::Domain {
+        return Some(0);
+    }
+    let constant = entry.access == Access::Const;
+    let length =
+        entry.default.as_ref().filter(|_| constant).and_then(|value| value.bytes_in(entry.data_type));
+    if let Some(bytes) = length {
+        return Some(bytes.len());
+    }
+    if let Some(capacity) = entry.capacity {
+        return Some(capacity.into());
+    }
+    diagnostics.push(
+        Diagnostic::new(
+            Code::NoCapacity,
+            entry.span,
+            format!("{id} ({}) is a {} without a capacity", entry.name, entry.data_type),
+        )
+        .help("add `capacity:`, the most bytes that the device can hold"),
+    );
+    None
+}
+
+/// Alignment of a value: its size where that is a power of two.
+fn align(data_type: DataType) -> usize {
+    match data_type.bits() {
+        Some(16) => 2,
+        Some(32) => 4,
+        Some(64) => 8,
+        _ => 1,
+    }
+}
+
+/// Bytes before a value: an OCTET_STRING has its length there.
+fn prefix(data_type: DataType) -> usize {
+    if data_type == DataType::OctetString { 2 } else { 0 }
+}
+
+/// FNV-1a of 32 bits.
+struct Fnv(u32);
+
+impl Fnv {
+    const fn new() -> Self {
+        Self(0x811C_9DC5)
+    }
+
+    fn add(&mut self, number: usize) {
+        for byte in u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes() {
+            self.0 = (self.0 ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+        }
+    }
+}

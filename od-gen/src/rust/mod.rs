@@ -1,0 +1,56 @@
+//! The Rust backend: a dictionary as a module that firmware compiles.
+//!
+//! The work has two steps. [`plan`] decides everything: names, the place of every value, the tables. [`print`] writes the plan
+//! down as Rust. Nothing in a plan is Rust, so that another language could be printed from it.
+
+mod condition;
+mod layout;
+mod names;
+mod plan;
+mod print;
+
+use std::path::Path;
+
+use od_spec::diag::Diagnostics;
+use od_spec::model::{Dictionary, System};
+use od_spec::source::SourceMap;
+use proc_macro2::TokenStream;
+
+/// The items of a device's module. What cannot be code (two names that give one identifier, a string without capacity) is
+/// reported, and nothing comes out.
+pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
+    let (errors, _) = diagnostics.count();
+    let plan = plan::plan(system, device, diagnostics);
+    (diagnostics.count().0 == errors).then(|| print::tokens(&plan))
+}
+
+/// Which version of which specification code was made from, for the head of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Provenance {
+    /// Name of the specification's file.
+    pub name: String,
+    /// A number that changes with the text of the specification and of the libraries that it uses, but not with line ends.
+    pub hash: u64,
+}
+
+impl Provenance {
+    /// Of what was read for a specification; its own file is the first.
+    pub fn of(sources: &SourceMap) -> Self {
+        let first = sources.files().next().map_or("", |(_, file)| file.name());
+        let name = Path::new(first).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        // FNV-1a of 64 bits.
+        let hash = sources.files().flat_map(|(_, file)| file.text().lines()).fold(
+            0xCBF2_9CE4_8422_2325,
+            |hash, line| {
+                let bytes = line.bytes().chain([b'\n']);
+                bytes.fold(hash, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
+            },
+        );
+        Self { name, hash }
+    }
+}
+
+#[cfg(feature = "format")]
+mod file;
+#[cfg(feature = "format")]
+pub use file::{artifacts, file};

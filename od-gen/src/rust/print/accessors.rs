@@ -1,0 +1,326 @@
+//! The dictionary's type and its accessors.
+
+use od_spec::model::Outside;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::layout::Place;
+use super::super::plan::{Plan, PlannedEntry, PlannedObject, Shape};
+use super::docs::{doc, escape};
+use super::value::{At, Values, view_name};
+
+impl Plan<'_> {
+    /// The type of the dictionary with the methods of its objects.
+    pub(super) fn dictionary(&self) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        let (size, align) = (self.layout.factory.len(), self.layout.align);
+        let (size_literal, align) = (Literal::usize_unsuffixed(size), Literal::usize_unsuffixed(align));
+        let about = self.words(&self.device.about);
+        let facts = format!(
+            "Object dictionary of the {}: {size} bytes of values, {} objects, {} entries.",
+            escape(&self.device.name),
+            self.objects.len(),
+            self.entries.len()
+        );
+        let about = doc(&format!("{facts}\n\n{about}"));
+        let objects = self.objects.iter().map(|object| self.methods(object));
+        quote! {
+            #about
+            #[derive(Debug, Clone)]
+            #[repr(C, align(#align))]
+            pub struct #name([u8; #size_literal]);
+
+            impl #name {
+                /// Bytes of all values.
+                pub const SIZE: usize = #size_literal;
+
+                /// The values after a factory reset, for a node-ID from 1 to 127.
+                pub const fn new(node_id: u8) -> Self {
+                    Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
+                }
+            }
+
+            #(#objects)*
+        }
+    }
+
+    /// The methods of one object, in an `impl` of its own, so that the compiler's work stays in small pieces.
+    fn methods(&self, object: &PlannedObject<'_>) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        let methods = match &object.shape {
+            Shape::Var => {
+                let Some(entry) = self.entry(object.first_row) else { return quote!() };
+                let (get, set) = (
+                    self.getter(entry, &object.name, &At::top()),
+                    self.setter(entry, &object.name, &At::top()),
+                );
+                quote!(#get #set)
+            }
+            Shape::Indexed { count } => self.indexed(object, count.as_deref()),
+            Shape::Group { type_name } => {
+                let about = doc(&self.object_doc(object.object));
+                let about_mut = doc(&format!("[`{0}`](Self::{0}), to be changed.", object.name));
+                let (get, get_mut) = (format_ident!("{}", object.name), format_ident!("{}_mut", object.name));
+                let group = format_ident!("{type_name}");
+                quote! {
+                    #about
+                    #[inline]
+                    pub const fn #get(&self) -> records::#group<&Self> {
+                        records::#group(self)
+                    }
+
+                    #about_mut
+                    #[inline]
+                    pub const fn #get_mut(&mut self) -> records::#group<&mut Self> {
+                        records::#group(self)
+                    }
+                }
+            }
+        };
+        if methods.is_empty() { quote!() } else { quote!(impl #name { #methods }) }
+    }
+
+    fn entries_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
+        self.entries.iter().skip(object.first_row.into()).take(object.object.entries.len())
+    }
+
+    /// Reading an entry. A constant is one in code, too.
+    fn getter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
+        let values = Values { plan: self };
+        let Some((value, value_type)) = values.get(entry, at) else { return quote!() };
+        let (about, name) = (doc(&self.entry_doc(entry)), format_ident!("{name}"));
+        quote! {
+            #about
+            #[inline]
+            pub fn #name(&self) -> #value_type {
+                #value
+            }
+        }
+    }
+
+    /// Writing an entry from inside the device: no access, lock or limit stands in the way.
+    fn setter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
+        let values = Values { plan: self };
+        let Place::Image(offset) = entry.place else { return self.alias_setter(entry, name, at) };
+        let offset = Literal::usize_unsuffixed(offset);
+        let raw = values.encode(&entry.kind, &at.root, &quote!(value));
+        let (store, error) = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
+        let parameter = values.parameter_type(&entry.kind, &at.root);
+        let about = doc(&format!("Sets [`{name}`](Self::{name})."));
+        let set = format_ident!("set_{name}");
+        match error {
+            None => quote! {
+                #about
+                #[inline]
+                pub fn #set(&mut self, value: #parameter) {
+                    #store;
+                }
+            },
+            Some(error) => quote! {
+                #about
+                #[inline]
+                pub fn #set(&mut self, value: #parameter) -> Result<(), #error> {
+                    #store
+                }
+            },
+        }
+    }
+
+    /// Writing the target of an alias in the alias' unit.
+    fn alias_setter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
+        let values = Values { plan: self };
+        let root = &at.root;
+        let planned = (entry.place == Place::Alias && entry.entry.access.is_writable())
+            .then(|| values.alias_of(entry))
+            .flatten()
+            .and_then(|alias| self.entry(alias.target));
+        let Some(target) = planned else { return quote!() };
+        let Place::Image(offset) = target.place else { return quote!() };
+        let offset = Literal::usize_unsuffixed(offset);
+        let plain =
+            super::super::plan::ValueKind { named: None, unit: None, special: None, ..target.kind.clone() };
+        let raw = values.encode(&entry.kind, root, &quote!(value));
+        let parameter = values.value_type(&entry.kind, root);
+        let view = view_name(entry);
+        let target_type = values.raw_type(&plain, root);
+        let narrow = quote!(#target_type::try_from(target).map_err(|_| #root glue::OutOfRange)?);
+        let (store, error) = values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
+        let store = if error.is_some() { quote!(#store) } else { quote!(#store; Ok(())) };
+        let about = doc(&format!(
+            "Sets the entry that [`{name}`](Self::{name}) shows; an error if it has no such value."
+        ));
+        let set = format_ident!("set_{name}");
+        quote! {
+            #about
+            #[inline]
+            pub fn #set(&mut self, value: #parameter) -> Result<(), #root glue::OutOfRange> {
+                let target = #root #view.target((#raw).into()).map_err(|_| #root glue::OutOfRange)?;
+                let number = #narrow;
+                #store
+            }
+        }
+    }
+
+    /// Elements by their sub-index.
+    fn indexed(&self, object: &PlannedObject<'_>, count: Option<&str>) -> TokenStream {
+        let values = Values { plan: self };
+        let at = At::top();
+        let sub0 = count.and_then(|name| {
+            let entry = self.entries_of(object).next()?;
+            let (get, set) = (self.getter(entry, name, &at), self.setter(entry, name, &at));
+            Some(quote!(#get #set))
+        });
+        let elements: Vec<_> = self.entries_of(object).skip(1).collect();
+        let Some(first) = elements.first() else { return quote!(#sub0) };
+        let highest = Literal::usize_unsuffixed(elements.len());
+        let name = &object.name;
+        let facts = self.entry_doc(first);
+        let facts = facts.split_once("\n\n").map_or("", |(_, facts)| facts);
+        let about = doc(&format!(
+            "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{facts}",
+            self.object_doc(object.object),
+            elements.len()
+        ));
+        let (get, set) = (format_ident!("{name}"), format_ident!("set_{name}"));
+        let value_type = values.value_type(&first.kind, &at.root);
+        let Place::Image(start) = first.place else { return self.constant_elements(object, &elements, sub0) };
+        let (start, size) = (Literal::usize_unsuffixed(start), Literal::usize_unsuffixed(first.size));
+        let offset = quote!(offset);
+        let raw = values.load(&first.kind, first.size, &at, &offset);
+        let value = values.decode(&first.kind, &at.root, &raw);
+        let encoded = values.encode(&first.kind, &at.root, &quote!(value));
+        let (store, error) = values.store(&first.kind, first.size, &at, &offset, &encoded);
+        let parameter = values.parameter_type(&first.kind, &at.root);
+        let store = if error.is_some() { quote!(#store.ok()) } else { quote!(#store; Some(())) };
+        let about_set =
+            doc(&format!("Sets an element of [`{name}`](Self::{name}); `None` if it does not exist."));
+        quote! {
+            #sub0
+
+            #about
+            #[inline]
+            pub fn #get(&self, sub: u8) -> Option<#value_type> {
+                let offset = glue::image::element(sub, #highest, #start, #size)?;
+                Some(#value)
+            }
+
+            #about_set
+            #[inline]
+            pub fn #set(&mut self, sub: u8, value: #parameter) -> Option<()> {
+                let offset = glue::image::element(sub, #highest, #start, #size)?;
+                #store
+            }
+        }
+    }
+
+    /// Elements that never change, such as those of a fixed PDO mapping.
+    fn constant_elements(
+        &self,
+        object: &PlannedObject<'_>,
+        elements: &[&PlannedEntry<'_>],
+        sub0: Option<TokenStream>,
+    ) -> TokenStream {
+        let values = Values { plan: self };
+        let at = At::top();
+        let Some(first) = elements.first() else { return quote!(#sub0) };
+        let about = doc(&format!(
+            "{} `sub` is the sub-index, 1 to {}; `None` for any other.",
+            self.object_doc(object.object),
+            elements.len()
+        ));
+        let (get, value_type) = (format_ident!("{}", object.name), values.value_type(&first.kind, &at.root));
+        let arms = elements.iter().filter_map(|element| {
+            let sub = Literal::u8_unsuffixed(element.id.sub.0);
+            let (value, _) = values.get(element, &at)?;
+            Some(quote!(#sub => Some(#value),))
+        });
+        quote! {
+            #sub0
+
+            #about
+            #[inline]
+            pub fn #get(&self, sub: u8) -> Option<#value_type> {
+                match sub {
+                    #(#arms)*
+                    _ => None,
+                }
+            }
+        }
+    }
+
+    /// `mod records`: groups of accessors.
+    pub(super) fn records_module(&self) -> TokenStream {
+        let groups: Vec<_> = self
+            .objects
+            .iter()
+            .filter_map(|object| match &object.shape {
+                Shape::Group { type_name } => Some(self.group(object, type_name)),
+                _ => None,
+            })
+            .collect();
+        if groups.is_empty() {
+            return quote!();
+        }
+        quote! {
+            /// Records, and arrays whose elements have names: groups of accessors.
+            pub mod records {
+                use core::borrow::{Borrow, BorrowMut};
+
+                #(#groups)*
+            }
+        }
+    }
+
+    fn group(&self, object: &PlannedObject<'_>, type_name: &str) -> TokenStream {
+        let at = At::group();
+        let (group, name) = (format_ident!("{type_name}"), format_ident!("{}", self.name));
+        let about = doc(&self.object_doc(object.object));
+        // The number of entries is a constant of the shape, not a value.
+        let is_count =
+            |entry: &PlannedEntry<'_>| entry.id.sub.0 == 0 && matches!(entry.place, Place::Constant(_));
+        let entries: Vec<_> = self.entries_of(object).filter(|entry| !is_count(entry)).collect();
+        let getters: Vec<_> = entries.iter().map(|entry| self.getter(entry, &entry.member, &at)).collect();
+        let setters: TokenStream =
+            entries.iter().map(|entry| self.setter(entry, &entry.member, &at)).collect();
+        let setters = if setters.is_empty() {
+            quote!()
+        } else {
+            quote!(impl<D: BorrowMut<super::#name>> #group<D> { #setters })
+        };
+        quote! {
+            #about
+            #[derive(Debug, Clone, Copy)]
+            pub struct #group<D>(pub(super) D);
+
+            impl<D: Borrow<super::#name>> #group<D> {
+                #(#getters)*
+            }
+
+            #setters
+        }
+    }
+
+    /// The constants that say how aliases show their targets.
+    pub(super) fn views(&self) -> TokenStream {
+        let views = self.aliases.iter().filter_map(|alias| {
+            let entry = self.entry(alias.row)?;
+            let about = doc(&format!("How `{}` shows `{}`.", entry.id, self.entry(alias.target)?.id));
+            let name = view_name(entry);
+            let data_type = format_ident!("{}", format!("{:?}", alias.data_type));
+            let outside = match alias.outside {
+                Outside::Saturate => quote!(glue::Outside::Saturate),
+                Outside::Wrap => quote!(glue::Outside::Wrap),
+                Outside::Abort => quote!(glue::Outside::Abort),
+            };
+            let view = if (alias.numerator, alias.denominator) == (1, 1) {
+                quote!(glue::View::plain(glue::DataType::#data_type, #outside))
+            } else {
+                let rounding = format_ident!("{}", format!("{:?}", alias.rounding));
+                let (n, d) = (Literal::i64_unsuffixed(alias.numerator), Literal::i64_unsuffixed(alias.denominator));
+                quote!(glue::View::scaled(glue::DataType::#data_type, #outside, #n, #d, glue::Rounding::#rounding))
+            };
+            Some(quote!(#about const #name: glue::View = #view;))
+        });
+        quote!(#(#views)*)
+    }
+}

@@ -1,0 +1,167 @@
+//! Documentation comments: what the manual says about an object, in a few lines.
+
+use od_spec::model::{Entry, Object, Outside, Rounding, Storage, Text, Value, format_value};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::super::layout::Place;
+use super::super::plan::{Plan, PlannedEntry, Shape};
+
+/// `#[doc]` attributes, one for each line.
+pub(super) fn doc(text: &str) -> TokenStream {
+    let lines = text.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
+    quote!(#(#[doc = #lines])*)
+}
+
+/// Text in which nothing is markup: rustdoc takes brackets for links and angles for tags.
+pub(super) fn escape(text: &str) -> String {
+    text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
+        if matches!(c, '[' | ']' | '<' | '>' | '*' | '_' | '`' | '\\') {
+            out.push('\\');
+        }
+        out.push(if c.is_control() { ' ' } else { c });
+        out
+    })
+}
+
+impl Plan<'_> {
+    /// A text in the language of the specification.
+    pub(super) fn words(&self, text: &Text) -> String {
+        text.get(self.system.language()).map(escape).unwrap_or_default()
+    }
+
+    /// Heading, meaning and facts of an entry.
+    pub(super) fn entry_doc(&self, planned: &PlannedEntry<'_>) -> String {
+        let entry = planned.entry;
+        let mut text = format!("`{}` {}", planned.id, escape(&entry.name));
+        let about = self.words(&entry.about);
+        text.push_str(if about.is_empty() { "." } else { ": " });
+        text.push_str(&about);
+        text.push_str("\n\n");
+        text.push_str(&self.facts(planned).join(", "));
+        text.push('.');
+        for line in [self.related(planned), self.pdos_of(planned), condition(entry)].into_iter().flatten() {
+            text.push(' ');
+            text.push_str(&line);
+        }
+        text
+    }
+
+    /// Heading and meaning of an object that is more than one entry.
+    pub(super) fn object_doc(&self, object: &Object) -> String {
+        let about = self.words(&object.about);
+        let end = if about.is_empty() { "." } else { ": " };
+        format!("`{}` {}{end}{about}", object.index, escape(&object.name))
+    }
+
+    /// Type, access, mapping, unit, range, default, storage.
+    fn facts(&self, planned: &PlannedEntry<'_>) -> Vec<String> {
+        let entry = planned.entry;
+        let mut facts = vec![entry.data_type.to_string()];
+        facts.push(if entry.locked {
+            format!("{} locked", entry.access.word())
+        } else {
+            entry.access.word().to_owned()
+        });
+        facts.extend(match entry.pdo {
+            od_spec::model::PdoMapping::None => None,
+            od_spec::model::PdoMapping::Receive => Some("RPDO".to_owned()),
+            od_spec::model::PdoMapping::Transmit => Some("TPDO".to_owned()),
+            od_spec::model::PdoMapping::Both => Some("RPDO and TPDO".to_owned()),
+        });
+        facts.extend(entry.unit.as_ref().map(|unit| format!("in {}", escape(&unit.step_text()))));
+        let show = |raw: i128| {
+            escape(&format_value(&Entry { special: Vec::new(), ..entry.clone() }, &Value::Integer(raw)))
+        };
+        facts.extend(match (entry.low, entry.high) {
+            (Some(low), Some(high)) => Some(format!("{} to {}", show(low), show(high))),
+            (Some(low), None) => Some(format!("from {}", show(low))),
+            (None, Some(high)) => Some(format!("up to {}", show(high))),
+            (None, None) => None,
+        });
+        facts.extend(
+            entry.special.iter().map(|special| format!("{}: {}", special.value, escape(&special.name))),
+        );
+        if planned.place != Place::Alias {
+            facts.extend(
+                entry
+                    .default
+                    .as_ref()
+                    .map(|value| format!("default {}", escape(&format_value(entry, value)))),
+            );
+        }
+        facts.extend(match entry.stored {
+            Storage::No => None,
+            Storage::Remanent => Some("kept over power-off".to_owned()),
+            stored => Some(format!("stored with the {} parameters", stored.word())),
+        });
+        facts
+    }
+
+    /// What shows the entry, or what it shows.
+    fn related(&self, planned: &PlannedEntry<'_>) -> Option<String> {
+        let row = self.row(planned.id)?;
+        if let Some(alias) = self.aliases.iter().find(|alias| alias.row == row) {
+            let target = self.entry(alias.target)?;
+            let mut text = format!("A view of {} (`{}`)", self.link(alias.target)?, target.id);
+            if alias.numerator != 1 || alias.denominator != 1 {
+                let rounding = match alias.rounding {
+                    Rounding::Down => "down",
+                    Rounding::Up => "up",
+                    Rounding::Nearest => "to the nearest step",
+                    Rounding::Zero => "towards zero",
+                };
+                text.push_str(&format!(
+                    ", times {}/{}, rounded {rounding}",
+                    alias.numerator, alias.denominator
+                ));
+            }
+            let (low, high) = alias.data_type.range()?;
+            text.push_str(&match alias.outside {
+                Outside::Saturate => format!("; saturates at {low} and {high}."),
+                Outside::Wrap => "; outside its type, its low bits.".to_owned(),
+                Outside::Abort => "; nothing outside its type.".to_owned(),
+            });
+            return Some(text);
+        }
+        let mut views = self.aliases.iter().filter(|alias| alias.target == row).filter_map(|alias| {
+            let bits = alias.data_type.bits()?;
+            Some(format!("{bits}-bit view: {} (`{}`).", self.link(alias.row)?, self.entry(alias.row)?.id))
+        });
+        views.next().map(|first| views.fold(first, |text, view| format!("{text} {view}")))
+    }
+
+    /// A link to the accessor of an entry.
+    fn link(&self, row: u16) -> Option<String> {
+        let planned = self.entry(row)?;
+        let object = self.objects.get(planned.object)?;
+        Some(match &object.shape {
+            Shape::Group { type_name } => {
+                format!("[`{}`]({}::{type_name}::{})", planned.member, "records", planned.member)
+            }
+            Shape::Var | Shape::Indexed { .. } => format!("[`{0}`]({1}::{0})", object.name, self.name),
+        })
+    }
+
+    /// The PDOs that carry the entry by default.
+    fn pdos_of(&self, planned: &PlannedEntry<'_>) -> Option<String> {
+        let row = self.row(planned.id)?;
+        let carriers = self.pdos.iter().filter(|pdo| pdo.fields.iter().any(|field| field.row == row));
+        let names: Vec<String> = carriers
+            .map(|pdo| {
+                let off = if pdo.pdo.valid { "" } else { ", off by default" };
+                format!("{} {} ([`{1}`](pdos::{1}){off})", pdo.pdo.direction.pdo(), pdo.name).replacen(
+                    &format!(" {} (", pdo.name),
+                    &format!(" {} (", pdo.pdo.number),
+                    1,
+                )
+            })
+            .collect();
+        (!names.is_empty()).then(|| format!("In {}.", names.join(", ")))
+    }
+}
+
+fn condition(entry: &Entry) -> Option<String> {
+    let condition = entry.writable_when.as_ref()?;
+    Some(format!("Writable while `{}`.", condition.text))
+}

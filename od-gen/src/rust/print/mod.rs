@@ -1,0 +1,37 @@
+//! A plan as Rust.
+
+mod accessors;
+mod docs;
+mod pdos;
+mod table;
+mod types;
+mod value;
+mod values;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::plan::Plan;
+
+/// The items of a dictionary's module.
+pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
+    let parts = [
+        plan.dictionary(),
+        plan.entry_enum(),
+        plan.records_module(),
+        plan.pdos_module(),
+        plan.types_module(),
+        plan.specials_module(),
+        plan.units_module(),
+        plan.defaults_module(),
+        plan.limits_module(),
+        plan.traits(),
+        plan.views(),
+        plan.tables(),
+    ];
+    quote! {
+        use ::firmware_glue as glue;
+
+        #(#parts)*
+    }
+}

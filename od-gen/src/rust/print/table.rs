@@ -1,0 +1,419 @@
+//! The constant table and the traits by which `firmware-glue` finds it.
+
+use od_spec::expr::{ArithmeticOp, CompareOp};
+use od_spec::model::{DataType, Storage};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::condition::{Compare, Condition, Sum};
+use super::super::layout::Place;
+use super::super::plan::{Attributes, Flags, NONE, PlaceKind, Plan};
+use super::docs::{doc, escape};
+use super::value::{At, Values, decimal, hex, view_name};
+
+/// Bytes in a line of a byte string.
+const LINE: usize = 16;
+
+impl Plan<'_> {
+    /// The enumeration of all entries.
+    pub(super) fn entry_enum(&self) -> TokenStream {
+        let variants = self.entries.iter().map(|entry| {
+            let (about, name) = (
+                doc(&format!("`{}` {}.", entry.id, escape(&self.full_name(entry)))),
+                format_ident!("{}", entry.variant),
+            );
+            quote!(#about #name,)
+        });
+        quote! {
+            /// Every entry of the dictionary, by ascending index and sub-index.
+            #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            #[repr(u16)]
+            pub enum Entry {
+                #(#variants)*
+            }
+
+            impl Entry {
+                /// The name in the specification. It is looked up in one long text: for people, not for loops.
+                pub fn name(self) -> &'static str {
+                    NAMES.lines().nth(self as usize).unwrap_or_default()
+                }
+            }
+
+            /// Index, sub-index and name.
+            impl core::fmt::Debug for Entry {
+                fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                    let (index, sub) = TABLE.id(*self as u16);
+                    write!(f, "{index:04X}h.{sub} {}", self.name())
+                }
+            }
+
+            glue::defmt_text!(Entry);
+        }
+    }
+
+    fn full_name(&self, entry: &super::super::plan::PlannedEntry<'_>) -> String {
+        self.device.entry_name(entry.id).unwrap_or_default()
+    }
+
+    /// The `Dictionary` and `Constrained` traits.
+    pub(super) fn traits(&self) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        let values = Values { plan: self };
+        let conditions = self.conditions.iter().enumerate().map(|(number, condition)| {
+            let number = Literal::usize_unsuffixed(number);
+            let holds = condition_code(&values, condition, &At::top());
+            quote!(#number => #holds,)
+        });
+        let body = if self.conditions.is_empty() {
+            quote!(let _ = number; true)
+        } else {
+            quote!(match number { #(#conditions)* _ => true, })
+        };
+        let constraints = self.constraints();
+        quote! {
+            impl glue::Dictionary for #name {
+                type Entry = Entry;
+                const TABLE: &'static glue::Table = &TABLE;
+
+                #[inline]
+                fn entry(row: u16) -> Option<Entry> {
+                    ENTRIES.get(usize::from(row)).copied()
+                }
+
+                #[inline]
+                fn row(entry: Entry) -> u16 {
+                    entry as u16
+                }
+
+                #[inline]
+                fn image(&self) -> &[u8] {
+                    &self.0
+                }
+
+                #[inline]
+                fn image_mut(&mut self) -> &mut [u8] {
+                    &mut self.0
+                }
+
+                fn condition(&self, number: u16) -> bool {
+                    #body
+                }
+            }
+
+            #constraints
+        }
+    }
+
+    fn constraints(&self) -> TokenStream {
+        if self.constraints.is_empty() {
+            return quote!();
+        }
+        let name = format_ident!("{}", self.name);
+        let values = Values { plan: self };
+        let list = self.constraints.iter().map(|constraint| {
+            let (text, function) = (constraint.name, format_ident!("{}", constraint.function));
+            quote!(glue::Constraint { name: #text, holds: constraints::#function })
+        });
+        let functions = self.constraints.iter().map(|constraint| {
+            let about = self.words(constraint.about);
+            let mut text = format!("`{}`", constraint.require.text);
+            if let Some(when) = &constraint.when {
+                text.push_str(&format!(", while `{}`", when.text));
+            }
+            text.push('.');
+            if constraint.partial {
+                text.push_str(" Only what can be told from this device.");
+            }
+            let about = doc(&format!("{}: {about}\n\n{text}", escape(constraint.name)));
+            let function = format_ident!("{}", constraint.function);
+            let at = At::reference();
+            let require = condition_code(&values, &constraint.require, &at);
+            let holds = match &constraint.when {
+                Some(when) => {
+                    let not_met = not_met_code(&values, when, &at);
+                    quote!(#not_met || #require)
+                }
+                None => require,
+            };
+            quote! {
+                #about
+                pub fn #function(dictionary: &super::#name) -> bool {
+                    #holds
+                }
+            }
+        });
+        quote! {
+            impl glue::Constrained for #name {
+                const CONSTRAINTS: &'static [glue::Constraint<Self>] = &[#(#list),*];
+            }
+
+            /// Conditions between entries.
+            pub mod constraints {
+                #(#functions)*
+            }
+        }
+    }
+
+    /// The tables.
+    pub(super) fn tables(&self) -> TokenStream {
+        let objects = self.objects.iter().map(|object| {
+            let (index, first) =
+                (hex(object.object.index.0.into(), 4), Literal::u16_unsuffixed(object.first_row));
+            quote!(glue::table::ObjectRow::new(#index, #first))
+        });
+        let entries = self.entries.iter().map(|entry| {
+            let place = match entry.place {
+                Place::Image(at) | Place::Constant(at) => at & 0xFFFF,
+                Place::Alias => self
+                    .row(entry.id)
+                    .and_then(|row| self.aliases.iter().position(|alias| alias.row == row))
+                    .unwrap_or_default(),
+                Place::Application => 0,
+            };
+            let (attributes, place) =
+                (Literal::u16_unsuffixed(entry.attributes), Literal::usize_unsuffixed(place));
+            quote!(glue::table::EntryRow::new(#attributes, #place))
+        });
+        let attributes = self.attributes.iter().map(attributes);
+        let sparse = self.objects.iter().filter_map(|object| {
+            let subs: Vec<u8> = object.object.entries.iter().map(|entry| entry.sub.0).collect();
+            let gapless = subs.iter().enumerate().all(|(at, sub)| at == usize::from(*sub));
+            let first = Literal::u16_unsuffixed(object.first_row);
+            let subs = subs.into_iter().map(Literal::u8_unsuffixed);
+            (!gapless).then(|| quote!(glue::table::SparseObject { first: #first, subs: &[#(#subs),*] }))
+        });
+        let aliases = self.aliases.iter().filter_map(|alias| {
+            let (target, view) = (Literal::u16_unsuffixed(alias.target), view_name(self.entry(alias.row)?));
+            Some(quote!(glue::Alias { target: #target, view: #view }))
+        });
+        let limits = self.limits.iter().map(|(low, high)| {
+            let (low, high) = (decimal((*low).into()), decimal((*high).into()));
+            quote!(glue::table::Limits { low: #low, high: #high })
+        });
+        let values = self.values.iter().map(|list| {
+            let list = list.iter().map(|value| decimal((*value).into()));
+            quote!(&[#(#list),*])
+        });
+        let regions = self.layout.regions.iter().map(|region| {
+            let storage = storage(region.storage);
+            let (start, end) =
+                (Literal::usize_unsuffixed(region.start), Literal::usize_unsuffixed(region.end));
+            let layout = hex(region.layout.into(), 8);
+            quote!(glue::table::Region { storage: #storage, start: #start, end: #end, layout: #layout })
+        });
+        let nodes = self.layout.node_ids.iter().map(|(offset, size)| {
+            let (offset, size) = (Literal::usize_unsuffixed(*offset), Literal::usize_unsuffixed(*size));
+            quote!(glue::image::NodeIdPlace { offset: #offset, size: #size })
+        });
+        let names: String = self
+            .entries
+            .iter()
+            .map(|entry| self.full_name(entry).replace(['\n', '\r'], " ") + "\n")
+            .collect();
+        let variants = self.entries.iter().map(|entry| {
+            let variant = format_ident!("{}", entry.variant);
+            quote!(Entry::#variant)
+        });
+        let (constants, factory) = (byte_string(&self.layout.constants), byte_string(&self.layout.factory));
+        let [count, nodes_count, size] =
+            [self.entries.len(), self.layout.node_ids.len(), self.layout.factory.len()]
+                .map(Literal::usize_unsuffixed);
+        let granularity = Literal::u8_unsuffixed(self.device.info.granularity);
+        let dummies =
+            self.device.info.dummies.iter().fold(0u8, |bits, data_type| bits | 1 << (data_type.code() & 7));
+        let dummies = hex(dummies.into(), 2);
+        quote! {
+            /// What every entry is.
+            static TABLE: glue::Table = glue::Table {
+                objects: &[#(#objects),*],
+                entries: &[#(#entries),*],
+                attributes: &[#(#attributes),*],
+                sparse: &[#(#sparse),*],
+                aliases: &[#(#aliases),*],
+                limits: &[#(#limits),*],
+                values: &[#(#values),*],
+                constants: #constants,
+                factory: &FACTORY,
+                node_id_places: &NODE_ID_PLACES,
+                regions: &[#(#regions),*],
+                granularity: #granularity,
+                dummies: #dummies,
+            };
+
+            /// Values that get the node-ID added to them.
+            static NODE_ID_PLACES: [glue::image::NodeIdPlace; #nodes_count] = [#(#nodes),*];
+
+            /// The image after a factory reset of node 0.
+            static FACTORY: [u8; #size] = *#factory;
+
+            /// Entries by row.
+            static ENTRIES: [Entry; #count] = [#(#variants),*];
+
+            /// Names of the entries, one a line.
+            static NAMES: &str = #names;
+        }
+    }
+}
+
+fn attributes(attributes: &Attributes) -> TokenStream {
+    let data_type = format_ident!("{}", format!("{:?}", attributes.data_type));
+    let flags = Literal::u8_unsuffixed(flag_bits(attributes.flags));
+    let place = match attributes.place {
+        PlaceKind::Image => quote!(Image),
+        PlaceKind::Constant => quote!(Constant),
+        PlaceKind::Alias => quote!(Alias),
+        PlaceKind::Application => quote!(Application),
+    };
+    let storage = storage(attributes.storage);
+    let (page, size) =
+        (Literal::usize_unsuffixed(attributes.page), Literal::usize_unsuffixed(attributes.size));
+    let reference = |at: u16| {
+        if at == NONE {
+            quote!(glue::table::NONE)
+        } else {
+            let at = Literal::u16_unsuffixed(at);
+            quote!(#at)
+        }
+    };
+    let (limits, values, condition) =
+        (reference(attributes.limits), reference(attributes.values), reference(attributes.condition));
+    quote! {
+        glue::table::Attributes {
+            data_type: glue::DataType::#data_type,
+            flags: glue::table::Flags(#flags),
+            place: glue::table::Place::#place,
+            storage: #storage,
+            page: #page,
+            size: #size,
+            limits: #limits,
+            values: #values,
+            condition: #condition,
+        }
+    }
+}
+
+/// Bits of `firmware_glue::table::Flags`.
+fn flag_bits(flags: Flags) -> u8 {
+    let Flags { read, write, locked, receive, transmit, sparse, only_values } = flags;
+    [read, write, locked, receive, transmit, sparse, only_values]
+        .into_iter()
+        .enumerate()
+        .fold(0, |bits, (at, flag)| bits | u8::from(flag) << at)
+}
+
+fn storage(storage: Storage) -> TokenStream {
+    let name = format_ident!("{}", format!("{storage:?}"));
+    quote!(glue::Storage::#name)
+}
+
+/// A byte string with 16 bytes a line.
+fn byte_string(bytes: &[u8]) -> TokenStream {
+    use std::fmt::Write as _;
+    use std::str::FromStr as _;
+    let mut text = String::from("b\"");
+    for line in bytes.chunks(LINE) {
+        text.push_str("\\\n        ");
+        for byte in line {
+            let _ = write!(text, "\\x{byte:02X}");
+        }
+    }
+    text.push('"');
+    let literal = Literal::from_str(&text).unwrap_or_else(|_| Literal::byte_string(bytes));
+    quote!(#literal)
+}
+
+/// A condition as code. A divisor of 0 leaves it undecided; a condition that is undecided counts as met.
+fn condition_code(values: &Values<'_, '_>, condition: &Condition, at: &At) -> TokenStream {
+    let links = condition.comparisons.iter().map(|compare| {
+        let link = comparison(values, compare, compare.op, condition.narrow, at);
+        with_divisors(values, compare, link, condition.narrow, at)
+    });
+    quote!(#(#links)&&*)
+}
+
+/// That a condition does not hold, or is undecided.
+fn not_met_code(values: &Values<'_, '_>, condition: &Condition, at: &At) -> TokenStream {
+    let links = condition.comparisons.iter().map(|compare| {
+        let negated = match compare.op {
+            CompareOp::Less => CompareOp::GreaterOrEqual,
+            CompareOp::LessOrEqual => CompareOp::Greater,
+            CompareOp::Equal => CompareOp::NotEqual,
+            CompareOp::NotEqual => CompareOp::Equal,
+            CompareOp::GreaterOrEqual => CompareOp::Less,
+            CompareOp::Greater => CompareOp::LessOrEqual,
+        };
+        let link = comparison(values, compare, negated, condition.narrow, at);
+        with_divisors(values, compare, link, condition.narrow, at)
+    });
+    quote!(#(#links)||*)
+}
+
+fn comparison(
+    values: &Values<'_, '_>,
+    compare: &Compare,
+    op: CompareOp,
+    narrow: bool,
+    at: &At,
+) -> TokenStream {
+    let (left, right) = (sum(values, &compare.left, narrow, at), sum(values, &compare.right, narrow, at));
+    match op {
+        CompareOp::Less => quote!(#left < #right),
+        CompareOp::LessOrEqual => quote!(#left <= #right),
+        CompareOp::Equal => quote!(#left == #right),
+        CompareOp::NotEqual => quote!(#left != #right),
+        CompareOp::GreaterOrEqual => quote!(#left >= #right),
+        CompareOp::Greater => quote!(#left > #right),
+    }
+}
+
+fn with_divisors(
+    values: &Values<'_, '_>,
+    compare: &Compare,
+    link: TokenStream,
+    narrow: bool,
+    at: &At,
+) -> TokenStream {
+    if compare.divisors.is_empty() {
+        return link;
+    }
+    let divisors = compare.divisors.iter().map(|divisor| sum(values, divisor, narrow, at));
+    quote!((#(#divisors == 0)||* || #link))
+}
+
+fn sum(values: &Values<'_, '_>, of: &Sum, narrow: bool, at: &At) -> TokenStream {
+    let number = |id| {
+        let entry = values.plan.row(id).and_then(|row| values.plan.entry(row));
+        let number = entry.and_then(|entry| Some((values.number(entry, at)?, entry.entry.data_type)));
+        match number {
+            Some((number, DataType::Unsigned64)) => quote!(i128::from(#number)),
+            Some((number, _)) if narrow => number,
+            Some((number, _)) => quote!(i128::from(#number)),
+            None => quote!(0),
+        }
+    };
+    match of {
+        Sum::Number(value) => {
+            let literal = decimal(*value);
+            quote!(#literal)
+        }
+        Sum::Entry(id) => number(*id),
+        Sum::Bit(id, bit) => {
+            let number = number(*id);
+            if *bit == 0 {
+                return quote!((#number & 1));
+            }
+            let bit = Literal::u8_unsuffixed(*bit);
+            quote!((#number >> #bit & 1))
+        }
+        Sum::Binary(left, op, right) => {
+            let (left, right) = (sum(values, left, narrow, at), sum(values, right, narrow, at));
+            match op {
+                ArithmeticOp::Add => quote!((#left + #right)),
+                ArithmeticOp::Subtract => quote!((#left - #right)),
+                ArithmeticOp::Multiply => quote!(#left * #right),
+                // Quotients have become products before.
+                ArithmeticOp::Divide => quote!((#left / #right)),
+            }
+        }
+    }
+}

@@ -1,0 +1,430 @@
+//! Values in code: their types, and how bytes become values and values bytes.
+
+use od_spec::model::{DataType, Value};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::layout::Place;
+use super::super::plan::{Plan, PlannedAlias, PlannedEntry, ValueKind};
+
+/// How a number is carried in code.
+#[derive(Clone, Copy)]
+pub(super) struct Carrier {
+    signed: bool,
+    bytes: usize,
+}
+
+impl Carrier {
+    /// The integer that carries a data type; a bit field is unsigned, whatever its base.
+    fn of(kind: &ValueKind, is_bits: bool) -> Option<Self> {
+        let bits = kind.data_type.bits()?;
+        kind.data_type.is_integer().then(|| Self {
+            signed: kind.data_type.is_signed() && !is_bits,
+            bytes: usize::from(bits.div_ceil(8)),
+        })
+    }
+
+    /// Whether Rust has an integer of exactly this width.
+    const fn is_exact(self) -> bool {
+        matches!(self.bytes, 1 | 2 | 4 | 8)
+    }
+
+    fn name(self) -> TokenStream {
+        let bits = if self.is_exact() { self.bytes * 8 } else { 64 };
+        let name = format_ident!("{}{bits}", if self.signed { 'i' } else { 'u' });
+        quote!(#name)
+    }
+}
+
+/// What is printed where: how module paths begin, and the bytes that hold the values.
+pub(super) struct At {
+    /// Nothing at the top of the dictionary's module, `super::` in its modules.
+    pub root: TokenStream,
+    /// The bytes to read.
+    pub image: TokenStream,
+    /// The bytes to write.
+    pub image_mut: TokenStream,
+}
+
+impl At {
+    /// In the methods of the dictionary itself.
+    pub(super) fn top() -> Self {
+        Self { root: quote!(), image: quote!(&self.0), image_mut: quote!(&mut self.0) }
+    }
+
+    /// In the methods of a group of accessors.
+    pub(super) fn group() -> Self {
+        Self {
+            root: quote!(super::),
+            image: quote!(&self.0.borrow().0),
+            image_mut: quote!(&mut self.0.borrow_mut().0),
+        }
+    }
+
+    /// Where `dictionary` is a reference, in a module.
+    pub(super) fn reference() -> Self {
+        Self { root: quote!(super::), image: quote!(&dictionary.0), image_mut: quote!(&mut dictionary.0) }
+    }
+}
+
+/// Printing of values for one dictionary.
+pub(super) struct Values<'p, 'a> {
+    pub plan: &'p Plan<'a>,
+}
+
+impl Values<'_, '_> {
+    fn is_bits(&self, kind: &ValueKind) -> bool {
+        let named =
+            kind.named.as_ref().and_then(|name| self.plan.types.iter().find(|planned| planned.name == *name));
+        named.is_some_and(|planned| matches!(planned.members, super::super::plan::Members::Bits(_)))
+    }
+
+    fn carrier(&self, kind: &ValueKind) -> Option<Carrier> {
+        Carrier::of(kind, self.is_bits(kind))
+    }
+
+    /// The type without its wrapping: `u16`, `f32`, `bool`, `&str`.
+    pub(super) fn raw_type(&self, kind: &ValueKind, root: &TokenStream) -> TokenStream {
+        if let Some(carrier) = self.carrier(kind) {
+            return carrier.name();
+        }
+        match kind.data_type {
+            DataType::Boolean => quote!(bool),
+            DataType::Real32 => quote!(f32),
+            DataType::Real64 => quote!(f64),
+            DataType::VisibleString => quote!(&str),
+            DataType::OctetString => quote!(&[u8]),
+            DataType::UnicodeString => quote!(#root glue::Utf16<'_>),
+            _ => quote!(#root glue::Time),
+        }
+    }
+
+    /// The type that accessors give: `units::Volt<u16>`.
+    pub(super) fn value_type(&self, kind: &ValueKind, root: &TokenStream) -> TokenStream {
+        let raw = self.raw_type(kind, root);
+        let inner = match (&kind.named, &kind.unit) {
+            (Some(named), _) => {
+                let named = format_ident!("{named}");
+                quote!(#root types::#named)
+            }
+            (None, Some(unit)) => {
+                let unit = format_ident!("{unit}");
+                quote!(#root units::#unit<#raw>)
+            }
+            (None, None) => raw,
+        };
+        match self.special_name(kind) {
+            Some(special) => quote!(#root glue::Special<#inner, #root specials::#special>),
+            None => inner,
+        }
+    }
+
+    fn special_name(&self, kind: &ValueKind) -> Option<proc_macro2::Ident> {
+        let special = self.plan.specials.get(kind.special?)?;
+        Some(format_ident!("{}", special.name))
+    }
+
+    /// Wraps a number, apart from special values.
+    fn wrap(kind: &ValueKind, root: &TokenStream, raw: &TokenStream) -> TokenStream {
+        match (&kind.named, &kind.unit) {
+            (Some(named), _) => {
+                let named = format_ident!("{named}");
+                quote!(#root types::#named(#raw))
+            }
+            (None, Some(unit)) => {
+                let unit = format_ident!("{unit}");
+                quote!(#root units::#unit(#raw))
+            }
+            (None, None) => raw.clone(),
+        }
+    }
+
+    /// A value from its raw form.
+    pub(super) fn decode(&self, kind: &ValueKind, root: &TokenStream, raw: &TokenStream) -> TokenStream {
+        let (Some(special), Some(name)) =
+            (kind.special.and_then(|at| self.plan.specials.get(at)), self.special_name(kind))
+        else {
+            return Self::wrap(kind, root, raw);
+        };
+        let arms = special.values.iter().map(|(variant, _, value)| {
+            let (variant, value) = (format_ident!("{variant}"), decimal(*value));
+            quote!(#value => #root glue::Special::Special(#root specials::#name::#variant),)
+        });
+        let value = Self::wrap(kind, root, &quote!(value));
+        quote!(match #raw { #(#arms)* value => #root glue::Special::Value(#value), })
+    }
+
+    /// A raw number as a constant value, which may be special.
+    pub(super) fn constant(&self, kind: &ValueKind, root: &TokenStream, number: i128) -> TokenStream {
+        let literal = decimal(number);
+        let special = kind.special.and_then(|at| self.plan.specials.get(at)).zip(self.special_name(kind));
+        let Some((special, name)) = special else { return Self::wrap(kind, root, &quote!(#literal)) };
+        match special.values.iter().find(|(_, _, value)| *value == number) {
+            Some((variant, ..)) => {
+                let variant = format_ident!("{variant}");
+                quote!(#root glue::Special::Special(#root specials::#name::#variant))
+            }
+            None => {
+                let value = Self::wrap(kind, root, &quote!(#literal));
+                quote!(#root glue::Special::Value(#value))
+            }
+        }
+    }
+
+    /// The raw form of a value.
+    pub(super) fn encode(&self, kind: &ValueKind, root: &TokenStream, value: &TokenStream) -> TokenStream {
+        let wrapped = kind.named.is_some() || kind.unit.is_some();
+        let unwrap = |value: &TokenStream| if wrapped { quote!(#value.0) } else { value.clone() };
+        let (Some(special), Some(name)) =
+            (kind.special.and_then(|at| self.plan.specials.get(at)), self.special_name(kind))
+        else {
+            return unwrap(value);
+        };
+        let arms = special.values.iter().map(|(variant, _, number)| {
+            let (variant, number) = (format_ident!("{variant}"), decimal(*number));
+            quote!(#root glue::Special::Special(#root specials::#name::#variant) => #number,)
+        });
+        let inner = unwrap(&quote!(value));
+        quote!(match #value { #root glue::Special::Value(value) => #inner, #(#arms)* })
+    }
+
+    /// The raw form of the value at an offset of some bytes.
+    pub(super) fn load(&self, kind: &ValueKind, size: usize, at: &At, offset: &TokenStream) -> TokenStream {
+        let At { root, image, .. } = at;
+        if let Some(carrier) = self.carrier(kind) {
+            let bytes = Literal::usize_unsuffixed(carrier.bytes);
+            let name = carrier.name();
+            return match (carrier.is_exact(), carrier.signed) {
+                (true, _) => quote!(#name::from_le_bytes(#root glue::get(#image, #offset))),
+                (false, true) => quote!(#root glue::image::get_signed::<#bytes>(#image, #offset)),
+                (false, false) => quote!(#root glue::image::get_unsigned::<#bytes>(#image, #offset)),
+            };
+        }
+        let size = Literal::usize_unsuffixed(size);
+        match kind.data_type {
+            DataType::Boolean => quote!(#root glue::get(#image, #offset) != [0]),
+            DataType::Real32 => quote!(f32::from_le_bytes(#root glue::get(#image, #offset))),
+            DataType::Real64 => quote!(f64::from_le_bytes(#root glue::get(#image, #offset))),
+            DataType::VisibleString => quote!(#root glue::text::visible(#image, #offset, #size)),
+            DataType::OctetString => quote!(#root glue::text::octets(#image, #offset, #size)),
+            DataType::UnicodeString => quote!(#root glue::text::unicode(#image, #offset, #size)),
+            _ => quote!(#root glue::Time::from_bytes(#root glue::get(#image, #offset))),
+        }
+    }
+
+    /// Code that puts a raw value at an offset, and the error it may have.
+    pub(super) fn store(
+        &self,
+        kind: &ValueKind,
+        size: usize,
+        at: &At,
+        offset: &TokenStream,
+        raw: &TokenStream,
+    ) -> (TokenStream, Option<TokenStream>) {
+        let At { root, image_mut, .. } = at;
+        if let Some(carrier) = self.carrier(kind) {
+            let bytes = Literal::usize_unsuffixed(carrier.bytes);
+            let put = if carrier.signed { quote!(put_signed) } else { quote!(put_unsigned) };
+            return if carrier.is_exact() {
+                (put_bytes(at, offset, raw), None)
+            } else {
+                (
+                    quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)),
+                    Some(quote!(#root glue::OutOfRange)),
+                )
+            };
+        }
+        let size = Literal::usize_unsuffixed(size);
+        let no_fit = Some(quote!(#root glue::NoFit));
+        match kind.data_type {
+            DataType::Boolean => (quote!(#root glue::put(#image_mut, #offset, [#raw.into()])), None),
+            DataType::Real32 | DataType::Real64 => (put_bytes(at, offset, raw), None),
+            DataType::VisibleString => {
+                (quote!(#root glue::text::put_visible(#image_mut, #offset, #size, #raw)), no_fit)
+            }
+            DataType::OctetString => {
+                (quote!(#root glue::text::put_octets(#image_mut, #offset, #size, #raw)), no_fit)
+            }
+            DataType::UnicodeString => {
+                (quote!(#root glue::text::put_unicode(#image_mut, #offset, #size, #raw)), no_fit)
+            }
+            _ => (quote!(#root glue::put(#image_mut, #offset, #raw.to_bytes())), None),
+        }
+    }
+
+    /// What a setter takes.
+    pub(super) fn parameter_type(&self, kind: &ValueKind, root: &TokenStream) -> TokenStream {
+        if kind.data_type == DataType::UnicodeString { quote!(&str) } else { self.value_type(kind, root) }
+    }
+
+    /// The value of an entry wherever it lies; with its type, which for an alias that may have none is an `Option`.
+    pub(super) fn get(&self, entry: &PlannedEntry<'_>, at: &At) -> Option<(TokenStream, TokenStream)> {
+        let value_type = self.value_type(&entry.kind, &at.root);
+        match entry.place {
+            Place::Image(offset) => {
+                let offset = Literal::usize_unsuffixed(offset);
+                let raw = self.load(&entry.kind, entry.size, at, &quote!(#offset));
+                Some((self.decode(&entry.kind, &at.root, &raw), value_type))
+            }
+            Place::Constant(_) => {
+                let raw = self.literal(entry)?;
+                let value_type = match entry.kind.data_type {
+                    DataType::VisibleString => quote!(&'static str),
+                    DataType::OctetString => quote!(&'static [u8]),
+                    _ => value_type,
+                };
+                Some((self.decode(&entry.kind, &at.root, &raw), value_type))
+            }
+            Place::Alias => {
+                let alias = self.alias_of(entry)?;
+                let target = self.number(self.plan.entry(alias.target)?, at)?;
+                let (root, view) = (&at.root, view_name(entry));
+                if alias.outside == od_spec::model::Outside::Abort {
+                    let narrow = quote!(#root glue::image::narrow(number));
+                    let value = self.decode(&entry.kind, root, &narrow);
+                    return Some((
+                        quote!(#root #view.show(#target).ok().map(|number| #value)),
+                        quote!(Option<#value_type>),
+                    ));
+                }
+                let narrow = quote!(#root glue::image::narrow(#root #view.show_or_zero(#target)));
+                let value = match self.special_name(&entry.kind) {
+                    Some(_) => {
+                        let raw = self.raw_type(&entry.kind, root);
+                        self.decode(
+                            &entry.kind,
+                            root,
+                            &quote!(#root glue::image::narrow::<#raw>(#root #view.show_or_zero(#target))),
+                        )
+                    }
+                    None => self.decode(&entry.kind, root, &narrow),
+                };
+                Some((value, value_type))
+            }
+            Place::Application => None,
+        }
+    }
+
+    pub(super) fn alias_of(&self, entry: &PlannedEntry<'_>) -> Option<&PlannedAlias> {
+        let row = self.plan.row(entry.id)?;
+        self.plan.aliases.iter().find(|alias| alias.row == row)
+    }
+
+    /// The raw integer of an entry in 64 bits.
+    pub(super) fn number(&self, entry: &PlannedEntry<'_>, at: &At) -> Option<TokenStream> {
+        let plain = ValueKind { named: None, unit: None, special: None, ..entry.kind.clone() };
+        match entry.place {
+            Place::Image(offset) => {
+                let offset = Literal::usize_unsuffixed(offset);
+                let raw = self.load(&plain, entry.size, at, &quote!(#offset));
+                let wide =
+                    Carrier::of(&plain, false).is_some_and(|carrier| carrier.is_exact() && carrier.bytes < 8);
+                Some(if wide || plain.data_type == DataType::Boolean { quote!(i64::from(#raw)) } else { raw })
+            }
+            Place::Constant(_) => {
+                let number = decimal(super::super::plan::default_integer(entry.entry)?);
+                Some(quote!(#number))
+            }
+            Place::Alias => {
+                let alias = self.alias_of(entry)?;
+                let target = self.number(self.plan.entry(alias.target)?, at)?;
+                let (root, view) = (&at.root, view_name(entry));
+                Some(quote!(#root #view.show_or_zero(#target)))
+            }
+            Place::Application => None,
+        }
+    }
+
+    /// The default of an entry as a raw literal.
+    pub(super) fn literal(&self, entry: &PlannedEntry<'_>) -> Option<TokenStream> {
+        let default = entry.entry.default.as_ref()?;
+        self.literal_of(&entry.kind, default)
+    }
+
+    /// A value as a raw literal.
+    pub(super) fn literal_of(&self, kind: &ValueKind, value: &Value) -> Option<TokenStream> {
+        Some(match value {
+            Value::Integer(raw) if kind.data_type == DataType::Boolean => {
+                let value = *raw != 0;
+                quote!(#value)
+            }
+            Value::Integer(raw) => {
+                // The bits of a negative default of a bit field, which is unsigned in code.
+                let raw = match self.carrier(kind) {
+                    Some(carrier) if !carrier.signed && *raw < 0 => raw + (1 << (carrier.bytes * 8)),
+                    _ => *raw,
+                };
+                let literal = if self.is_bits(kind) {
+                    let digits = kind.data_type.bits().map_or(2, |bits| usize::from(bits.div_ceil(4)));
+                    hex(u64::try_from(raw).ok()?, digits)
+                } else {
+                    decimal(raw)
+                };
+                quote!(#literal)
+            }
+            Value::Real(number) => {
+                let literal = if kind.data_type == DataType::Real32 {
+                    #[expect(
+                        clippy::cast_possible_truncation,
+                        reason = "the nearest value that the type has"
+                    )]
+                    let single = *number as f32;
+                    Literal::f32_unsuffixed(single)
+                } else {
+                    Literal::f64_unsuffixed(*number)
+                };
+                quote!(#literal)
+            }
+            Value::Text(text) if kind.data_type == DataType::VisibleString => quote!(#text),
+            Value::Bytes(bytes) => {
+                let literal = Literal::byte_string(bytes);
+                quote!(#literal)
+            }
+            _ => return None,
+        })
+    }
+}
+
+fn put_bytes(at: &At, offset: &TokenStream, raw: &TokenStream) -> TokenStream {
+    let At { root, image_mut, .. } = at;
+    let raw = if raw.clone().into_iter().count() > 3 { quote!((#raw)) } else { raw.clone() };
+    quote!(#root glue::put(#image_mut, #offset, #raw.to_le_bytes()))
+}
+
+/// The constant that says how an alias shows its target: `VIEW_5064`.
+pub(super) fn view_name(entry: &PlannedEntry<'_>) -> proc_macro2::Ident {
+    format_ident!("VIEW_{:04X}", entry.id.index.0)
+}
+
+/// A decimal literal, in groups of three digits where it is long.
+pub(super) fn decimal(value: i128) -> Literal {
+    use std::str::FromStr as _;
+    let digits = value.unsigned_abs().to_string();
+    if digits.len() < 6 {
+        return Literal::i128_unsuffixed(value);
+    }
+    let mut text = String::from(if value < 0 { "-" } else { "" });
+    for (at, digit) in digits.chars().enumerate() {
+        if at > 0 && (digits.len() - at) % 3 == 0 {
+            text.push('_');
+        }
+        text.push(digit);
+    }
+    Literal::from_str(&text).unwrap_or_else(|_| Literal::i128_unsuffixed(value))
+}
+
+/// A hexadecimal literal.
+pub(super) fn hex(value: u64, digits: usize) -> Literal {
+    use std::str::FromStr as _;
+    let plain = format!("{value:0digits$X}");
+    // Groups of four digits from the right, where there are more.
+    let mut text = String::from("0x");
+    for (at, digit) in plain.chars().enumerate() {
+        let rest = plain.len() - at;
+        if at > 0 && plain.len() > 4 && rest % 4 == 0 {
+            text.push('_');
+        }
+        text.push(digit);
+    }
+    Literal::from_str(&text).unwrap_or_else(|_| Literal::u64_unsuffixed(value))
+}

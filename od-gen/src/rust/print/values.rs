@@ -1,0 +1,96 @@
+//! Defaults and limits as constants.
+
+use od_spec::model::{Origin, SubIndex, Value};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::super::plan::{Plan, PlannedEntry};
+use super::docs::doc;
+use super::value::{Values, decimal};
+
+impl Plan<'_> {
+    /// `mod defaults`: the values after a factory reset that the specification states, apart from those of PDOs.
+    pub(super) fn defaults_module(&self) -> TokenStream {
+        let values = Values { plan: self };
+        let root = quote!(super::);
+        let constants: Vec<_> = self
+            .stated()
+            .filter_map(|entry| {
+                let default = entry.entry.default.as_ref().filter(|_| entry.entry.alias.is_none())?;
+                let raw = values.literal_of(&entry.kind, default)?;
+                let value = if entry.kind.special.is_some() {
+                    let number = default.integer()?;
+                    values.constant(&entry.kind, &root, number)
+                } else {
+                    values.decode(&entry.kind, &root, &raw)
+                };
+                let value_type = static_type(values.value_type(&entry.kind, &root), default);
+                let about = doc(&format!("Of `{}`.", entry.id));
+                let name = format_ident!("{}", entry.name.to_uppercase());
+                Some(quote!(#about pub const #name: #value_type = #value;))
+            })
+            .collect();
+        if constants.is_empty() {
+            return quote!();
+        }
+        quote! {
+            /// Values after a factory reset.
+            pub mod defaults {
+                #(#constants)*
+            }
+        }
+    }
+
+    /// `mod limits`: smallest and largest values.
+    pub(super) fn limits_module(&self) -> TokenStream {
+        let values = Values { plan: self };
+        let root = quote!(super::);
+        let constants: Vec<_> = self
+            .stated()
+            .filter(|entry| entry.entry.low.is_some() || entry.entry.high.is_some())
+            .filter_map(|entry| {
+                let (lowest, highest) = entry.entry.data_type.range()?;
+                let kind = super::super::plan::ValueKind { special: None, ..entry.kind.clone() };
+                let end = |raw: i128| {
+                    let literal = decimal(raw);
+                    values.decode(&kind, &root, &quote!(#literal))
+                };
+                let (low, high) =
+                    (end(entry.entry.low.unwrap_or(lowest)), end(entry.entry.high.unwrap_or(highest)));
+                let value_type = values.value_type(&kind, &root);
+                let about = doc(&format!("Of `{}`.", entry.id));
+                let name = format_ident!("{}", entry.name.to_uppercase());
+                Some(quote!(#about pub const #name: RangeInclusive<#value_type> = #low..=#high;))
+            })
+            .collect();
+        if constants.is_empty() {
+            return quote!();
+        }
+        quote! {
+            /// Smallest and largest values that can be written over the bus, apart from special values.
+            pub mod limits {
+                use core::ops::RangeInclusive;
+
+                #(#constants)*
+            }
+        }
+    }
+
+    /// Entries with values of the specification's own: no counts, no PDO parameters.
+    fn stated(&self) -> impl Iterator<Item = &PlannedEntry<'_>> {
+        self.entries.iter().filter(|entry| {
+            let object = self.objects.get(entry.object).map(|planned| planned.object);
+            object.is_some_and(|object| {
+                object.origin != Origin::Pdo && !(object.is_structured() && entry.id.sub == SubIndex(0))
+            })
+        })
+    }
+}
+
+fn static_type(value_type: TokenStream, default: &Value) -> TokenStream {
+    match default {
+        Value::Text(_) => quote!(&str),
+        Value::Bytes(_) => quote!(&[u8]),
+        _ => value_type,
+    }
+}

@@ -1,0 +1,206 @@
+//! The same operations on the same objects, on each contender's dictionary, at each enabled size.
+//!
+//! One iteration does an operation for 1024 keys, so that neither the loop nor the clock counts;
+//! `run.py` divides. Keys are drawn from the scalars of type u16, the same ones for all contenders.
+//! What is measured is throughput: the processor may begin an operation before the last has ended.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+
+#[cfg(feature = "canopen-rs")]
+mod canopen_rs;
+#[cfg(feature = "ours")]
+mod ours;
+#[cfg(feature = "zencan")]
+mod zencan;
+
+/// What the model (`scaled.py`) says.
+mod model {
+    pub const FIRST: u16 = 0x2000;
+    /// One setpoint, the only scalar of type u16, in so many objects.
+    pub const BLOCK: u16 = 10;
+    /// Default of the first setpoint.
+    pub const SETPOINT: u16 = 51;
+    /// A position, which is read-only.
+    pub const POSITION: u16 = FIRST + 5;
+    pub const PDO_SIZE: usize = 6;
+
+    /// The setpoint that both PDOs map.
+    pub fn mapped(objects: u16) -> u16 {
+        FIRST + objects / 2 / BLOCK * BLOCK
+    }
+}
+
+/// A contender. Operations that it does not have give `None`.
+trait Dictionary {
+    const NAME: &str;
+
+    /// Reads a u16 by index and sub-index as an SDO server would: access right checked, bytes in the end.
+    fn read(&self, index: u16, sub: u8) -> Option<[u8; 2]>;
+
+    /// Writes a u16 as an SDO server would: access right and length checked.
+    fn write(&mut self, index: u16, sub: u8, bytes: [u8; 2]) -> bool;
+
+    /// Finds what is known about an entry; an implementation puts it into a `black_box`.
+    fn find(&self, index: u16, sub: u8) -> bool;
+
+    /// Reads the first setpoint by its name.
+    fn setpoint(&self) -> Option<u16>;
+
+    /// Gathers the mapped entries of TPDO 1, a u16 and an i32; gives their length.
+    fn pack(&mut self, frame: &mut [u8; 8]) -> Option<usize>;
+
+    /// Scatters a frame into the mapped entries of RPDO 1.
+    fn unpack(&mut self, frame: &[u8]) -> Option<()>;
+}
+
+const KEYS: usize = 1024;
+
+/// Indices of existing u16 scalars in a random order that is always the same.
+fn keys(objects: u16) -> Vec<u16> {
+    let channels = u64::from(objects / model::BLOCK);
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        u16::try_from((state >> 33) % channels).expect("there are fewer channels than objects")
+    };
+    (0..KEYS).map(|_| model::FIRST + model::BLOCK * next()).collect()
+}
+
+/// Fails unless a contender does what is going to be measured.
+fn assert_works(dictionary: &mut impl Dictionary, objects: u16, keys: &[u16]) {
+    let mapped = model::mapped(objects);
+    assert_eq!(dictionary.read(model::FIRST, 0), Some(model::SETPOINT.to_le_bytes()));
+    assert!(dictionary.setpoint().is_none_or(|value| value == model::SETPOINT));
+    for (number, &index) in keys.iter().enumerate() {
+        let bytes = u16::try_from(number).expect("there are few keys").to_le_bytes();
+        assert!(
+            dictionary.find(index, 0) && dictionary.write(index, 0, bytes),
+            "{index:X}h cannot be written"
+        );
+        assert_eq!(dictionary.read(index, 0), Some(bytes));
+    }
+    assert!(!dictionary.find(0x5FF0, 0) && !dictionary.find(model::FIRST, 1));
+    assert!(!dictionary.write(model::POSITION, 0, [0; 2]), "a read-only entry was written");
+    if dictionary.unpack(&[0x34, 0x12, 1, 2, 3, 4]).is_some() {
+        assert_eq!(dictionary.read(mapped, 0), Some([0x34, 0x12]));
+    }
+    assert!(dictionary.write(model::FIRST, 0, [0x78, 0x56]) && dictionary.write(mapped, 0, [0xCD, 0xAB]));
+    assert!(dictionary.setpoint().is_none_or(|value| value == 0x5678));
+    let mut frame = [0xFF; 8];
+    if let Some(length) = dictionary.pack(&mut frame) {
+        assert_eq!(frame[..length], [0xCD, 0xAB, 0, 0, 0, 0]);
+    }
+}
+
+/// All operations of one contender at one size.
+fn measure<D: Dictionary>(criterion: &mut Criterion, objects: u16, dictionary: &mut D) {
+    let keys = keys(objects);
+    assert_works(dictionary, objects, &keys);
+    let mut bench = |operation: &str, run: &mut dyn FnMut()| {
+        group(criterion, operation)
+            .bench_function(format!("{}/{objects}", D::NAME), |bencher| bencher.iter(&mut *run));
+    };
+    bench("read u16", &mut || {
+        for &index in &keys {
+            black_box(dictionary.read(black_box(index), black_box(0)));
+        }
+    });
+    bench("write u16", &mut || {
+        for &index in &keys {
+            black_box(dictionary.write(black_box(index), black_box(0), black_box(index).to_le_bytes()));
+        }
+    });
+    bench("find", &mut || {
+        for &index in &keys {
+            black_box(dictionary.find(black_box(index), black_box(0)));
+        }
+    });
+    bench("find, missing sub-index", &mut || {
+        for &index in &keys {
+            black_box(dictionary.find(black_box(index), black_box(1)));
+        }
+    });
+    if dictionary.setpoint().is_some() {
+        bench("typed read", &mut || {
+            for _ in &keys {
+                black_box(black_box(&*dictionary).setpoint());
+            }
+        });
+    }
+    if dictionary.pack(&mut [0; 8]).is_some() {
+        bench("PDO pack", &mut || {
+            for _ in &keys {
+                let mut frame = [0; 8];
+                black_box(black_box(&mut *dictionary).pack(&mut frame));
+                black_box(frame);
+            }
+        });
+    }
+    if dictionary.unpack(&[0; model::PDO_SIZE]).is_some() {
+        bench("PDO unpack", &mut || {
+            for _ in &keys {
+                black_box(black_box(&mut *dictionary).unpack(black_box(&[0; model::PDO_SIZE])));
+            }
+        });
+    }
+}
+
+fn group<'a>(criterion: &'a mut Criterion, operation: &str) -> BenchmarkGroup<'a, WallTime> {
+    let mut group = criterion.benchmark_group(operation);
+    group.throughput(Throughput::Elements(KEYS as u64));
+    group
+}
+
+/// What the loop itself costs.
+fn floor(criterion: &mut Criterion) {
+    let keys = keys(150);
+    group(criterion, "empty loop").bench_function("floor/0", |bencher| {
+        bencher.iter(|| {
+            for &index in &keys {
+                black_box((black_box(index), black_box(0_u8)));
+            }
+        });
+    });
+}
+
+fn dictionaries(criterion: &mut Criterion) {
+    floor(criterion);
+    #[cfg(feature = "size150")]
+    {
+        #[cfg(feature = "ours")]
+        measure(criterion, 150, &mut ours::size150::dictionary());
+        #[cfg(feature = "zencan")]
+        measure(criterion, 150, &mut zencan::dictionary!(size150));
+        #[cfg(feature = "canopen-rs")]
+        measure(criterion, 150, &mut *canopen_rs::dictionary!(size150, 150));
+    }
+    #[cfg(feature = "size2000")]
+    {
+        #[cfg(feature = "ours")]
+        measure(criterion, 2000, &mut ours::size2000::dictionary());
+        #[cfg(feature = "zencan")]
+        measure(criterion, 2000, &mut zencan::dictionary!(size2000));
+        #[cfg(feature = "canopen-rs-2000")]
+        measure(criterion, 2000, &mut *canopen_rs::dictionary!(size2000, 2000));
+    }
+    #[cfg(feature = "size10000")]
+    {
+        #[cfg(feature = "ours")]
+        measure(criterion, 10000, &mut ours::size10000::dictionary());
+        #[cfg(feature = "zencan")]
+        measure(criterion, 10000, &mut zencan::dictionary!(size10000));
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2)).sample_size(50);
+    targets = dictionaries
+}
+criterion_main!(benches);

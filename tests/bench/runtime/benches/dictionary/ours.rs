@@ -1,0 +1,57 @@
+//! Ours: a byte image and a constant table. TODO(ours): written beside the library and never compiled; adapt.
+
+use std::hint::black_box;
+
+use firmware_glue::Dictionary as _;
+use firmware_glue::pdo::{pack, unpack};
+
+const NODE: u8 = 5;
+
+macro_rules! sizes {
+    ($($feature:literal $size:ident),*) => {$(
+        #[cfg(feature = $feature)]
+        pub mod $size {
+            use super::*;
+            use bench_ours::$size::Controller;
+
+            pub struct Ours(Controller);
+
+            pub fn dictionary() -> Ours {
+                Ours(Controller::new(NODE))
+            }
+
+            impl crate::Dictionary for Ours {
+                const NAME: &str = "ours";
+
+                fn read(&self, index: u16, sub: u8) -> Option<[u8; 2]> {
+                    self.0.read(index, sub).ok()?[..].try_into().ok()
+                }
+
+                fn write(&mut self, index: u16, sub: u8, bytes: [u8; 2]) -> bool {
+                    self.0.write(index, sub, &bytes, &mut ()).is_ok()
+                }
+
+                fn find(&self, index: u16, sub: u8) -> bool {
+                    // with access and size, which the peers' lookups give
+                    black_box(Controller::find(index, sub).map(Controller::info)).is_ok()
+                }
+
+                fn setpoint(&self) -> Option<u16> {
+                    Some(self.0.channel_1_setpoint())
+                }
+
+                fn pack(&mut self, frame: &mut [u8; 8]) -> Option<usize> {
+                    let packed = pack(&mut self.0, 1, &mut ()).ok()?;
+                    frame[..packed.len()].copy_from_slice(&packed);
+                    Some(packed.len())
+                }
+
+                fn unpack(&mut self, frame: &[u8]) -> Option<()> {
+                    unpack(&mut self.0, 1, frame, &mut ()).ok().map(drop)
+                }
+            }
+        }
+    )*};
+}
+
+sizes!("size150" size150, "size2000" size2000, "size10000" size10000);
