@@ -8,6 +8,8 @@
     reason = "only where it is inlined, the constant offset makes the bounds check vanish"
 )]
 
+use crate::text::Time;
+
 /// The `N` bytes at an offset.
 #[inline(always)]
 pub fn get<const N: usize>(image: &[u8], at: usize) -> [u8; N] {
@@ -23,6 +25,61 @@ pub fn put<const N: usize>(image: &mut [u8], at: usize, bytes: [u8; N]) {
     if let Some(place) = image.get_mut(at..).and_then(<[u8]>::first_chunk_mut::<N>) {
         *place = bytes;
     }
+}
+
+macro_rules! numbers {
+    ($($get:ident $put:ident $type:ident,)+) => {
+        $(
+            #[doc = concat!("The `", stringify!($type), "` at an offset.")]
+            #[inline(always)]
+            pub fn $get(image: &[u8], at: usize) -> $type {
+                $type::from_le_bytes(get(image, at))
+            }
+
+            #[doc = concat!("Puts an `", stringify!($type), "` at an offset.")]
+            #[inline(always)]
+            pub fn $put(image: &mut [u8], at: usize, value: $type) {
+                put(image, at, value.to_le_bytes());
+            }
+        )+
+    };
+}
+
+numbers! {
+    get_i8 put_i8 i8,
+    get_i16 put_i16 i16,
+    get_i32 put_i32 i32,
+    get_i64 put_i64 i64,
+    get_u8 put_u8 u8,
+    get_u16 put_u16 u16,
+    get_u32 put_u32 u32,
+    get_u64 put_u64 u64,
+    get_f32 put_f32 f32,
+    get_f64 put_f64 f64,
+}
+
+/// The `bool` at an offset: whether the byte is not 0.
+#[inline(always)]
+pub fn get_bool(image: &[u8], at: usize) -> bool {
+    get_u8(image, at) != 0
+}
+
+/// Puts a `bool` at an offset.
+#[inline(always)]
+pub fn put_bool(image: &mut [u8], at: usize, value: bool) {
+    put_u8(image, at, value.into());
+}
+
+/// The [`Time`] at an offset.
+#[inline(always)]
+pub fn get_time(image: &[u8], at: usize) -> Time {
+    Time::from_bytes(get(image, at))
+}
+
+/// Puts a [`Time`] at an offset.
+#[inline(always)]
+pub fn put_time(image: &mut [u8], at: usize, value: Time) {
+    put(image, at, value.to_bytes());
 }
 
 /// An unsigned number of `N` bytes, up to 8.

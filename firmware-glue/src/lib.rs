@@ -43,7 +43,11 @@ pub use constraint::{Constrained, Constraint};
 #[cfg(feature = "defmt")]
 pub use defmt;
 pub use dictionary::{Dictionary, Info};
-pub use image::{OutOfRange, get, put};
+pub use image::{
+    OutOfRange, get_bool, get_f32, get_f64, get_i8, get_i16, get_i32, get_i64, get_time, get_u8, get_u16,
+    get_u32, get_u64, narrow, put_bool, put_f32, put_f64, put_i8, put_i16, put_i32, put_i64, put_time,
+    put_u8, put_u16, put_u32, put_u64,
+};
 pub use named::{BitField, Enumeration, UnknownValue};
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]

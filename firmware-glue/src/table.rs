@@ -59,18 +59,28 @@ pub struct EntryRow {
     pub place: u16,
 }
 
-impl ObjectRow {
-    /// An object at an index, whose entries begin at a row.
-    pub const fn new(index: u16, first: Row) -> Self {
-        Self { index, first }
+/// Objects from pairs of index and first row.
+pub const fn objects<const N: usize>(pairs: [[u16; 2]; N]) -> [ObjectRow; N] {
+    let mut rows = [ObjectRow { index: 0, first: 0 }; N];
+    let mut at = 0;
+    while at < N {
+        let [index, first] = pairs[at];
+        rows[at] = ObjectRow { index, first };
+        at += 1;
     }
+    rows
 }
 
-impl EntryRow {
-    /// An entry with attributes, at a place.
-    pub const fn new(attributes: u16, place: u16) -> Self {
-        Self { attributes, place }
+/// Entries from pairs of attributes and place.
+pub const fn entries<const N: usize>(pairs: [[u16; 2]; N]) -> [EntryRow; N] {
+    let mut rows = [EntryRow { attributes: 0, place: 0 }; N];
+    let mut at = 0;
+    while at < N {
+        let [attributes, place] = pairs[at];
+        rows[at] = EntryRow { attributes, place };
+        at += 1;
     }
+    rows
 }
 
 /// An object whose sub-indices are not 0, 1, 2…

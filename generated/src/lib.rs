@@ -5,8 +5,12 @@
 
 #![no_std]
 
+// The generator's own layout is kept: it is what every build gives, on any machine.
+
 /// Pitch Management Module (PMM): supply, battery, booster and brake chopper.
+#[rustfmt::skip]
 pub mod pmm;
 
 /// Pitch Motion Controller (PMC): the axis controller.
+#[rustfmt::skip]
 pub mod pmc;

@@ -18,53 +18,47 @@ impl Pmc {
     pub const fn new(node_id: u8) -> Self {
         Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
     }
-}
 
-impl Pmc {
     /// `1000h` Device type: Tells which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, ro, default 0x00020192.
     #[inline]
     pub fn device_type(&self) -> types::DeviceTypeCode {
-        types::DeviceTypeCode(u32::from_le_bytes(glue::get(&self.0, 520)))
+        types::DeviceTypeCode(glue::get_u32(&self.0, 520))
     }
 
     /// Sets [`device_type`](Self::device_type).
     #[inline]
     pub fn set_device_type(&mut self, value: types::DeviceTypeCode) {
-        glue::put(&mut self.0, 520, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 520, value.0);
     }
-}
 
-impl Pmc {
     /// `1001h` error register: Groups of the errors that are present, in the layout of CiA 301.
     ///
     /// UNSIGNED8, ro.
     #[inline]
     pub fn error_register(&self) -> types::ErrorRegisterBits {
-        types::ErrorRegisterBits(u8::from_le_bytes(glue::get(&self.0, 694)))
+        types::ErrorRegisterBits(glue::get_u8(&self.0, 694))
     }
 
     /// Sets [`error_register`](Self::error_register).
     #[inline]
     pub fn set_error_register(&mut self, value: types::ErrorRegisterBits) {
-        glue::put(&mut self.0, 694, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 694, value.0);
     }
-}
 
-impl Pmc {
     /// `1003h` Number of errors.
     ///
     /// UNSIGNED8, rw, default 0.
     #[inline]
     pub fn pre_defined_error_field_number_of_errors(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 695))
+        glue::get_u8(&self.0, 695)
     }
 
     /// Sets [`pre_defined_error_field_number_of_errors`](Self::pre_defined_error_field_number_of_errors).
     #[inline]
     pub fn set_pre_defined_error_field_number_of_errors(&mut self, value: u8) {
-        glue::put(&mut self.0, 695, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 695, value);
     }
 
     /// `1003h` pre defined error field: Error history, newest first. The low word of an entry is the error code of Table 6. Warnings are not entered. `sub` is the sub-index, 1 to 1; `None` for any other.
@@ -73,7 +67,7 @@ impl Pmc {
     #[inline]
     pub fn pre_defined_error_field(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 1, 524, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`pre_defined_error_field`](Self::pre_defined_error_field); `None` if it does not exist.
@@ -81,12 +75,10 @@ impl Pmc {
     pub fn set_pre_defined_error_field(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 1, 524, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1008h` Manufacturer device name: Name of the product as its manufacturer writes it. (CiA 301 v4.02, 9.6.3)
     ///
     /// VISIBLE_STRING, const, default PMC.
@@ -94,9 +86,7 @@ impl Pmc {
     pub fn manufacturer_device_name(&self) -> &'static str {
         "PMC"
     }
-}
 
-impl Pmc {
     /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn store_parameters(&self) -> records::StoreParameters<&Self> {
@@ -108,9 +98,7 @@ impl Pmc {
     pub const fn store_parameters_mut(&mut self) -> records::StoreParameters<&mut Self> {
         records::StoreParameters(self)
     }
-}
 
-impl Pmc {
     /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn restore_default_parameters(
@@ -126,25 +114,21 @@ impl Pmc {
     ) -> records::RestoreDefaultParameters<&mut Self> {
         records::RestoreDefaultParameters(self)
     }
-}
 
-impl Pmc {
     /// `1014h` COB-ID EMCY: CAN-ID of the device's emergency message. To change it, first switch the message off (bit 31). (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, rw, default $NODEID+0x80.
     #[inline]
     pub fn cob_id_emcy(&self) -> types::EmcyCobId {
-        types::EmcyCobId(u32::from_le_bytes(glue::get(&self.0, 560)))
+        types::EmcyCobId(glue::get_u32(&self.0, 560))
     }
 
     /// Sets [`cob_id_emcy`](Self::cob_id_emcy).
     #[inline]
     pub fn set_cob_id_emcy(&mut self, value: types::EmcyCobId) {
-        glue::put(&mut self.0, 560, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 560, value.0);
     }
-}
 
-impl Pmc {
     /// `1017h` Producer heartbeat time: Time between two heartbeats of this device, in ms; 0 switches the heartbeat off. A non-zero value takes the place of node guarding. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED16, rw, in ms, 0: heartbeat off, default 0 (heartbeat off).
@@ -152,7 +136,7 @@ impl Pmc {
     pub fn producer_heartbeat_time(
         &self,
     ) -> glue::Special<units::Millisecond<u16>, specials::HeartbeatOff> {
-        match u16::from_le_bytes(glue::get(&self.0, 672)) {
+        match glue::get_u16(&self.0, 672) {
             0 => glue::Special::Special(specials::HeartbeatOff::HeartbeatOff),
             value => glue::Special::Value(units::Millisecond(value)),
         }
@@ -164,19 +148,16 @@ impl Pmc {
         &mut self,
         value: glue::Special<units::Millisecond<u16>, specials::HeartbeatOff>,
     ) {
-        glue::put(
+        glue::put_u16(
             &mut self.0,
             672,
             match value {
                 glue::Special::Value(value) => value.0,
                 glue::Special::Special(specials::HeartbeatOff::HeartbeatOff) => 0,
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmc {
     /// `1018h` Identity object: Says whose product this is, which one and which revision. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn identity_object(&self) -> records::IdentityObject<&Self> {
@@ -188,9 +169,7 @@ impl Pmc {
     pub const fn identity_object_mut(&mut self) -> records::IdentityObject<&mut Self> {
         records::IdentityObject(self)
     }
-}
 
-impl Pmc {
     /// `1200h` SDO server parameter: COB-IDs of the SDO channel that every device has; they follow the node-ID and cannot be changed. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn sdo_server_parameter(&self) -> records::SdoServerParameter<&Self> {
@@ -204,9 +183,7 @@ impl Pmc {
     ) -> records::SdoServerParameter<&mut Self> {
         records::SdoServerParameter(self)
     }
-}
 
-impl Pmc {
     /// `1400h` RPDO 1 communication parameter.
     #[inline]
     pub const fn rpdo_1_communication_parameter(
@@ -222,9 +199,7 @@ impl Pmc {
     ) -> records::Rpdo1CommunicationParameter<&mut Self> {
         records::Rpdo1CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1401h` RPDO 2 communication parameter.
     #[inline]
     pub const fn rpdo_2_communication_parameter(
@@ -240,9 +215,7 @@ impl Pmc {
     ) -> records::Rpdo2CommunicationParameter<&mut Self> {
         records::Rpdo2CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1402h` RPDO 3 communication parameter.
     #[inline]
     pub const fn rpdo_3_communication_parameter(
@@ -258,9 +231,7 @@ impl Pmc {
     ) -> records::Rpdo3CommunicationParameter<&mut Self> {
         records::Rpdo3CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1403h` RPDO 4 communication parameter.
     #[inline]
     pub const fn rpdo_4_communication_parameter(
@@ -276,21 +247,19 @@ impl Pmc {
     ) -> records::Rpdo4CommunicationParameter<&mut Self> {
         records::Rpdo4CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 1, stored with the communication parameters.
     #[inline]
     pub fn rpdo_1_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 292))
+        glue::get_u8(&self.0, 292)
     }
 
     /// Sets [`rpdo_1_mapping_parameter_number_of_mapped_entries`](Self::rpdo_1_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_1_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 292, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 292, value);
     }
 
     /// `1600h` RPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -299,7 +268,7 @@ impl Pmc {
     #[inline]
     pub fn rpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 16, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter); `None` if it does not exist.
@@ -307,24 +276,22 @@ impl Pmc {
     pub fn set_rpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 16, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1601h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 2, stored with the communication parameters.
     #[inline]
     pub fn rpdo_2_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 293))
+        glue::get_u8(&self.0, 293)
     }
 
     /// Sets [`rpdo_2_mapping_parameter_number_of_mapped_entries`](Self::rpdo_2_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_2_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 293, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 293, value);
     }
 
     /// `1601h` RPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -333,7 +300,7 @@ impl Pmc {
     #[inline]
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter); `None` if it does not exist.
@@ -341,24 +308,22 @@ impl Pmc {
     pub fn set_rpdo_2_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1602h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 2, stored with the communication parameters.
     #[inline]
     pub fn rpdo_3_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 294))
+        glue::get_u8(&self.0, 294)
     }
 
     /// Sets [`rpdo_3_mapping_parameter_number_of_mapped_entries`](Self::rpdo_3_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_3_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 294, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 294, value);
     }
 
     /// `1602h` RPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -367,7 +332,7 @@ impl Pmc {
     #[inline]
     pub fn rpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 80, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter); `None` if it does not exist.
@@ -375,24 +340,22 @@ impl Pmc {
     pub fn set_rpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 80, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1603h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 2, stored with the communication parameters.
     #[inline]
     pub fn rpdo_4_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 295))
+        glue::get_u8(&self.0, 295)
     }
 
     /// Sets [`rpdo_4_mapping_parameter_number_of_mapped_entries`](Self::rpdo_4_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_4_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 295, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 295, value);
     }
 
     /// `1603h` RPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -401,7 +364,7 @@ impl Pmc {
     #[inline]
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter); `None` if it does not exist.
@@ -409,12 +372,10 @@ impl Pmc {
     pub fn set_rpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1800h` TPDO 1 communication parameter.
     #[inline]
     pub const fn tpdo_1_communication_parameter(
@@ -430,9 +391,7 @@ impl Pmc {
     ) -> records::Tpdo1CommunicationParameter<&mut Self> {
         records::Tpdo1CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1801h` TPDO 2 communication parameter.
     #[inline]
     pub const fn tpdo_2_communication_parameter(
@@ -448,9 +407,7 @@ impl Pmc {
     ) -> records::Tpdo2CommunicationParameter<&mut Self> {
         records::Tpdo2CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1802h` TPDO 3 communication parameter.
     #[inline]
     pub const fn tpdo_3_communication_parameter(
@@ -466,9 +423,7 @@ impl Pmc {
     ) -> records::Tpdo3CommunicationParameter<&mut Self> {
         records::Tpdo3CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1803h` TPDO 4 communication parameter.
     #[inline]
     pub const fn tpdo_4_communication_parameter(
@@ -484,21 +439,19 @@ impl Pmc {
     ) -> records::Tpdo4CommunicationParameter<&mut Self> {
         records::Tpdo4CommunicationParameter(self)
     }
-}
 
-impl Pmc {
     /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 1, stored with the communication parameters.
     #[inline]
     pub fn tpdo_1_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 300))
+        glue::get_u8(&self.0, 300)
     }
 
     /// Sets [`tpdo_1_mapping_parameter_number_of_mapped_entries`](Self::tpdo_1_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_1_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 300, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 300, value);
     }
 
     /// `1A00h` TPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -507,7 +460,7 @@ impl Pmc {
     #[inline]
     pub fn tpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 160, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter); `None` if it does not exist.
@@ -515,24 +468,22 @@ impl Pmc {
     pub fn set_tpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 160, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1A01h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 2, stored with the communication parameters.
     #[inline]
     pub fn tpdo_2_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 301))
+        glue::get_u8(&self.0, 301)
     }
 
     /// Sets [`tpdo_2_mapping_parameter_number_of_mapped_entries`](Self::tpdo_2_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_2_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 301, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 301, value);
     }
 
     /// `1A01h` TPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -541,7 +492,7 @@ impl Pmc {
     #[inline]
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter); `None` if it does not exist.
@@ -549,24 +500,22 @@ impl Pmc {
     pub fn set_tpdo_2_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1A02h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 2, stored with the communication parameters.
     #[inline]
     pub fn tpdo_3_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 302))
+        glue::get_u8(&self.0, 302)
     }
 
     /// Sets [`tpdo_3_mapping_parameter_number_of_mapped_entries`](Self::tpdo_3_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_3_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 302, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 302, value);
     }
 
     /// `1A02h` TPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -575,7 +524,7 @@ impl Pmc {
     #[inline]
     pub fn tpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 224, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter); `None` if it does not exist.
@@ -583,24 +532,22 @@ impl Pmc {
     pub fn set_tpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 224, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `1A03h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 2, stored with the communication parameters.
     #[inline]
     pub fn tpdo_4_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 303))
+        glue::get_u8(&self.0, 303)
     }
 
     /// Sets [`tpdo_4_mapping_parameter_number_of_mapped_entries`](Self::tpdo_4_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_4_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 303, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 303, value);
     }
 
     /// `1A03h` TPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -609,7 +556,7 @@ impl Pmc {
     #[inline]
     pub fn tpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 256, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter); `None` if it does not exist.
@@ -617,19 +564,17 @@ impl Pmc {
     pub fn set_tpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 256, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `2030h` error field time stamp: Times that belong to the entries of the error history. `sub` is the sub-index, 1 to 1; `None` for any other.
     ///
     /// UNSIGNED32, ro.
     #[inline]
     pub fn error_field_time_stamp(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 1, 588, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`error_field_time_stamp`](Self::error_field_time_stamp); `None` if it does not exist.
@@ -637,99 +582,75 @@ impl Pmc {
     pub fn set_error_field_time_stamp(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 1, 588, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmc {
     /// `5040h` manual control: Commands a manual function in place of mode switch and key button, e.g. from an external operator terminal.
     ///
     /// UNSIGNED8, rw, RPDO, default 0x00.
     #[inline]
     pub fn manual_control(&self) -> types::ManualControl {
-        types::ManualControl(u8::from_le_bytes(glue::get(&self.0, 696)))
+        types::ManualControl(glue::get_u8(&self.0, 696))
     }
 
     /// Sets [`manual_control`](Self::manual_control).
     #[inline]
     pub fn set_manual_control(&mut self, value: types::ManualControl) {
-        glue::put(&mut self.0, 696, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 696, value.0);
     }
-}
 
-impl Pmc {
     /// `5041h` manual status: Feedback of the manual operation.
     ///
     /// UNSIGNED8, ro, TPDO, default 0x00.
     #[inline]
     pub fn manual_status(&self) -> types::ManualStatus {
-        types::ManualStatus(u8::from_le_bytes(glue::get(&self.0, 697)))
+        types::ManualStatus(glue::get_u8(&self.0, 697))
     }
 
     /// Sets [`manual_status`](Self::manual_status).
     #[inline]
     pub fn set_manual_status(&mut self, value: types::ManualStatus) {
-        glue::put(&mut self.0, 697, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 697, value.0);
     }
-}
 
-impl Pmc {
     /// `5064h` position actual value 16bit: Actual position in 16 bits.
     ///
     /// INTEGER16, ro, TPDO, in PU. A view of [`position_actual_value`](Pmc::position_actual_value) (`6064h`); saturates at -32768 and 32767.
     #[inline]
     pub fn position_actual_value_16bit(&self) -> units::PositionUnit<i16> {
         units::PositionUnit(
-            glue::image::narrow(
-                VIEW_5064
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 600)))),
-            ),
+            glue::narrow(VIEW_5064.show_or_zero(i64::from(glue::get_i32(&self.0, 600)))),
         )
     }
-}
 
-impl Pmc {
     /// `506Ch` actual velocity 16bit: Actual velocity in 16 bits.
     ///
     /// INTEGER16, ro, TPDO, in PU/s. A view of [`actual_velocity`](Pmc::actual_velocity) (`606Ch`); saturates at -32768 and 32767.
     #[inline]
     pub fn actual_velocity_16bit(&self) -> units::PositionUnitPerSecond<i16> {
         units::PositionUnitPerSecond(
-            glue::image::narrow(
-                VIEW_506C
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 604)))),
-            ),
+            glue::narrow(VIEW_506C.show_or_zero(i64::from(glue::get_i32(&self.0, 604)))),
         )
     }
-}
 
-impl Pmc {
     /// `5079h` DC link circuit voltage 16bit: DC link voltage in whole volts.
     ///
     /// UNSIGNED16, ro, TPDO, in V. A view of [`dc_link_circuit_voltage`](Pmc::dc_link_circuit_voltage) (`6079h`), times 1/1000, rounded down; saturates at 0 and 65535.
     #[inline]
     pub fn dc_link_circuit_voltage_16bit(&self) -> units::Volt<u16> {
         units::Volt(
-            glue::image::narrow(
-                VIEW_5079
-                    .show_or_zero(i64::from(u32::from_le_bytes(glue::get(&self.0, 608)))),
-            ),
+            glue::narrow(VIEW_5079.show_or_zero(i64::from(glue::get_u32(&self.0, 608)))),
         )
     }
-}
 
-impl Pmc {
     /// `507Ah` target position 16bit: Target position in 16 bits.
     ///
     /// INTEGER16, rw, RPDO, in PU. A view of [`target_position`](Pmc::target_position) (`607Ah`); saturates at -32768 and 32767.
     #[inline]
     pub fn target_position_16bit(&self) -> units::PositionUnit<i16> {
         units::PositionUnit(
-            glue::image::narrow(
-                VIEW_507A
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 612)))),
-            ),
+            glue::narrow(VIEW_507A.show_or_zero(i64::from(glue::get_i32(&self.0, 612)))),
         )
     }
 
@@ -742,22 +663,17 @@ impl Pmc {
         let target = VIEW_507A.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 612, number.to_le_bytes());
+        glue::put_i32(&mut self.0, 612, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `5081h` profile velocity 16bit: Profile velocity in 16 bits.
     ///
     /// UNSIGNED16, rw, RPDO, in PU/s. A view of [`profile_velocity`](Pmc::profile_velocity) (`6081h`); saturates at 0 and 65535.
     #[inline]
     pub fn profile_velocity_16bit(&self) -> units::PositionUnitPerSecond<u16> {
         units::PositionUnitPerSecond(
-            glue::image::narrow(
-                VIEW_5081
-                    .show_or_zero(i64::from(u32::from_le_bytes(glue::get(&self.0, 616)))),
-            ),
+            glue::narrow(VIEW_5081.show_or_zero(i64::from(glue::get_u32(&self.0, 616)))),
         )
     }
 
@@ -770,12 +686,10 @@ impl Pmc {
         let target = VIEW_5081.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
         let number = u32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 616, number.to_le_bytes());
+        glue::put_u32(&mut self.0, 616, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `5083h` profile acceleration 16bit: Profile acceleration in 16 bits.
     ///
     /// UNSIGNED16, rw, RPDO, in PU/s². A view of [`profile_acceleration`](Pmc::profile_acceleration) (`6083h`); saturates at 0 and 65535.
@@ -784,10 +698,7 @@ impl Pmc {
         &self,
     ) -> units::PositionUnitPerSecondSquared<u16> {
         units::PositionUnitPerSecondSquared(
-            glue::image::narrow(
-                VIEW_5083
-                    .show_or_zero(i64::from(u32::from_le_bytes(glue::get(&self.0, 352)))),
-            ),
+            glue::narrow(VIEW_5083.show_or_zero(i64::from(glue::get_u32(&self.0, 352)))),
         )
     }
 
@@ -800,12 +711,10 @@ impl Pmc {
         let target = VIEW_5083.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
         let number = u32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 352, number.to_le_bytes());
+        glue::put_u32(&mut self.0, 352, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `5084h` profile deceleration 16bit: Profile deceleration in 16 bits.
     ///
     /// UNSIGNED16, rw, RPDO, in PU/s², 0: as acceleration. A view of [`profile_deceleration`](Pmc::profile_deceleration) (`6084h`); saturates at 0 and 65535.
@@ -816,12 +725,9 @@ impl Pmc {
         units::PositionUnitPerSecondSquared<u16>,
         specials::AsAcceleration,
     > {
-        match glue::image::narrow::<
+        match glue::narrow::<
             u16,
-        >(
-            VIEW_5084
-                .show_or_zero(i64::from(u32::from_le_bytes(glue::get(&self.0, 356)))),
-        ) {
+        >(VIEW_5084.show_or_zero(i64::from(glue::get_u32(&self.0, 356)))) {
             0 => glue::Special::Special(specials::AsAcceleration::AsAcceleration),
             value => glue::Special::Value(units::PositionUnitPerSecondSquared(value)),
         }
@@ -847,38 +753,31 @@ impl Pmc {
             .map_err(|_| glue::OutOfRange)?;
         let number = u32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 356, number.to_le_bytes());
+        glue::put_u32(&mut self.0, 356, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `5094h` encoder code: Interface of the motor encoder, for the cases that the device cannot find out by itself.
     ///
     /// UNSIGNED16, rw, default ENDAT, stored with the application parameters.
     #[inline]
     pub fn encoder_code(&self) -> types::EncoderCode {
-        types::EncoderCode(u16::from_le_bytes(glue::get(&self.0, 424)))
+        types::EncoderCode(glue::get_u16(&self.0, 424))
     }
 
     /// Sets [`encoder_code`](Self::encoder_code).
     #[inline]
     pub fn set_encoder_code(&mut self, value: types::EncoderCode) {
-        glue::put(&mut self.0, 424, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 424, value.0);
     }
-}
 
-impl Pmc {
     /// `50B0h` position offset 16bit: Position offset in 16 bits.
     ///
     /// INTEGER16, rw, RPDO, in PU. A view of [`position_offset`](Pmc::position_offset) (`60B0h`); saturates at -32768 and 32767.
     #[inline]
     pub fn position_offset_16bit(&self) -> units::PositionUnit<i16> {
         units::PositionUnit(
-            glue::image::narrow(
-                VIEW_50B0
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 620)))),
-            ),
+            glue::narrow(VIEW_50B0.show_or_zero(i64::from(glue::get_i32(&self.0, 620)))),
         )
     }
 
@@ -891,22 +790,17 @@ impl Pmc {
         let target = VIEW_50B0.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 620, number.to_le_bytes());
+        glue::put_i32(&mut self.0, 620, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `50B1h` velocity offset 16bit: Velocity offset in 16 bits.
     ///
     /// INTEGER16, rw, RPDO, in PU/s. A view of [`velocity_offset`](Pmc::velocity_offset) (`60B1h`); saturates at -32768 and 32767.
     #[inline]
     pub fn velocity_offset_16bit(&self) -> units::PositionUnitPerSecond<i16> {
         units::PositionUnitPerSecond(
-            glue::image::narrow(
-                VIEW_50B1
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 624)))),
-            ),
+            glue::narrow(VIEW_50B1.show_or_zero(i64::from(glue::get_i32(&self.0, 624)))),
         )
     }
 
@@ -919,37 +813,27 @@ impl Pmc {
         let target = VIEW_50B1.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 624, number.to_le_bytes());
+        glue::put_i32(&mut self.0, 624, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `50F4h` actual following error 16bit: Following error in 16 bits.
     ///
     /// INTEGER16, ro, TPDO, in PU. A view of [`actual_following_error`](Pmc::actual_following_error) (`60F4h`); saturates at -32768 and 32767.
     #[inline]
     pub fn actual_following_error_16bit(&self) -> units::PositionUnit<i16> {
         units::PositionUnit(
-            glue::image::narrow(
-                VIEW_50F4
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 636)))),
-            ),
+            glue::narrow(VIEW_50F4.show_or_zero(i64::from(glue::get_i32(&self.0, 636)))),
         )
     }
-}
 
-impl Pmc {
     /// `50FFh` target velocity 16bit: Target velocity in 16 bits.
     ///
     /// INTEGER16, rw, RPDO, in PU/s. A view of [`target_velocity`](Pmc::target_velocity) (`60FFh`); saturates at -32768 and 32767.
     #[inline]
     pub fn target_velocity_16bit(&self) -> units::PositionUnitPerSecond<i16> {
         units::PositionUnitPerSecond(
-            glue::image::narrow(
-                VIEW_50FF
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 656)))),
-            ),
+            glue::narrow(VIEW_50FF.show_or_zero(i64::from(glue::get_i32(&self.0, 656)))),
         )
     }
 
@@ -962,19 +846,17 @@ impl Pmc {
         let target = VIEW_50FF.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
-        glue::put(&mut self.0, 656, number.to_le_bytes());
+        glue::put_i32(&mut self.0, 656, number);
         Ok(())
     }
-}
 
-impl Pmc {
     /// `5664h` capture values: Positions captured by the measuring input; the manual lists the object but does not describe it, see 60BAh and 60BBh. `sub` is the sub-index, 1 to 2; `None` for any other.
     ///
     /// INTEGER32, ro, in PU.
     #[inline]
     pub fn capture_values(&self, sub: u8) -> Option<units::PositionUnit<i32>> {
         let offset = glue::image::element(sub, 2, 592, 4)?;
-        Some(units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, offset))))
+        Some(units::PositionUnit(glue::get_i32(&self.0, offset)))
     }
 
     /// Sets an element of [`capture_values`](Self::capture_values); `None` if it does not exist.
@@ -986,34 +868,30 @@ impl Pmc {
     ) -> Option<()> {
         let offset = glue::image::element(sub, 2, 592, 4)?;
 
-        glue::put(&mut self.0, offset, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, offset, value.0);
         Some(())
     }
-}
 
-impl Pmc {
     /// `567Ah` EFC target position: Feather position; the EFC drive copies it to the target position (607Ah).
     ///
     /// INTEGER32, rw, in PU, default 9000 PU, stored with the application parameters.
     #[inline]
     pub fn efc_target_position(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 304)))
+        units::PositionUnit(glue::get_i32(&self.0, 304))
     }
 
     /// Sets [`efc_target_position`](Self::efc_target_position).
     #[inline]
     pub fn set_efc_target_position(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 304, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 304, value.0);
     }
-}
 
-impl Pmc {
     /// `5681h` EFC profile velocity: Velocity of the EFC drive, which copies it to the profile velocity (6081h).
     ///
     /// UNSIGNED32, rw, in PU/s, default 1000 PU/s, stored with the application parameters.
     #[inline]
     pub fn efc_profile_velocity(&self) -> units::PositionUnitPerSecond<u32> {
-        units::PositionUnitPerSecond(u32::from_le_bytes(glue::get(&self.0, 308)))
+        units::PositionUnitPerSecond(glue::get_u32(&self.0, 308))
     }
 
     /// Sets [`efc_profile_velocity`](Self::efc_profile_velocity).
@@ -1022,17 +900,15 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecond<u32>,
     ) {
-        glue::put(&mut self.0, 308, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 308, value.0);
     }
-}
 
-impl Pmc {
     /// `5683h` EFC profile acceleration: Acceleration of the EFC drive, which copies it to the profile acceleration (6083h).
     ///
     /// UNSIGNED32, rw, in PU/s², default 2000 PU/s², stored with the application parameters.
     #[inline]
     pub fn efc_profile_acceleration(&self) -> units::PositionUnitPerSecondSquared<u32> {
-        units::PositionUnitPerSecondSquared(u32::from_le_bytes(glue::get(&self.0, 312)))
+        units::PositionUnitPerSecondSquared(glue::get_u32(&self.0, 312))
     }
 
     /// Sets [`efc_profile_acceleration`](Self::efc_profile_acceleration).
@@ -1041,17 +917,15 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecondSquared<u32>,
     ) {
-        glue::put(&mut self.0, 312, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 312, value.0);
     }
-}
 
-impl Pmc {
     /// `5684h` EFC profile deceleration: Deceleration of the EFC drive, which copies it to the profile deceleration (6084h).
     ///
     /// UNSIGNED32, rw, in PU/s², default 2000 PU/s², stored with the application parameters.
     #[inline]
     pub fn efc_profile_deceleration(&self) -> units::PositionUnitPerSecondSquared<u32> {
-        units::PositionUnitPerSecondSquared(u32::from_le_bytes(glue::get(&self.0, 316)))
+        units::PositionUnitPerSecondSquared(glue::get_u32(&self.0, 316))
     }
 
     /// Sets [`efc_profile_deceleration`](Self::efc_profile_deceleration).
@@ -1060,63 +934,49 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecondSquared<u32>,
     ) {
-        glue::put(&mut self.0, 316, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 316, value.0);
     }
-}
 
-impl Pmc {
     /// `5864h` ae position actual value 16bit: Position of the additional encoder in 16 bits.
     ///
     /// INTEGER16, ro, TPDO, in PU. A view of [`ae_position_actual_value`](Pmc::ae_position_actual_value) (`6864h`); saturates at -32768 and 32767.
     #[inline]
     pub fn ae_position_actual_value_16bit(&self) -> units::PositionUnit<i16> {
         units::PositionUnit(
-            glue::image::narrow(
-                VIEW_5864
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 664)))),
-            ),
+            glue::narrow(VIEW_5864.show_or_zero(i64::from(glue::get_i32(&self.0, 664)))),
         )
     }
-}
 
-impl Pmc {
     /// `5894h` ae encoder code: Interface of the additional encoder, for the cases that the device cannot find out by itself.
     ///
     /// UNSIGNED16, rw, default ENDAT, stored with the application parameters.
     #[inline]
     pub fn ae_encoder_code(&self) -> types::AeEncoderCode {
-        types::AeEncoderCode(u16::from_le_bytes(glue::get(&self.0, 426)))
+        types::AeEncoderCode(glue::get_u16(&self.0, 426))
     }
 
     /// Sets [`ae_encoder_code`](Self::ae_encoder_code).
     #[inline]
     pub fn set_ae_encoder_code(&mut self, value: types::AeEncoderCode) {
-        glue::put(&mut self.0, 426, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 426, value.0);
     }
-}
 
-impl Pmc {
     /// `58F4h` ae actual position difference 16bit: Difference of the two encoders in 16 bits.
     ///
     /// INTEGER16, ro, TPDO, in PU. A view of [`ae_actual_position_difference`](Pmc::ae_actual_position_difference) (`68F4h`); saturates at -32768 and 32767.
     #[inline]
     pub fn ae_actual_position_difference_16bit(&self) -> units::PositionUnit<i16> {
         units::PositionUnit(
-            glue::image::narrow(
-                VIEW_58F4
-                    .show_or_zero(i64::from(i32::from_le_bytes(glue::get(&self.0, 668)))),
-            ),
+            glue::narrow(VIEW_58F4.show_or_zero(i64::from(glue::get_i32(&self.0, 668)))),
         )
     }
-}
 
-impl Pmc {
     /// `6007h` abort connection option code: Reaction to the loss of the connection to the host. With no action or malfunction the axis finishes its last task (a speed controlled drive runs up to the limit switch), so choose those only where that can do no damage.
     ///
     /// INTEGER16, rw, default malfunction, stored with the application parameters.
     #[inline]
     pub fn abort_connection_option_code(&self) -> types::AbortConnectionOptionCode {
-        types::AbortConnectionOptionCode(i16::from_le_bytes(glue::get(&self.0, 428)))
+        types::AbortConnectionOptionCode(glue::get_i16(&self.0, 428))
     }
 
     /// Sets [`abort_connection_option_code`](Self::abort_connection_option_code).
@@ -1125,81 +985,71 @@ impl Pmc {
         &mut self,
         value: types::AbortConnectionOptionCode,
     ) {
-        glue::put(&mut self.0, 428, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 428, value.0);
     }
-}
 
-impl Pmc {
     /// `603Fh` error code: Code of the present error or warning, see Table 6; 0 = none. An error also goes to the low word of 1003h.
     ///
     /// UNSIGNED16, ro, TPDO, default 0.
     #[inline]
     pub fn error_code(&self) -> u16 {
-        u16::from_le_bytes(glue::get(&self.0, 674))
+        glue::get_u16(&self.0, 674)
     }
 
     /// Sets [`error_code`](Self::error_code).
     #[inline]
     pub fn set_error_code(&mut self, value: u16) {
-        glue::put(&mut self.0, 674, value.to_le_bytes());
+        glue::put_u16(&mut self.0, 674, value);
     }
-}
 
-impl Pmc {
     /// `6040h` Controlword: Commands to the drive; a rising bit 7 resets an error, bit 11 starts the EFC drive.
     ///
     /// UNSIGNED16, rw, RPDO. In RPDO 1 ([`Rpdo1`](pdos::Rpdo1)), RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default), RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default).
     #[inline]
     pub fn controlword(&self) -> types::Controlword {
-        types::Controlword(u16::from_le_bytes(glue::get(&self.0, 676)))
+        types::Controlword(glue::get_u16(&self.0, 676))
     }
 
     /// Sets [`controlword`](Self::controlword).
     #[inline]
     pub fn set_controlword(&mut self, value: types::Controlword) {
-        glue::put(&mut self.0, 676, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 676, value.0);
     }
-}
 
-impl Pmc {
     /// `6041h` Statusword: State of the drive.
     ///
     /// UNSIGNED16, ro, TPDO. In TPDO 1 ([`Tpdo1`](pdos::Tpdo1)), TPDO 2 ([`Tpdo2`](pdos::Tpdo2), off by default), TPDO 3 ([`Tpdo3`](pdos::Tpdo3), off by default).
     #[inline]
     pub fn statusword(&self) -> types::Statusword {
-        types::Statusword(u16::from_le_bytes(glue::get(&self.0, 678)))
+        types::Statusword(glue::get_u16(&self.0, 678))
     }
 
     /// Sets [`statusword`](Self::statusword).
     #[inline]
     pub fn set_statusword(&mut self, value: types::Statusword) {
-        glue::put(&mut self.0, 678, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 678, value.0);
     }
-}
 
-impl Pmc {
     /// `6044h` actual motor speed: Speed of the motor shaft.
     ///
     /// INTEGER16, ro, TPDO, in rpm.
     #[inline]
     pub fn actual_motor_speed(&self) -> units::RevolutionPerMinute<i16> {
-        units::RevolutionPerMinute(i16::from_le_bytes(glue::get(&self.0, 680)))
+        units::RevolutionPerMinute(glue::get_i16(&self.0, 680))
     }
 
     /// Sets [`actual_motor_speed`](Self::actual_motor_speed).
     #[inline]
     pub fn set_actual_motor_speed(&mut self, value: units::RevolutionPerMinute<i16>) {
-        glue::put(&mut self.0, 680, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 680, value.0);
     }
-}
 
-impl Pmc {
     /// `605Eh` fault reaction option code: Reaction to a fault of the axis; takes effect only at set-point, following and encoder faults.
     ///
     /// INTEGER16, rw, RPDO, default quick stop ramp, stored with the application parameters.
     #[inline]
     pub fn fault_reaction_option_code(&self) -> types::FaultReactionOptionCode {
-        types::FaultReactionOptionCode(i16::from_le_bytes(glue::get(&self.0, 430)))
+        types::FaultReactionOptionCode(glue::get_i16(&self.0, 430))
     }
 
     /// Sets [`fault_reaction_option_code`](Self::fault_reaction_option_code).
@@ -1208,59 +1058,51 @@ impl Pmc {
         &mut self,
         value: types::FaultReactionOptionCode,
     ) {
-        glue::put(&mut self.0, 430, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 430, value.0);
     }
-}
 
-impl Pmc {
     /// `6060h` modes of operation: Requested mode of operation. Can be changed only while the output stage is off; an EFC signal overrules it.
     ///
     /// INTEGER8, rw, RPDO, default no mode. Writable while `bit(0x6040, 3) == 0 and bit(0x6041, 2) == 0`.
     #[inline]
     pub fn modes_of_operation(&self) -> types::ModesOfOperation {
-        types::ModesOfOperation(i8::from_le_bytes(glue::get(&self.0, 698)))
+        types::ModesOfOperation(glue::get_i8(&self.0, 698))
     }
 
     /// Sets [`modes_of_operation`](Self::modes_of_operation).
     #[inline]
     pub fn set_modes_of_operation(&mut self, value: types::ModesOfOperation) {
-        glue::put(&mut self.0, 698, value.0.to_le_bytes());
+        glue::put_i8(&mut self.0, 698, value.0);
     }
-}
 
-impl Pmc {
     /// `6061h` modes of operation display: Mode of operation in force. The device changes it by itself too; after an EFC drive it stays at profile position mode.
     ///
     /// INTEGER8, ro, TPDO, default no mode.
     #[inline]
     pub fn modes_of_operation_display(&self) -> types::ModesOfOperation {
-        types::ModesOfOperation(i8::from_le_bytes(glue::get(&self.0, 699)))
+        types::ModesOfOperation(glue::get_i8(&self.0, 699))
     }
 
     /// Sets [`modes_of_operation_display`](Self::modes_of_operation_display).
     #[inline]
     pub fn set_modes_of_operation_display(&mut self, value: types::ModesOfOperation) {
-        glue::put(&mut self.0, 699, value.0.to_le_bytes());
+        glue::put_i8(&mut self.0, 699, value.0);
     }
-}
 
-impl Pmc {
     /// `6064h` position actual value: Position of the axis, from the encoder that the sensor selection code (606Ah) names.
     ///
     /// INTEGER32, ro, TPDO, in PU. 16-bit view: [`position_actual_value_16bit`](Pmc::position_actual_value_16bit) (`5064h`). In TPDO 2 ([`Tpdo2`](pdos::Tpdo2), off by default), TPDO 4 ([`Tpdo4`](pdos::Tpdo4), off by default).
     #[inline]
     pub fn position_actual_value(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 600)))
+        units::PositionUnit(glue::get_i32(&self.0, 600))
     }
 
     /// Sets [`position_actual_value`](Self::position_actual_value).
     #[inline]
     pub fn set_position_actual_value(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 600, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 600, value.0);
     }
-}
 
-impl Pmc {
     /// `6065h` following error window: Largest following error in position control. Staying above it for longer than the following error timeout (6066h) is the error 8611h; the reaction is chosen in 605Eh.
     ///
     /// UNSIGNED32, rw, in PU, 4294967295: monitoring off, default 100 PU, stored with the application parameters.
@@ -1268,7 +1110,7 @@ impl Pmc {
     pub fn following_error_window(
         &self,
     ) -> glue::Special<units::PositionUnit<u32>, specials::MonitoringOff> {
-        match u32::from_le_bytes(glue::get(&self.0, 320)) {
+        match glue::get_u32(&self.0, 320) {
             4_294_967_295 => {
                 glue::Special::Special(specials::MonitoringOff::MonitoringOff)
             }
@@ -1282,7 +1124,7 @@ impl Pmc {
         &mut self,
         value: glue::Special<units::PositionUnit<u32>, specials::MonitoringOff>,
     ) {
-        glue::put(
+        glue::put_u32(
             &mut self.0,
             320,
             match value {
@@ -1290,205 +1132,178 @@ impl Pmc {
                 glue::Special::Special(specials::MonitoringOff::MonitoringOff) => {
                     4_294_967_295
                 }
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmc {
     /// `6066h` following error timeout: Time for which the following error may exceed its window (6065h).
     ///
     /// UNSIGNED16, rw, in ms, default 10 ms, stored with the application parameters.
     #[inline]
     pub fn following_error_timeout(&self) -> units::Millisecond<u16> {
-        units::Millisecond(u16::from_le_bytes(glue::get(&self.0, 432)))
+        units::Millisecond(glue::get_u16(&self.0, 432))
     }
 
     /// Sets [`following_error_timeout`](Self::following_error_timeout).
     #[inline]
     pub fn set_following_error_timeout(&mut self, value: units::Millisecond<u16>) {
-        glue::put(&mut self.0, 432, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 432, value.0);
     }
-}
 
-impl Pmc {
     /// `6067h` position window: Distance from the target position, to either side, within which the target counts as reached.
     ///
     /// UNSIGNED32, rw, in PU, default 10 PU, stored with the application parameters.
     #[inline]
     pub fn position_window(&self) -> units::PositionUnit<u32> {
-        units::PositionUnit(u32::from_le_bytes(glue::get(&self.0, 324)))
+        units::PositionUnit(glue::get_u32(&self.0, 324))
     }
 
     /// Sets [`position_window`](Self::position_window).
     #[inline]
     pub fn set_position_window(&mut self, value: units::PositionUnit<u32>) {
-        glue::put(&mut self.0, 324, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 324, value.0);
     }
-}
 
-impl Pmc {
     /// `6068h` position window time: Time for which the actual position must stay in the position window before target reached is set. With 0 it is set even if the axis overshoots.
     ///
     /// UNSIGNED16, rw, in ms, default 10 ms, stored with the application parameters.
     #[inline]
     pub fn position_window_time(&self) -> units::Millisecond<u16> {
-        units::Millisecond(u16::from_le_bytes(glue::get(&self.0, 434)))
+        units::Millisecond(glue::get_u16(&self.0, 434))
     }
 
     /// Sets [`position_window_time`](Self::position_window_time).
     #[inline]
     pub fn set_position_window_time(&mut self, value: units::Millisecond<u16>) {
-        glue::put(&mut self.0, 434, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 434, value.0);
     }
-}
 
-impl Pmc {
     /// `606Ah` sensor selection code: Encoder from which the actual position is taken. Can be switched only while the axis is idle.
     ///
     /// INTEGER16, rw, default motor encoder, stored with the application parameters. Writable while `bit(0x6041, 2) == 0`.
     #[inline]
     pub fn sensor_selection_code(&self) -> types::SensorSelectionCode {
-        types::SensorSelectionCode(i16::from_le_bytes(glue::get(&self.0, 436)))
+        types::SensorSelectionCode(glue::get_i16(&self.0, 436))
     }
 
     /// Sets [`sensor_selection_code`](Self::sensor_selection_code).
     #[inline]
     pub fn set_sensor_selection_code(&mut self, value: types::SensorSelectionCode) {
-        glue::put(&mut self.0, 436, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 436, value.0);
     }
-}
 
-impl Pmc {
     /// `606Ch` actual velocity: Velocity of the axis, calculated with the conversion factors.
     ///
     /// INTEGER32, ro, TPDO, in PU/s. 16-bit view: [`actual_velocity_16bit`](Pmc::actual_velocity_16bit) (`506Ch`). In TPDO 3 ([`Tpdo3`](pdos::Tpdo3), off by default), TPDO 4 ([`Tpdo4`](pdos::Tpdo4), off by default).
     #[inline]
     pub fn actual_velocity(&self) -> units::PositionUnitPerSecond<i32> {
-        units::PositionUnitPerSecond(i32::from_le_bytes(glue::get(&self.0, 604)))
+        units::PositionUnitPerSecond(glue::get_i32(&self.0, 604))
     }
 
     /// Sets [`actual_velocity`](Self::actual_velocity).
     #[inline]
     pub fn set_actual_velocity(&mut self, value: units::PositionUnitPerSecond<i32>) {
-        glue::put(&mut self.0, 604, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 604, value.0);
     }
-}
 
-impl Pmc {
     /// `6073h` max current: Limit of the motor current, relative to the rated current (6076h). Twice the rated current is usual and the most allowed.
     ///
     /// UNSIGNED16, rw, in 0.1 %, up to 200.0 %, default 200.0 %, stored with the application parameters.
     #[inline]
     pub fn max_current(&self) -> units::Permille<u16> {
-        units::Permille(u16::from_le_bytes(glue::get(&self.0, 438)))
+        units::Permille(glue::get_u16(&self.0, 438))
     }
 
     /// Sets [`max_current`](Self::max_current).
     #[inline]
     pub fn set_max_current(&mut self, value: units::Permille<u16>) {
-        glue::put(&mut self.0, 438, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 438, value.0);
     }
-}
 
-impl Pmc {
     /// `6076h` rated current: Nominal current of the motor, from its type plate. CiA 402 has the rated torque at this index.
     ///
     /// UNSIGNED32, rw, in mA, default 17000 mA, stored with the application parameters.
     #[inline]
     pub fn rated_current(&self) -> units::Milliampere<u32> {
-        units::Milliampere(u32::from_le_bytes(glue::get(&self.0, 328)))
+        units::Milliampere(glue::get_u32(&self.0, 328))
     }
 
     /// Sets [`rated_current`](Self::rated_current).
     #[inline]
     pub fn set_rated_current(&mut self, value: units::Milliampere<u32>) {
-        glue::put(&mut self.0, 328, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 328, value.0);
     }
-}
 
-impl Pmc {
     /// `6077h` torque actual value: Motor torque relative to the nominal torque, derived from the controller's internal current value.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 %.
     #[inline]
     pub fn torque_actual_value(&self) -> units::Permille<i16> {
-        units::Permille(i16::from_le_bytes(glue::get(&self.0, 682)))
+        units::Permille(glue::get_i16(&self.0, 682))
     }
 
     /// Sets [`torque_actual_value`](Self::torque_actual_value).
     #[inline]
     pub fn set_torque_actual_value(&mut self, value: units::Permille<i16>) {
-        glue::put(&mut self.0, 682, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 682, value.0);
     }
-}
 
-impl Pmc {
     /// `6078h` current actual value: Measured motor current relative to the rated current (6076h).
     ///
     /// INTEGER16, ro, TPDO, in 0.1 %.
     #[inline]
     pub fn current_actual_value(&self) -> units::Permille<i16> {
-        units::Permille(i16::from_le_bytes(glue::get(&self.0, 684)))
+        units::Permille(glue::get_i16(&self.0, 684))
     }
 
     /// Sets [`current_actual_value`](Self::current_actual_value).
     #[inline]
     pub fn set_current_actual_value(&mut self, value: units::Permille<i16>) {
-        glue::put(&mut self.0, 684, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 684, value.0);
     }
-}
 
-impl Pmc {
     /// `6079h` DC link circuit voltage: DC link voltage, measured at clamp X8.
     ///
     /// UNSIGNED32, ro, TPDO, in mV. 16-bit view: [`dc_link_circuit_voltage_16bit`](Pmc::dc_link_circuit_voltage_16bit) (`5079h`).
     #[inline]
     pub fn dc_link_circuit_voltage(&self) -> units::Millivolt<u32> {
-        units::Millivolt(u32::from_le_bytes(glue::get(&self.0, 608)))
+        units::Millivolt(glue::get_u32(&self.0, 608))
     }
 
     /// Sets [`dc_link_circuit_voltage`](Self::dc_link_circuit_voltage).
     #[inline]
     pub fn set_dc_link_circuit_voltage(&mut self, value: units::Millivolt<u32>) {
-        glue::put(&mut self.0, 608, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 608, value.0);
     }
-}
 
-impl Pmc {
     /// `607Ah` target position: Position to go to in profile position mode and in cyclic synchronous position mode, limited by 607Dh. In homing mode, the position that the present place of the axis is given. An EFC drive overwrites it.
     ///
     /// INTEGER32, rw, RPDO, in PU, default 0 PU. 16-bit view: [`target_position_16bit`](Pmc::target_position_16bit) (`507Ah`). In RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default), RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
     pub fn target_position(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 612)))
+        units::PositionUnit(glue::get_i32(&self.0, 612))
     }
 
     /// Sets [`target_position`](Self::target_position).
     #[inline]
     pub fn set_target_position(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 612, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 612, value.0);
     }
-}
 
-impl Pmc {
     /// `607Ch` home offset: Distance between the zero of the motor encoder and the zero of the application; it is added to the encoder's position. Writable while homing mode is in force; homing sets it. It outlives a power-off only if saved with 1010h.3.
     ///
     /// INTEGER32, rw, in PU, default 0 PU, stored with the application parameters. Writable while `0x6061 == 6`.
     #[inline]
     pub fn home_offset(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 332)))
+        units::PositionUnit(glue::get_i32(&self.0, 332))
     }
 
     /// Sets [`home_offset`](Self::home_offset).
     #[inline]
     pub fn set_home_offset(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 332, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 332, value.0);
     }
-}
 
-impl Pmc {
     /// `607Dh` software position limit: Absolute limits of the target position; a target beyond them is replaced by the limit.
     #[inline]
     pub const fn software_position_limit(
@@ -1504,31 +1319,27 @@ impl Pmc {
     ) -> records::SoftwarePositionLimit<&mut Self> {
         records::SoftwarePositionLimit(self)
     }
-}
 
-impl Pmc {
     /// `607Eh` polarity: Sense of rotation of the axis; set-points and actual positions are taken times 1 or -1.
     ///
     /// UNSIGNED8, rw, default 0x00, stored with the application parameters.
     #[inline]
     pub fn polarity(&self) -> types::Polarity {
-        types::Polarity(u8::from_le_bytes(glue::get(&self.0, 512)))
+        types::Polarity(glue::get_u8(&self.0, 512))
     }
 
     /// Sets [`polarity`](Self::polarity).
     #[inline]
     pub fn set_polarity(&mut self, value: types::Polarity) {
-        glue::put(&mut self.0, 512, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 512, value.0);
     }
-}
 
-impl Pmc {
     /// `607Fh` max profile velocity: Highest velocity at which the axis may be positioned. Must not exceed what the max motor speed (6080h) gives through gear and feed. Larger set-points are reduced to it.
     ///
     /// UNSIGNED32, rw, in PU/s, default 20000 PU/s, stored with the application parameters.
     #[inline]
     pub fn max_profile_velocity(&self) -> units::PositionUnitPerSecond<u32> {
-        units::PositionUnitPerSecond(u32::from_le_bytes(glue::get(&self.0, 344)))
+        units::PositionUnitPerSecond(glue::get_u32(&self.0, 344))
     }
 
     /// Sets [`max_profile_velocity`](Self::max_profile_velocity).
@@ -1537,49 +1348,43 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecond<u32>,
     ) {
-        glue::put(&mut self.0, 344, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 344, value.0);
     }
-}
 
-impl Pmc {
     /// `6080h` max motor speed: Limit of the set-point of the velocity controller.
     ///
     /// UNSIGNED32, rw, in rpm, default 3000 rpm, stored with the application parameters.
     #[inline]
     pub fn max_motor_speed(&self) -> units::RevolutionPerMinute<u32> {
-        units::RevolutionPerMinute(u32::from_le_bytes(glue::get(&self.0, 348)))
+        units::RevolutionPerMinute(glue::get_u32(&self.0, 348))
     }
 
     /// Sets [`max_motor_speed`](Self::max_motor_speed).
     #[inline]
     pub fn set_max_motor_speed(&mut self, value: units::RevolutionPerMinute<u32>) {
-        glue::put(&mut self.0, 348, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 348, value.0);
     }
-}
 
-impl Pmc {
     /// `6081h` profile velocity: Velocity of a positioning in profile position mode; limits cyclic synchronous position mode, too. Above the max profile velocity (607Fh) the smaller value is used. An EFC drive overwrites it.
     ///
     /// UNSIGNED32, rw, RPDO, in PU/s, default 0 PU/s. 16-bit view: [`profile_velocity_16bit`](Pmc::profile_velocity_16bit) (`5081h`). In RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
     pub fn profile_velocity(&self) -> units::PositionUnitPerSecond<u32> {
-        units::PositionUnitPerSecond(u32::from_le_bytes(glue::get(&self.0, 616)))
+        units::PositionUnitPerSecond(glue::get_u32(&self.0, 616))
     }
 
     /// Sets [`profile_velocity`](Self::profile_velocity).
     #[inline]
     pub fn set_profile_velocity(&mut self, value: units::PositionUnitPerSecond<u32>) {
-        glue::put(&mut self.0, 616, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 616, value.0);
     }
-}
 
-impl Pmc {
     /// `6083h` profile acceleration: Acceleration in the modes 1 and 3; limits cyclic synchronous position mode, too. Above the max acceleration (60C5h) the smaller value is used. An EFC drive overwrites it.
     ///
     /// UNSIGNED32, rw, RPDO, in PU/s², default 0 PU/s², stored with the application parameters. 16-bit view: [`profile_acceleration_16bit`](Pmc::profile_acceleration_16bit) (`5083h`).
     #[inline]
     pub fn profile_acceleration(&self) -> units::PositionUnitPerSecondSquared<u32> {
-        units::PositionUnitPerSecondSquared(u32::from_le_bytes(glue::get(&self.0, 352)))
+        units::PositionUnitPerSecondSquared(glue::get_u32(&self.0, 352))
     }
 
     /// Sets [`profile_acceleration`](Self::profile_acceleration).
@@ -1588,11 +1393,9 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecondSquared<u32>,
     ) {
-        glue::put(&mut self.0, 352, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 352, value.0);
     }
-}
 
-impl Pmc {
     /// `6084h` profile deceleration: Deceleration in the modes 1 and 3; limits cyclic synchronous position mode, too. Above the max deceleration (60C6h) the smaller value is used. An EFC drive overwrites it.
     ///
     /// UNSIGNED32, rw, RPDO, in PU/s², 0: as acceleration, default 0 (as acceleration), stored with the application parameters. 16-bit view: [`profile_deceleration_16bit`](Pmc::profile_deceleration_16bit) (`5084h`).
@@ -1603,7 +1406,7 @@ impl Pmc {
         units::PositionUnitPerSecondSquared<u32>,
         specials::AsAcceleration,
     > {
-        match u32::from_le_bytes(glue::get(&self.0, 356)) {
+        match glue::get_u32(&self.0, 356) {
             0 => glue::Special::Special(specials::AsAcceleration::AsAcceleration),
             value => glue::Special::Value(units::PositionUnitPerSecondSquared(value)),
         }
@@ -1618,19 +1421,16 @@ impl Pmc {
             specials::AsAcceleration,
         >,
     ) {
-        glue::put(
+        glue::put_u32(
             &mut self.0,
             356,
             match value {
                 glue::Special::Value(value) => value.0,
                 glue::Special::Special(specials::AsAcceleration::AsAcceleration) => 0,
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmc {
     /// `608Fh` position encoder resolution: Motor encoder increments for one revolution of the motor, as a fraction.
     #[inline]
     pub const fn position_encoder_resolution(
@@ -1646,9 +1446,7 @@ impl Pmc {
     ) -> records::PositionEncoderResolution<&mut Self> {
         records::PositionEncoderResolution(self)
     }
-}
 
-impl Pmc {
     /// `6091h` gear ratio: Revolutions of the motor per revolution of the drive shaft, as a fraction. Gears in series multiply.
     #[inline]
     pub const fn gear_ratio(&self) -> records::GearRatio<&Self> {
@@ -1660,9 +1458,7 @@ impl Pmc {
     pub const fn gear_ratio_mut(&mut self) -> records::GearRatio<&mut Self> {
         records::GearRatio(self)
     }
-}
 
-impl Pmc {
     /// `6092h` feed constant: Travel per revolution of the drive shaft, as a fraction. Used when the motor encoder closes the position loop (606Ah = 0).
     #[inline]
     pub const fn feed_constant(&self) -> records::FeedConstant<&Self> {
@@ -1674,89 +1470,77 @@ impl Pmc {
     pub const fn feed_constant_mut(&mut self) -> records::FeedConstant<&mut Self> {
         records::FeedConstant(self)
     }
-}
 
-impl Pmc {
     /// `6098h` homing method: How the axis gets its zero point. It has to stand and to be disabled when bit 4 of the Controlword starts the referencing.
     ///
     /// INTEGER8, rw, default current position, stored with the application parameters.
     #[inline]
     pub fn homing_method(&self) -> types::HomingMethod {
-        types::HomingMethod(i8::from_le_bytes(glue::get(&self.0, 513)))
+        types::HomingMethod(glue::get_i8(&self.0, 513))
     }
 
     /// Sets [`homing_method`](Self::homing_method).
     #[inline]
     pub fn set_homing_method(&mut self, value: types::HomingMethod) {
-        glue::put(&mut self.0, 513, value.0.to_le_bytes());
+        glue::put_i8(&mut self.0, 513, value.0);
     }
-}
 
-impl Pmc {
     /// `60B0h` Position offset: In cyclic synchronous position mode, added to the target position; the sum is checked against the position limits.
     ///
     /// INTEGER32, rw, RPDO, in PU, default 0 PU. 16-bit view: [`position_offset_16bit`](Pmc::position_offset_16bit) (`50B0h`).
     #[inline]
     pub fn position_offset(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 620)))
+        units::PositionUnit(glue::get_i32(&self.0, 620))
     }
 
     /// Sets [`position_offset`](Self::position_offset).
     #[inline]
     pub fn set_position_offset(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 620, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 620, value.0);
     }
-}
 
-impl Pmc {
     /// `60B1h` Velocity offset: Velocity pre-control in cyclic synchronous position mode; in cyclic synchronous velocity mode an offset that is added to the target velocity.
     ///
     /// INTEGER32, rw, RPDO, in PU/s, default 0 PU/s. 16-bit view: [`velocity_offset_16bit`](Pmc::velocity_offset_16bit) (`50B1h`).
     #[inline]
     pub fn velocity_offset(&self) -> units::PositionUnitPerSecond<i32> {
-        units::PositionUnitPerSecond(i32::from_le_bytes(glue::get(&self.0, 624)))
+        units::PositionUnitPerSecond(glue::get_i32(&self.0, 624))
     }
 
     /// Sets [`velocity_offset`](Self::velocity_offset).
     #[inline]
     pub fn set_velocity_offset(&mut self, value: units::PositionUnitPerSecond<i32>) {
-        glue::put(&mut self.0, 624, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 624, value.0);
     }
-}
 
-impl Pmc {
     /// `60BAh` touch probe pos 1 pos value: Actual position at the last rising edge (0 V to 24 V) of the probe input X4.7, sampled every millisecond.
     ///
     /// INTEGER32, ro, in PU.
     #[inline]
     pub fn touch_probe_pos_1_pos_value(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 628)))
+        units::PositionUnit(glue::get_i32(&self.0, 628))
     }
 
     /// Sets [`touch_probe_pos_1_pos_value`](Self::touch_probe_pos_1_pos_value).
     #[inline]
     pub fn set_touch_probe_pos_1_pos_value(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 628, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 628, value.0);
     }
-}
 
-impl Pmc {
     /// `60BBh` touch probe pos 1 neg value: Actual position at the last falling edge (24 V to 0 V) of the probe input X4.7, sampled every millisecond.
     ///
     /// INTEGER32, ro, in PU.
     #[inline]
     pub fn touch_probe_pos_1_neg_value(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 632)))
+        units::PositionUnit(glue::get_i32(&self.0, 632))
     }
 
     /// Sets [`touch_probe_pos_1_neg_value`](Self::touch_probe_pos_1_neg_value).
     #[inline]
     pub fn set_touch_probe_pos_1_neg_value(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 632, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 632, value.0);
     }
-}
 
-impl Pmc {
     /// `60C2h` Interpolation time period: Time between two cyclic set-points, value times ten to the power of the index, in seconds. Must be a whole multiple of the SYNC period; the device interpolates down to its position cycle of 1 ms.
     #[inline]
     pub const fn interpolation_time_period(
@@ -1772,15 +1556,13 @@ impl Pmc {
     ) -> records::InterpolationTimePeriod<&mut Self> {
         records::InterpolationTimePeriod(self)
     }
-}
 
-impl Pmc {
     /// `60C5h` max acceleration: Upper limit of the profile acceleration (6083h).
     ///
     /// UNSIGNED32, rw, RPDO, in PU/s², default 2000 PU/s², stored with the application parameters.
     #[inline]
     pub fn max_acceleration(&self) -> units::PositionUnitPerSecondSquared<u32> {
-        units::PositionUnitPerSecondSquared(u32::from_le_bytes(glue::get(&self.0, 384)))
+        units::PositionUnitPerSecondSquared(glue::get_u32(&self.0, 384))
     }
 
     /// Sets [`max_acceleration`](Self::max_acceleration).
@@ -1789,17 +1571,15 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecondSquared<u32>,
     ) {
-        glue::put(&mut self.0, 384, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 384, value.0);
     }
-}
 
-impl Pmc {
     /// `60C6h` max deceleration: Upper limit of the profile deceleration (6084h). The manual does not say what its default of 0 means.
     ///
     /// UNSIGNED32, rw, RPDO, in PU/s², default 0 PU/s², stored with the application parameters.
     #[inline]
     pub fn max_deceleration(&self) -> units::PositionUnitPerSecondSquared<u32> {
-        units::PositionUnitPerSecondSquared(u32::from_le_bytes(glue::get(&self.0, 388)))
+        units::PositionUnitPerSecondSquared(glue::get_u32(&self.0, 388))
     }
 
     /// Sets [`max_deceleration`](Self::max_deceleration).
@@ -1808,27 +1588,23 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecondSquared<u32>,
     ) {
-        glue::put(&mut self.0, 388, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 388, value.0);
     }
-}
 
-impl Pmc {
     /// `60F4h` actual following error: Difference between set-point and actual position.
     ///
     /// INTEGER32, ro, TPDO, in PU. 16-bit view: [`actual_following_error_16bit`](Pmc::actual_following_error_16bit) (`50F4h`).
     #[inline]
     pub fn actual_following_error(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 636)))
+        units::PositionUnit(glue::get_i32(&self.0, 636))
     }
 
     /// Sets [`actual_following_error`](Self::actual_following_error).
     #[inline]
     pub fn set_actual_following_error(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 636, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 636, value.0);
     }
-}
 
-impl Pmc {
     /// `60F6h` torque control parameter set: The innermost loop, a PI controller. The values come from the motor database; only qualified staff may change them.
     #[inline]
     pub const fn torque_control_parameter_set(
@@ -1844,9 +1620,7 @@ impl Pmc {
     ) -> records::TorqueControlParameterSet<&mut Self> {
         records::TorqueControlParameterSet(self)
     }
-}
 
-impl Pmc {
     /// `60F9h` velocity control parameter set: The velocity loop, a PID controller, with brake and inverter settings. The values come from the motor database.
     #[inline]
     pub const fn velocity_control_parameter_set(
@@ -1862,9 +1636,7 @@ impl Pmc {
     ) -> records::VelocityControlParameterSet<&mut Self> {
         records::VelocityControlParameterSet(self)
     }
-}
 
-impl Pmc {
     /// `60FBh` position control parameter set: The position loop, a proportional controller.
     #[inline]
     pub const fn position_control_parameter_set(
@@ -1880,25 +1652,21 @@ impl Pmc {
     ) -> records::PositionControlParameterSet<&mut Self> {
         records::PositionControlParameterSet(self)
     }
-}
 
-impl Pmc {
     /// `60FDh` digital inputs: Level of the inputs; 1 is 24 V. Bits 0 to 15 are as in CiA 402, bits 16 to 31 the manufacturer's.
     ///
     /// UNSIGNED32, ro, TPDO, default 0x00000000.
     #[inline]
     pub fn digital_inputs(&self) -> types::PmcDigitalInputs {
-        types::PmcDigitalInputs(u32::from_le_bytes(glue::get(&self.0, 640)))
+        types::PmcDigitalInputs(glue::get_u32(&self.0, 640))
     }
 
     /// Sets [`digital_inputs`](Self::digital_inputs).
     #[inline]
     pub fn set_digital_inputs(&mut self, value: types::PmcDigitalInputs) {
-        glue::put(&mut self.0, 640, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 640, value.0);
     }
-}
 
-impl Pmc {
     /// `60FEh` digital outputs: The PMC has no output that can be set from outside (state of July 2007); the internal ones can be read back.
     #[inline]
     pub const fn digital_outputs(&self) -> records::DigitalOutputs<&Self> {
@@ -1910,41 +1678,35 @@ impl Pmc {
     pub const fn digital_outputs_mut(&mut self) -> records::DigitalOutputs<&mut Self> {
         records::DigitalOutputs(self)
     }
-}
 
-impl Pmc {
     /// `60FFh` target velocity: Velocity in profile velocity mode and in cyclic synchronous velocity mode. Above the max profile velocity (607Fh) the smaller value is used. The value received last stays in force; no time-out of cyclic set-points is described.
     ///
     /// INTEGER32, rw, RPDO, in PU/s, default 0 PU/s. 16-bit view: [`target_velocity_16bit`](Pmc::target_velocity_16bit) (`50FFh`). In RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default).
     #[inline]
     pub fn target_velocity(&self) -> units::PositionUnitPerSecond<i32> {
-        units::PositionUnitPerSecond(i32::from_le_bytes(glue::get(&self.0, 656)))
+        units::PositionUnitPerSecond(glue::get_i32(&self.0, 656))
     }
 
     /// Sets [`target_velocity`](Self::target_velocity).
     #[inline]
     pub fn set_target_velocity(&mut self, value: units::PositionUnitPerSecond<i32>) {
-        glue::put(&mut self.0, 656, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 656, value.0);
     }
-}
 
-impl Pmc {
     /// `6402h` motor type: Kind of motor that is connected.
     ///
     /// UNSIGNED16, rw, default non-standard motor, stored with the application parameters.
     #[inline]
     pub fn motor_type(&self) -> types::MotorType {
-        types::MotorType(u16::from_le_bytes(glue::get(&self.0, 466)))
+        types::MotorType(glue::get_u16(&self.0, 466))
     }
 
     /// Sets [`motor_type`](Self::motor_type).
     #[inline]
     pub fn set_motor_type(&mut self, value: types::MotorType) {
-        glue::put(&mut self.0, 466, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 466, value.0);
     }
-}
 
-impl Pmc {
     /// `6410h` motor data: Manufacturer's data of the motor, from the motor database. Only qualified staff may change them.
     #[inline]
     pub const fn motor_data(&self) -> records::MotorData<&Self> {
@@ -1956,25 +1718,21 @@ impl Pmc {
     pub const fn motor_data_mut(&mut self) -> records::MotorData<&mut Self> {
         records::MotorData(self)
     }
-}
 
-impl Pmc {
     /// `6502h` supported drive modes: Modes of operation that the device has; motor heating is not shown.
     ///
     /// UNSIGNED32, ro, default 0x000001A5.
     #[inline]
     pub fn supported_drive_modes(&self) -> types::SupportedDriveModes {
-        types::SupportedDriveModes(u32::from_le_bytes(glue::get(&self.0, 660)))
+        types::SupportedDriveModes(glue::get_u32(&self.0, 660))
     }
 
     /// Sets [`supported_drive_modes`](Self::supported_drive_modes).
     #[inline]
     pub fn set_supported_drive_modes(&mut self, value: types::SupportedDriveModes) {
-        glue::put(&mut self.0, 660, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 660, value.0);
     }
-}
 
-impl Pmc {
     /// `6510h` drive data: Data of the drive for which CiA 402 has no object.
     #[inline]
     pub const fn drive_data(&self) -> records::DriveData<&Self> {
@@ -1986,89 +1744,77 @@ impl Pmc {
     pub const fn drive_data_mut(&mut self) -> records::DriveData<&mut Self> {
         records::DriveData(self)
     }
-}
 
-impl Pmc {
     /// `6864h` ae position actual value: Position of the additional encoder, whatever the sensor selection code says.
     ///
     /// INTEGER32, ro, TPDO, in PU. 16-bit view: [`ae_position_actual_value_16bit`](Pmc::ae_position_actual_value_16bit) (`5864h`).
     #[inline]
     pub fn ae_position_actual_value(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 664)))
+        units::PositionUnit(glue::get_i32(&self.0, 664))
     }
 
     /// Sets [`ae_position_actual_value`](Self::ae_position_actual_value).
     #[inline]
     pub fn set_ae_position_actual_value(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 664, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 664, value.0);
     }
-}
 
-impl Pmc {
     /// `6865h` difference error window: How far motor and blade encoder may differ. Above it for longer than 6866h is the error 8620h.
     ///
     /// UNSIGNED32, rw, in PU, default 0 PU, stored with the application parameters.
     #[inline]
     pub fn difference_error_window(&self) -> units::PositionUnit<u32> {
-        units::PositionUnit(u32::from_le_bytes(glue::get(&self.0, 392)))
+        units::PositionUnit(glue::get_u32(&self.0, 392))
     }
 
     /// Sets [`difference_error_window`](Self::difference_error_window).
     #[inline]
     pub fn set_difference_error_window(&mut self, value: units::PositionUnit<u32>) {
-        glue::put(&mut self.0, 392, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 392, value.0);
     }
-}
 
-impl Pmc {
     /// `6866h` difference error time out: Time for which the difference of the encoders (68F4h) may exceed its window (6865h).
     ///
     /// UNSIGNED16, rw, in ms, default 0 ms, stored with the application parameters.
     #[inline]
     pub fn difference_error_time_out(&self) -> units::Millisecond<u16> {
-        units::Millisecond(u16::from_le_bytes(glue::get(&self.0, 510)))
+        units::Millisecond(glue::get_u16(&self.0, 510))
     }
 
     /// Sets [`difference_error_time_out`](Self::difference_error_time_out).
     #[inline]
     pub fn set_difference_error_time_out(&mut self, value: units::Millisecond<u16>) {
-        glue::put(&mut self.0, 510, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 510, value.0);
     }
-}
 
-impl Pmc {
     /// `687Ch` ae home offset: Distance between the zero of the additional encoder and the zero of the application; it is added to the encoder's position. Writable while homing mode is in force; homing sets it. It outlives a power-off only if saved with 1010h.3.
     ///
     /// INTEGER32, rw, in PU, default 0 PU, stored with the application parameters. Writable while `0x6061 == 6`.
     #[inline]
     pub fn ae_home_offset(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 396)))
+        units::PositionUnit(glue::get_i32(&self.0, 396))
     }
 
     /// Sets [`ae_home_offset`](Self::ae_home_offset).
     #[inline]
     pub fn set_ae_home_offset(&mut self, value: units::PositionUnit<i32>) {
-        glue::put(&mut self.0, 396, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 396, value.0);
     }
-}
 
-impl Pmc {
     /// `687Eh` ae polarity: Sense of counting of the additional encoder. A wrong sense turns the position loop into positive feedback.
     ///
     /// UNSIGNED8, rw, default 0x00, stored with the application parameters.
     #[inline]
     pub fn ae_polarity(&self) -> types::Polarity {
-        types::Polarity(u8::from_le_bytes(glue::get(&self.0, 516)))
+        types::Polarity(glue::get_u8(&self.0, 516))
     }
 
     /// Sets [`ae_polarity`](Self::ae_polarity).
     #[inline]
     pub fn set_ae_polarity(&mut self, value: types::Polarity) {
-        glue::put(&mut self.0, 516, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 516, value.0);
     }
-}
 
-impl Pmc {
     /// `688Fh` ae resolution: Increments of the additional encoder per revolution of that encoder, as a fraction.
     #[inline]
     pub const fn ae_resolution(&self) -> records::AeResolution<&Self> {
@@ -2080,9 +1826,7 @@ impl Pmc {
     pub const fn ae_resolution_mut(&mut self) -> records::AeResolution<&mut Self> {
         records::AeResolution(self)
     }
-}
 
-impl Pmc {
     /// `6891h` ae gear ratio: Revolutions of the additional encoder per revolution of the drive shaft, as a fraction.
     #[inline]
     pub const fn ae_gear_ratio(&self) -> records::AeGearRatio<&Self> {
@@ -2094,9 +1838,7 @@ impl Pmc {
     pub const fn ae_gear_ratio_mut(&mut self) -> records::AeGearRatio<&mut Self> {
         records::AeGearRatio(self)
     }
-}
 
-impl Pmc {
     /// `6892h` ae feed constant: Travel per revolution of the drive shaft, as a fraction, for position control with the additional encoder.
     #[inline]
     pub const fn ae_feed_constant(&self) -> records::AeFeedConstant<&Self> {
@@ -2108,15 +1850,13 @@ impl Pmc {
     pub const fn ae_feed_constant_mut(&mut self) -> records::AeFeedConstant<&mut Self> {
         records::AeFeedConstant(self)
     }
-}
 
-impl Pmc {
     /// `68F4h` ae actual position difference: Motor encoder position minus additional encoder position, calculated in every sampling cycle.
     ///
     /// INTEGER32, ro, TPDO, in PU, default 0 PU. 16-bit view: [`ae_actual_position_difference_16bit`](Pmc::ae_actual_position_difference_16bit) (`58F4h`).
     #[inline]
     pub fn ae_actual_position_difference(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(i32::from_le_bytes(glue::get(&self.0, 668)))
+        units::PositionUnit(glue::get_i32(&self.0, 668))
     }
 
     /// Sets [`ae_actual_position_difference`](Self::ae_actual_position_difference).
@@ -2125,7 +1865,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnit<i32>,
     ) {
-        glue::put(&mut self.0, 668, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 668, value.0);
     }
 }
 
@@ -2685,7 +2425,7 @@ pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
     /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct StoreParameters<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> StoreParameters<D> {
@@ -2694,9 +2434,7 @@ pub mod records {
         /// UNSIGNED32, rw, 1702257011: save.
         #[inline]
         pub fn save_all_parameters(&self) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 528)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 528))
         }
 
         /// `1010h.2` Save communication parameters: Saves 1000h to 1FFFh and the manufacturer's communication parameters.
@@ -2704,9 +2442,7 @@ pub mod records {
         /// UNSIGNED32, rw, 1702257011: save.
         #[inline]
         pub fn save_communication_parameters(&self) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 532)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 532))
         }
 
         /// `1010h.3` Save application parameters: Saves 6000h to 9FFFh and the manufacturer's application parameters.
@@ -2714,9 +2450,7 @@ pub mod records {
         /// UNSIGNED32, rw, 1702257011: save.
         #[inline]
         pub fn save_application_parameters(&self) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 536)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 536))
         }
 
         /// `1010h.4` Save manufacturer defined parameters: Saves a group of parameters that the manufacturer chose.
@@ -2726,9 +2460,7 @@ pub mod records {
         pub fn save_manufacturer_defined_parameters(
             &self,
         ) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 540)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 540))
         }
     }
 
@@ -2736,7 +2468,7 @@ pub mod records {
         /// Sets [`save_all_parameters`](Self::save_all_parameters).
         #[inline]
         pub fn set_save_all_parameters(&mut self, value: super::types::StoreCapability) {
-            super::glue::put(&mut self.0.borrow_mut().0, 528, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 528, value.0);
         }
 
         /// Sets [`save_communication_parameters`](Self::save_communication_parameters).
@@ -2745,7 +2477,7 @@ pub mod records {
             &mut self,
             value: super::types::StoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 532, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 532, value.0);
         }
 
         /// Sets [`save_application_parameters`](Self::save_application_parameters).
@@ -2754,7 +2486,7 @@ pub mod records {
             &mut self,
             value: super::types::StoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 536, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 536, value.0);
         }
 
         /// Sets [`save_manufacturer_defined_parameters`](Self::save_manufacturer_defined_parameters).
@@ -2763,12 +2495,12 @@ pub mod records {
             &mut self,
             value: super::types::StoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 540, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 540, value.0);
         }
     }
 
     /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct RestoreDefaultParameters<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> RestoreDefaultParameters<D> {
@@ -2778,7 +2510,7 @@ pub mod records {
         #[inline]
         pub fn restore_all_default_parameters(&self) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 544)),
+                super::glue::get_u32(&self.0.borrow().0, 544),
             )
         }
 
@@ -2790,7 +2522,7 @@ pub mod records {
             &self,
         ) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 548)),
+                super::glue::get_u32(&self.0.borrow().0, 548),
             )
         }
 
@@ -2802,7 +2534,7 @@ pub mod records {
             &self,
         ) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 552)),
+                super::glue::get_u32(&self.0.borrow().0, 552),
             )
         }
 
@@ -2814,7 +2546,7 @@ pub mod records {
             &self,
         ) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 556)),
+                super::glue::get_u32(&self.0.borrow().0, 556),
             )
         }
     }
@@ -2826,7 +2558,7 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 544, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 544, value.0);
         }
 
         /// Sets [`restore_communication_default_parameters`](Self::restore_communication_default_parameters).
@@ -2835,7 +2567,7 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 548, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 548, value.0);
         }
 
         /// Sets [`restore_application_default_parameters`](Self::restore_application_default_parameters).
@@ -2844,7 +2576,7 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 552, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 552, value.0);
         }
 
         /// Sets [`restore_manufacturer_defined_default_parameters`](Self::restore_manufacturer_defined_default_parameters).
@@ -2853,12 +2585,12 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 556, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 556, value.0);
         }
     }
 
     /// `1018h` Identity object: Says whose product this is, which one and which revision. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct IdentityObject<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> IdentityObject<D> {
@@ -2867,7 +2599,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 564))
+            super::glue::get_u32(&self.0.borrow().0, 564)
         }
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
@@ -2875,7 +2607,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0.
         #[inline]
         pub fn product_code(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 568))
+            super::glue::get_u32(&self.0.borrow().0, 568)
         }
 
         /// `1018h.3` Revision number: Revision of the product; the high word changes when its CANopen behaviour changes.
@@ -2883,9 +2615,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn revision_number(&self) -> super::types::RevisionCode {
-            super::types::RevisionCode(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 572)),
-            )
+            super::types::RevisionCode(super::glue::get_u32(&self.0.borrow().0, 572))
         }
 
         /// `1018h.4` Serial number: Number of this single device; LSS needs it.
@@ -2893,7 +2623,7 @@ pub mod records {
         /// UNSIGNED32, ro.
         #[inline]
         pub fn serial_number(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 576))
+            super::glue::get_u32(&self.0.borrow().0, 576)
         }
     }
 
@@ -2901,30 +2631,30 @@ pub mod records {
         /// Sets [`vendor_id`](Self::vendor_id).
         #[inline]
         pub fn set_vendor_id(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 564, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 564, value);
         }
 
         /// Sets [`product_code`](Self::product_code).
         #[inline]
         pub fn set_product_code(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 568, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 568, value);
         }
 
         /// Sets [`revision_number`](Self::revision_number).
         #[inline]
         pub fn set_revision_number(&mut self, value: super::types::RevisionCode) {
-            super::glue::put(&mut self.0.borrow_mut().0, 572, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 572, value.0);
         }
 
         /// Sets [`serial_number`](Self::serial_number).
         #[inline]
         pub fn set_serial_number(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 576, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 576, value);
         }
     }
 
     /// `1200h` SDO server parameter: COB-IDs of the SDO channel that every device has; they follow the node-ID and cannot be changed. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct SdoServerParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> SdoServerParameter<D> {
@@ -2933,9 +2663,7 @@ pub mod records {
         /// UNSIGNED32, ro, default $NODEID+0x600.
         #[inline]
         pub fn cob_id_client_to_server_rx(&self) -> super::types::SdoCobId {
-            super::types::SdoCobId(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 580)),
-            )
+            super::types::SdoCobId(super::glue::get_u32(&self.0.borrow().0, 580))
         }
 
         /// `1200h.2` COB-ID server to client (tx): CAN-ID of this device's answers.
@@ -2943,9 +2671,7 @@ pub mod records {
         /// UNSIGNED32, ro, default $NODEID+0x580.
         #[inline]
         pub fn cob_id_server_to_client_tx(&self) -> super::types::SdoCobId {
-            super::types::SdoCobId(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 584)),
-            )
+            super::types::SdoCobId(super::glue::get_u32(&self.0.borrow().0, 584))
         }
     }
 
@@ -2953,18 +2679,18 @@ pub mod records {
         /// Sets [`cob_id_client_to_server_rx`](Self::cob_id_client_to_server_rx).
         #[inline]
         pub fn set_cob_id_client_to_server_rx(&mut self, value: super::types::SdoCobId) {
-            super::glue::put(&mut self.0.borrow_mut().0, 580, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 580, value.0);
         }
 
         /// Sets [`cob_id_server_to_client_tx`](Self::cob_id_server_to_client_tx).
         #[inline]
         pub fn set_cob_id_server_to_client_tx(&mut self, value: super::types::SdoCobId) {
-            super::glue::put(&mut self.0.borrow_mut().0, 584, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 584, value.0);
         }
     }
 
     /// `1400h` RPDO 1 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo1CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Rpdo1CommunicationParameter<D> {
@@ -2973,7 +2699,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x200, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 0))
+            super::glue::get_u32(&self.0.borrow().0, 0)
         }
 
         /// `1400h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2981,7 +2707,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 288))
+            super::glue::get_u8(&self.0.borrow().0, 288)
         }
     }
 
@@ -2989,18 +2715,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 0, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 0, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 288, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 288, value);
         }
     }
 
     /// `1401h` RPDO 2 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo2CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Rpdo2CommunicationParameter<D> {
@@ -3009,7 +2735,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 4))
+            super::glue::get_u32(&self.0.borrow().0, 4)
         }
 
         /// `1401h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3017,7 +2743,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 289))
+            super::glue::get_u8(&self.0.borrow().0, 289)
         }
     }
 
@@ -3025,18 +2751,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 4, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 4, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 289, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 289, value);
         }
     }
 
     /// `1402h` RPDO 3 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo3CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Rpdo3CommunicationParameter<D> {
@@ -3045,7 +2771,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 8))
+            super::glue::get_u32(&self.0.borrow().0, 8)
         }
 
         /// `1402h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3053,7 +2779,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 290))
+            super::glue::get_u8(&self.0.borrow().0, 290)
         }
     }
 
@@ -3061,18 +2787,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 8, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 8, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 290, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 290, value);
         }
     }
 
     /// `1403h` RPDO 4 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo4CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Rpdo4CommunicationParameter<D> {
@@ -3081,7 +2807,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 12))
+            super::glue::get_u32(&self.0.borrow().0, 12)
         }
 
         /// `1403h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3089,7 +2815,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 291))
+            super::glue::get_u8(&self.0.borrow().0, 291)
         }
     }
 
@@ -3097,18 +2823,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 12, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 12, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 291, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 291, value);
         }
     }
 
     /// `1800h` TPDO 1 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo1CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Tpdo1CommunicationParameter<D> {
@@ -3117,7 +2843,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x40000180, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 144))
+            super::glue::get_u32(&self.0.borrow().0, 144)
         }
 
         /// `1800h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3125,7 +2851,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 296))
+            super::glue::get_u8(&self.0.borrow().0, 296)
         }
     }
 
@@ -3133,18 +2859,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 144, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 144, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 296, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 296, value);
         }
     }
 
     /// `1801h` TPDO 2 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo2CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Tpdo2CommunicationParameter<D> {
@@ -3153,7 +2879,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0xC0000280, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 148))
+            super::glue::get_u32(&self.0.borrow().0, 148)
         }
 
         /// `1801h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3161,7 +2887,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 297))
+            super::glue::get_u8(&self.0.borrow().0, 297)
         }
     }
 
@@ -3169,18 +2895,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 148, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 148, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 297, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 297, value);
         }
     }
 
     /// `1802h` TPDO 3 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo3CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Tpdo3CommunicationParameter<D> {
@@ -3189,7 +2915,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0xC0000380, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 152))
+            super::glue::get_u32(&self.0.borrow().0, 152)
         }
 
         /// `1802h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3197,7 +2923,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 298))
+            super::glue::get_u8(&self.0.borrow().0, 298)
         }
     }
 
@@ -3205,18 +2931,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 152, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 152, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 298, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 298, value);
         }
     }
 
     /// `1803h` TPDO 4 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo4CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> Tpdo4CommunicationParameter<D> {
@@ -3225,7 +2951,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0xC0000480, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 156))
+            super::glue::get_u32(&self.0.borrow().0, 156)
         }
 
         /// `1803h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3233,7 +2959,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 299))
+            super::glue::get_u8(&self.0.borrow().0, 299)
         }
     }
 
@@ -3241,18 +2967,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 156, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 156, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 299, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 299, value);
         }
     }
 
     /// `607Dh` software position limit: Absolute limits of the target position; a target beyond them is replaced by the limit.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct SoftwarePositionLimit<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> SoftwarePositionLimit<D> {
@@ -3261,9 +2987,7 @@ pub mod records {
         /// INTEGER32, rw, in PU, default 0 PU, stored with the application parameters.
         #[inline]
         pub fn min_position_limit(&self) -> super::units::PositionUnit<i32> {
-            super::units::PositionUnit(
-                i32::from_le_bytes(super::glue::get(&self.0.borrow().0, 336)),
-            )
+            super::units::PositionUnit(super::glue::get_i32(&self.0.borrow().0, 336))
         }
 
         /// `607Dh.2` max position limit: Highest target position.
@@ -3271,9 +2995,7 @@ pub mod records {
         /// INTEGER32, rw, in PU, default 36000 PU, stored with the application parameters.
         #[inline]
         pub fn max_position_limit(&self) -> super::units::PositionUnit<i32> {
-            super::units::PositionUnit(
-                i32::from_le_bytes(super::glue::get(&self.0.borrow().0, 340)),
-            )
+            super::units::PositionUnit(super::glue::get_i32(&self.0.borrow().0, 340))
         }
     }
 
@@ -3284,7 +3006,7 @@ pub mod records {
             &mut self,
             value: super::units::PositionUnit<i32>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 336, value.0.to_le_bytes());
+            super::glue::put_i32(&mut self.0.borrow_mut().0, 336, value.0);
         }
 
         /// Sets [`max_position_limit`](Self::max_position_limit).
@@ -3293,12 +3015,12 @@ pub mod records {
             &mut self,
             value: super::units::PositionUnit<i32>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 340, value.0.to_le_bytes());
+            super::glue::put_i32(&mut self.0.borrow_mut().0, 340, value.0);
         }
     }
 
     /// `608Fh` position encoder resolution: Motor encoder increments for one revolution of the motor, as a fraction.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct PositionEncoderResolution<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> PositionEncoderResolution<D> {
@@ -3307,9 +3029,7 @@ pub mod records {
         /// UNSIGNED32, rw, in inc, default 512 inc, stored with the application parameters.
         #[inline]
         pub fn encoder_increments(&self) -> super::units::EncoderIncrement<u32> {
-            super::units::EncoderIncrement(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 360)),
-            )
+            super::units::EncoderIncrement(super::glue::get_u32(&self.0.borrow().0, 360))
         }
 
         /// `608Fh.2` motor revolutions: Revolutions of the motor.
@@ -3317,7 +3037,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn motor_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 364))
+            super::glue::get_u32(&self.0.borrow().0, 364)
         }
     }
 
@@ -3328,18 +3048,18 @@ pub mod records {
             &mut self,
             value: super::units::EncoderIncrement<u32>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 360, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 360, value.0);
         }
 
         /// Sets [`motor_revolutions`](Self::motor_revolutions).
         #[inline]
         pub fn set_motor_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 364, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 364, value);
         }
     }
 
     /// `6091h` gear ratio: Revolutions of the motor per revolution of the drive shaft, as a fraction. Gears in series multiply.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct GearRatio<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> GearRatio<D> {
@@ -3348,7 +3068,7 @@ pub mod records {
         /// UNSIGNED32, rw, up to 32767, default 1, stored with the application parameters.
         #[inline]
         pub fn motor_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 368))
+            super::glue::get_u32(&self.0.borrow().0, 368)
         }
 
         /// `6091h.2` shaft revolutions: Revolutions of the gear shaft.
@@ -3356,7 +3076,7 @@ pub mod records {
         /// UNSIGNED32, rw, up to 32767, default 1, stored with the application parameters.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 372))
+            super::glue::get_u32(&self.0.borrow().0, 372)
         }
     }
 
@@ -3364,18 +3084,18 @@ pub mod records {
         /// Sets [`motor_revolutions`](Self::motor_revolutions).
         #[inline]
         pub fn set_motor_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 368, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 368, value);
         }
 
         /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 372, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 372, value);
         }
     }
 
     /// `6092h` feed constant: Travel per revolution of the drive shaft, as a fraction. Used when the motor encoder closes the position loop (606Ah = 0).
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct FeedConstant<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> FeedConstant<D> {
@@ -3384,9 +3104,7 @@ pub mod records {
         /// UNSIGNED32, rw, in PU, default 36000 PU, stored with the application parameters.
         #[inline]
         pub fn feed(&self) -> super::units::PositionUnit<u32> {
-            super::units::PositionUnit(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 376)),
-            )
+            super::units::PositionUnit(super::glue::get_u32(&self.0.borrow().0, 376))
         }
 
         /// `6092h.2` shaft revolutions: Revolutions of the gear shaft.
@@ -3394,7 +3112,7 @@ pub mod records {
         /// UNSIGNED32, rw, up to 32767, default 1, stored with the application parameters.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 380))
+            super::glue::get_u32(&self.0.borrow().0, 380)
         }
     }
 
@@ -3402,18 +3120,18 @@ pub mod records {
         /// Sets [`feed`](Self::feed).
         #[inline]
         pub fn set_feed(&mut self, value: super::units::PositionUnit<u32>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 376, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 376, value.0);
         }
 
         /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 380, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 380, value);
         }
     }
 
     /// `60C2h` Interpolation time period: Time between two cyclic set-points, value times ten to the power of the index, in seconds. Must be a whole multiple of the SYNC period; the device interpolates down to its position cycle of 1 ms.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct InterpolationTimePeriod<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> InterpolationTimePeriod<D> {
@@ -3422,7 +3140,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn time_period_value(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 514))
+            super::glue::get_u8(&self.0.borrow().0, 514)
         }
 
         /// `60C2h.2` time index: Power of ten of the unit of time in seconds; -3 is a millisecond.
@@ -3430,7 +3148,7 @@ pub mod records {
         /// INTEGER8, rw, default -3, stored with the application parameters.
         #[inline]
         pub fn time_index(&self) -> i8 {
-            i8::from_le_bytes(super::glue::get(&self.0.borrow().0, 515))
+            super::glue::get_i8(&self.0.borrow().0, 515)
         }
     }
 
@@ -3438,18 +3156,18 @@ pub mod records {
         /// Sets [`time_period_value`](Self::time_period_value).
         #[inline]
         pub fn set_time_period_value(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 514, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 514, value);
         }
 
         /// Sets [`time_index`](Self::time_index).
         #[inline]
         pub fn set_time_index(&mut self, value: i8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 515, value.to_le_bytes());
+            super::glue::put_i8(&mut self.0.borrow_mut().0, 515, value);
         }
     }
 
     /// `60F6h` torque control parameter set: The innermost loop, a PI controller. The values come from the motor database; only qualified staff may change them.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TorqueControlParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> TorqueControlParameterSet<D> {
@@ -3458,7 +3176,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 16, stored with the application parameters.
         #[inline]
         pub fn gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 440))
+            super::glue::get_u16(&self.0.borrow().0, 440)
         }
 
         /// `60F6h.2` integration time constant: Integral part of the loop.
@@ -3466,7 +3184,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 512, stored with the application parameters.
         #[inline]
         pub fn integration_time_constant(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 442))
+            super::glue::get_u16(&self.0.borrow().0, 442)
         }
 
         /// `60F6h.3` peak current time limit: Time for which a surge current may flow; then the nominal current is the limit.
@@ -3474,9 +3192,7 @@ pub mod records {
         /// UNSIGNED16, rw, in ms, default 5000 ms, stored with the application parameters.
         #[inline]
         pub fn peak_current_time_limit(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 444)),
-            )
+            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 444))
         }
     }
 
@@ -3484,13 +3200,13 @@ pub mod records {
         /// Sets [`gain`](Self::gain).
         #[inline]
         pub fn set_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 440, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 440, value);
         }
 
         /// Sets [`integration_time_constant`](Self::integration_time_constant).
         #[inline]
         pub fn set_integration_time_constant(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 442, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 442, value);
         }
 
         /// Sets [`peak_current_time_limit`](Self::peak_current_time_limit).
@@ -3499,12 +3215,12 @@ pub mod records {
             &mut self,
             value: super::units::Millisecond<u16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 444, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 444, value.0);
         }
     }
 
     /// `60F9h` velocity control parameter set: The velocity loop, a PID controller, with brake and inverter settings. The values come from the motor database.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct VelocityControlParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> VelocityControlParameterSet<D> {
@@ -3513,7 +3229,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 100, stored with the application parameters.
         #[inline]
         pub fn gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 446))
+            super::glue::get_u16(&self.0.borrow().0, 446)
         }
 
         /// `60F9h.2` integration time constant: Integral part; begin tuning with a tenth of the gain.
@@ -3521,7 +3237,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 200, stored with the application parameters.
         #[inline]
         pub fn integration_time_constant(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 448))
+            super::glue::get_u16(&self.0.borrow().0, 448)
         }
 
         /// `60F9h.3` differential time constant: Differential part; normally 0, can damp a natural frequency.
@@ -3529,7 +3245,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0, stored with the application parameters.
         #[inline]
         pub fn differential_time_constant(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 450))
+            super::glue::get_u16(&self.0.borrow().0, 450)
         }
 
         /// `60F9h.4` brake set time: Time from opening the brake contact to switching off the motor current, so that a hanging axis does not sag while the brake engages. 0 without a holding brake, about 50 ms with one.
@@ -3537,9 +3253,7 @@ pub mod records {
         /// UNSIGNED16, rw, in ms, default 100 ms, stored with the application parameters.
         #[inline]
         pub fn brake_set_time(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 452)),
-            )
+            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 452))
         }
 
         /// `60F9h.5` filter time constant: Low pass of the loop; its time is twice this value in ms.
@@ -3547,7 +3261,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn filter_time_constant(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 454))
+            super::glue::get_u16(&self.0.borrow().0, 454)
         }
 
         /// `60F9h.6` min frequency: Lowest frequency in U/f operation.
@@ -3555,9 +3269,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.01 Hz, default 2.00 Hz, stored with the application parameters.
         #[inline]
         pub fn min_frequency(&self) -> super::units::Centihertz<u16> {
-            super::units::Centihertz(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 456)),
-            )
+            super::units::Centihertz(super::glue::get_u16(&self.0.borrow().0, 456))
         }
     }
 
@@ -3565,42 +3277,42 @@ pub mod records {
         /// Sets [`gain`](Self::gain).
         #[inline]
         pub fn set_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 446, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 446, value);
         }
 
         /// Sets [`integration_time_constant`](Self::integration_time_constant).
         #[inline]
         pub fn set_integration_time_constant(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 448, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 448, value);
         }
 
         /// Sets [`differential_time_constant`](Self::differential_time_constant).
         #[inline]
         pub fn set_differential_time_constant(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 450, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 450, value);
         }
 
         /// Sets [`brake_set_time`](Self::brake_set_time).
         #[inline]
         pub fn set_brake_set_time(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 452, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 452, value.0);
         }
 
         /// Sets [`filter_time_constant`](Self::filter_time_constant).
         #[inline]
         pub fn set_filter_time_constant(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 454, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 454, value);
         }
 
         /// Sets [`min_frequency`](Self::min_frequency).
         #[inline]
         pub fn set_min_frequency(&mut self, value: super::units::Centihertz<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 456, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 456, value.0);
         }
     }
 
     /// `60FBh` position control parameter set: The position loop, a proportional controller.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct PositionControlParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> PositionControlParameterSet<D> {
@@ -3609,9 +3321,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 1/s, default 17 1/s, stored with the application parameters.
         #[inline]
         pub fn p_gain(&self) -> super::units::ReciprocalSecond<u16> {
-            super::units::ReciprocalSecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 458)),
-            )
+            super::units::ReciprocalSecond(super::glue::get_u16(&self.0.borrow().0, 458))
         }
 
         /// `60FBh.2` precontrol: Share of the calculated velocity pre-control that is used.
@@ -3619,9 +3329,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 %, default 100.0 %, stored with the application parameters.
         #[inline]
         pub fn precontrol(&self) -> super::units::Permille<u16> {
-            super::units::Permille(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 460)),
-            )
+            super::units::Permille(super::glue::get_u16(&self.0.borrow().0, 460))
         }
 
         /// `60FBh.3` control flags: Behaviour of the axis.
@@ -3629,9 +3337,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0001, stored with the application parameters.
         #[inline]
         pub fn control_flags(&self) -> super::types::ControlFlags {
-            super::types::ControlFlags(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 462)),
-            )
+            super::types::ControlFlags(super::glue::get_u16(&self.0.borrow().0, 462))
         }
 
         /// `60FBh.4` reserve: Without function.
@@ -3639,7 +3345,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0, stored with the application parameters.
         #[inline]
         pub fn reserve(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 464))
+            super::glue::get_u16(&self.0.borrow().0, 464)
         }
     }
 
@@ -3647,30 +3353,30 @@ pub mod records {
         /// Sets [`p_gain`](Self::p_gain).
         #[inline]
         pub fn set_p_gain(&mut self, value: super::units::ReciprocalSecond<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 458, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 458, value.0);
         }
 
         /// Sets [`precontrol`](Self::precontrol).
         #[inline]
         pub fn set_precontrol(&mut self, value: super::units::Permille<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 460, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 460, value.0);
         }
 
         /// Sets [`control_flags`](Self::control_flags).
         #[inline]
         pub fn set_control_flags(&mut self, value: super::types::ControlFlags) {
-            super::glue::put(&mut self.0.borrow_mut().0, 462, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 462, value.0);
         }
 
         /// Sets [`reserve`](Self::reserve).
         #[inline]
         pub fn set_reserve(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 464, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 464, value);
         }
     }
 
     /// `60FEh` digital outputs: The PMC has no output that can be set from outside (state of July 2007); the internal ones can be read back.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct DigitalOutputs<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> DigitalOutputs<D> {
@@ -3680,7 +3386,7 @@ pub mod records {
         #[inline]
         pub fn physical_outputs(&self) -> super::types::PmcDigitalOutputs {
             super::types::PmcDigitalOutputs(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 644)),
+                super::glue::get_u32(&self.0.borrow().0, 644),
             )
         }
 
@@ -3690,7 +3396,7 @@ pub mod records {
         #[inline]
         pub fn bitmask(&self) -> super::types::PmcDigitalOutputs {
             super::types::PmcDigitalOutputs(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 648)),
+                super::glue::get_u32(&self.0.borrow().0, 648),
             )
         }
 
@@ -3700,7 +3406,7 @@ pub mod records {
         #[inline]
         pub fn read_outputs(&self) -> super::types::PmcDigitalOutputs {
             super::types::PmcDigitalOutputs(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 652)),
+                super::glue::get_u32(&self.0.borrow().0, 652),
             )
         }
     }
@@ -3709,24 +3415,24 @@ pub mod records {
         /// Sets [`physical_outputs`](Self::physical_outputs).
         #[inline]
         pub fn set_physical_outputs(&mut self, value: super::types::PmcDigitalOutputs) {
-            super::glue::put(&mut self.0.borrow_mut().0, 644, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 644, value.0);
         }
 
         /// Sets [`bitmask`](Self::bitmask).
         #[inline]
         pub fn set_bitmask(&mut self, value: super::types::PmcDigitalOutputs) {
-            super::glue::put(&mut self.0.borrow_mut().0, 648, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 648, value.0);
         }
 
         /// Sets [`read_outputs`](Self::read_outputs).
         #[inline]
         pub fn set_read_outputs(&mut self, value: super::types::PmcDigitalOutputs) {
-            super::glue::put(&mut self.0.borrow_mut().0, 652, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 652, value.0);
         }
     }
 
     /// `6410h` motor data: Manufacturer's data of the motor, from the motor database. Only qualified staff may change them.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct MotorData<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> MotorData<D> {
@@ -3735,7 +3441,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn poles(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 468))
+            super::glue::get_u16(&self.0.borrow().0, 468)
         }
 
         /// `6410h.2` rho offset: Mounting offset of the shaft encoder.
@@ -3743,9 +3449,7 @@ pub mod records {
         /// UNSIGNED16, rw, in inc, stored with the application parameters.
         #[inline]
         pub fn rho_offset(&self) -> super::units::EncoderIncrement<u16> {
-            super::units::EncoderIncrement(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 470)),
-            )
+            super::units::EncoderIncrement(super::glue::get_u16(&self.0.borrow().0, 470))
         }
 
         /// `6410h.3` nominal voltage: Nominal voltage.
@@ -3753,9 +3457,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 V, default 400.0 V, stored with the application parameters.
         #[inline]
         pub fn nominal_voltage(&self) -> super::units::Decivolt<u16> {
-            super::units::Decivolt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 472)),
-            )
+            super::units::Decivolt(super::glue::get_u16(&self.0.borrow().0, 472))
         }
 
         /// `6410h.4` nominal speed: Nominal speed.
@@ -3764,7 +3466,7 @@ pub mod records {
         #[inline]
         pub fn nominal_speed(&self) -> super::units::RevolutionPerMinute<u16> {
             super::units::RevolutionPerMinute(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 474)),
+                super::glue::get_u16(&self.0.borrow().0, 474),
             )
         }
 
@@ -3773,9 +3475,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 V, default 200.0 V, stored with the application parameters.
         #[inline]
         pub fn exciting_voltage(&self) -> super::units::Decivolt<u16> {
-            super::units::Decivolt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 476)),
-            )
+            super::units::Decivolt(super::glue::get_u16(&self.0.borrow().0, 476))
         }
 
         /// `6410h.6` nominal frequency: Rated frequency.
@@ -3783,9 +3483,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 Hz, default 50.0 Hz, stored with the application parameters.
         #[inline]
         pub fn nominal_frequency(&self) -> super::units::Decihertz<u16> {
-            super::units::Decihertz(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 478)),
-            )
+            super::units::Decihertz(super::glue::get_u16(&self.0.borrow().0, 478))
         }
 
         /// `6410h.7` max motor temperature: Highest motor temperature.
@@ -3793,9 +3491,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 °C, default 150.0 °C, stored with the application parameters.
         #[inline]
         pub fn max_motor_temperature(&self) -> super::units::Decicelsius<u16> {
-            super::units::Decicelsius(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 480)),
-            )
+            super::units::Decicelsius(super::glue::get_u16(&self.0.borrow().0, 480))
         }
 
         /// `6410h.8` motor temperature warning: Motor temperature that warns.
@@ -3803,9 +3499,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 °C, default 130.0 °C, stored with the application parameters.
         #[inline]
         pub fn motor_temperature_warning(&self) -> super::units::Decicelsius<u16> {
-            super::units::Decicelsius(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 482)),
-            )
+            super::units::Decicelsius(super::glue::get_u16(&self.0.borrow().0, 482))
         }
 
         /// `6410h.9` motor temperature: Measured motor temperature.
@@ -3813,9 +3507,7 @@ pub mod records {
         /// INTEGER16, ro, TPDO, in 0.1 °C.
         #[inline]
         pub fn motor_temperature(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 686)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 686))
         }
 
         /// `6410h.10` cosinus phi: Power factor; the manual gives no scale.
@@ -3823,7 +3515,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 89, stored with the application parameters.
         #[inline]
         pub fn cosinus_phi(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 484))
+            super::glue::get_u16(&self.0.borrow().0, 484)
         }
 
         /// `6410h.11` start voltage: Start voltage in U/f operation; the manual gives no unit.
@@ -3831,7 +3523,7 @@ pub mod records {
         /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
         pub fn start_voltage(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 486))
+            super::glue::get_u16(&self.0.borrow().0, 486)
         }
 
         /// `6410h.12` IxR factor: IxR compensation in U/f operation; the manual gives no unit.
@@ -3839,7 +3531,7 @@ pub mod records {
         /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
         pub fn ixr_factor(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 488))
+            super::glue::get_u16(&self.0.borrow().0, 488)
         }
 
         /// `6410h.13` heating current: Current in motor heating, relative to the nominal current.
@@ -3847,9 +3539,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 %, default 10.0 %, stored with the application parameters.
         #[inline]
         pub fn heating_current(&self) -> super::units::Permille<u16> {
-            super::units::Permille(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 490)),
-            )
+            super::units::Permille(super::glue::get_u16(&self.0.borrow().0, 490))
         }
 
         /// `6410h.14` reserve1: Without function.
@@ -3857,7 +3547,7 @@ pub mod records {
         /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
         pub fn reserve1(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 492))
+            super::glue::get_u16(&self.0.borrow().0, 492)
         }
 
         /// `6410h.15` reserve2: Without function.
@@ -3865,7 +3555,7 @@ pub mod records {
         /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
         pub fn reserve2(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 494))
+            super::glue::get_u16(&self.0.borrow().0, 494)
         }
     }
 
@@ -3873,19 +3563,19 @@ pub mod records {
         /// Sets [`poles`](Self::poles).
         #[inline]
         pub fn set_poles(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 468, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 468, value);
         }
 
         /// Sets [`rho_offset`](Self::rho_offset).
         #[inline]
         pub fn set_rho_offset(&mut self, value: super::units::EncoderIncrement<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 470, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 470, value.0);
         }
 
         /// Sets [`nominal_voltage`](Self::nominal_voltage).
         #[inline]
         pub fn set_nominal_voltage(&mut self, value: super::units::Decivolt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 472, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 472, value.0);
         }
 
         /// Sets [`nominal_speed`](Self::nominal_speed).
@@ -3894,19 +3584,19 @@ pub mod records {
             &mut self,
             value: super::units::RevolutionPerMinute<u16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 474, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 474, value.0);
         }
 
         /// Sets [`exciting_voltage`](Self::exciting_voltage).
         #[inline]
         pub fn set_exciting_voltage(&mut self, value: super::units::Decivolt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 476, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 476, value.0);
         }
 
         /// Sets [`nominal_frequency`](Self::nominal_frequency).
         #[inline]
         pub fn set_nominal_frequency(&mut self, value: super::units::Decihertz<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 478, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 478, value.0);
         }
 
         /// Sets [`max_motor_temperature`](Self::max_motor_temperature).
@@ -3915,7 +3605,7 @@ pub mod records {
             &mut self,
             value: super::units::Decicelsius<u16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 480, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 480, value.0);
         }
 
         /// Sets [`motor_temperature_warning`](Self::motor_temperature_warning).
@@ -3924,54 +3614,54 @@ pub mod records {
             &mut self,
             value: super::units::Decicelsius<u16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 482, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 482, value.0);
         }
 
         /// Sets [`motor_temperature`](Self::motor_temperature).
         #[inline]
         pub fn set_motor_temperature(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 686, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 686, value.0);
         }
 
         /// Sets [`cosinus_phi`](Self::cosinus_phi).
         #[inline]
         pub fn set_cosinus_phi(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 484, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 484, value);
         }
 
         /// Sets [`start_voltage`](Self::start_voltage).
         #[inline]
         pub fn set_start_voltage(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 486, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 486, value);
         }
 
         /// Sets [`ixr_factor`](Self::ixr_factor).
         #[inline]
         pub fn set_ixr_factor(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 488, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 488, value);
         }
 
         /// Sets [`heating_current`](Self::heating_current).
         #[inline]
         pub fn set_heating_current(&mut self, value: super::units::Permille<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 490, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 490, value.0);
         }
 
         /// Sets [`reserve1`](Self::reserve1).
         #[inline]
         pub fn set_reserve1(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 492, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 492, value);
         }
 
         /// Sets [`reserve2`](Self::reserve2).
         #[inline]
         pub fn set_reserve2(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 494, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 494, value);
         }
     }
 
     /// `6510h` drive data: Data of the drive for which CiA 402 has no object.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct DriveData<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> DriveData<D> {
@@ -3980,7 +3670,7 @@ pub mod records {
         /// UNSIGNED16, ro.
         #[inline]
         pub fn power_stage_code(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 688))
+            super::glue::get_u16(&self.0.borrow().0, 688)
         }
 
         /// `6510h.2` max heat sink temperature: Highest heat sink temperature.
@@ -3988,9 +3678,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 80.0 °C, stored with the application parameters.
         #[inline]
         pub fn max_heat_sink_temperature(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 496)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 496))
         }
 
         /// `6510h.3` heat sink temperature: Measured heat sink temperature.
@@ -3998,9 +3686,7 @@ pub mod records {
         /// INTEGER16, ro, TPDO, in 0.1 °C.
         #[inline]
         pub fn heat_sink_temperature(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 690)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 690))
         }
 
         /// `6510h.4` min DC link voltage: Lowest DC link voltage.
@@ -4008,9 +3694,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 100 V, stored with the application parameters.
         #[inline]
         pub fn min_dc_link_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 498)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 498))
         }
 
         /// `6510h.5` max DC link voltage: Highest DC link voltage.
@@ -4018,9 +3702,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 750 V, stored with the application parameters.
         #[inline]
         pub fn max_dc_link_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 500)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 500))
         }
 
         /// `6510h.6` temperature warning level: Heat sink temperature that warns. Unsigned, unlike the two other heat sink temperatures.
@@ -4028,9 +3710,7 @@ pub mod records {
         /// UNSIGNED16, rw, in 0.1 °C, default 75.0 °C, stored with the application parameters.
         #[inline]
         pub fn temperature_warning_level(&self) -> super::units::Decicelsius<u16> {
-            super::units::Decicelsius(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 502)),
-            )
+            super::units::Decicelsius(super::glue::get_u16(&self.0.borrow().0, 502))
         }
 
         /// `6510h.7` error mask: A bit at 0 suppresses the fault of that bit, unless its priority is A.
@@ -4038,9 +3718,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0xFFFF, stored with the application parameters.
         #[inline]
         pub fn error_mask(&self) -> super::types::ErrorFlags {
-            super::types::ErrorFlags(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 504)),
-            )
+            super::types::ErrorFlags(super::glue::get_u16(&self.0.borrow().0, 504))
         }
 
         /// `6510h.8` error flags: Faults that are present.
@@ -4048,9 +3726,7 @@ pub mod records {
         /// UNSIGNED16, ro, TPDO.
         #[inline]
         pub fn error_flags(&self) -> super::types::ErrorFlags {
-            super::types::ErrorFlags(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 692)),
-            )
+            super::types::ErrorFlags(super::glue::get_u16(&self.0.borrow().0, 692))
         }
 
         /// `6510h.9` controller mode: Loops of the controller that are closed.
@@ -4058,9 +3734,7 @@ pub mod records {
         /// UNSIGNED16, rw, default position and velocity control, stored with the application parameters.
         #[inline]
         pub fn controller_mode(&self) -> super::types::ControllerMode {
-            super::types::ControllerMode(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 506)),
-            )
+            super::types::ControllerMode(super::glue::get_u16(&self.0.borrow().0, 506))
         }
 
         /// `6510h.10` max PWM frequency: Highest frequency of the PWM output.
@@ -4068,9 +3742,7 @@ pub mod records {
         /// UNSIGNED16, rw, in kHz, 6 kHz to 15 kHz, default 8 kHz, stored with the application parameters.
         #[inline]
         pub fn max_pwm_frequency(&self) -> super::units::Kilohertz<u16> {
-            super::units::Kilohertz(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 508)),
-            )
+            super::units::Kilohertz(super::glue::get_u16(&self.0.borrow().0, 508))
         }
     }
 
@@ -4078,7 +3750,7 @@ pub mod records {
         /// Sets [`power_stage_code`](Self::power_stage_code).
         #[inline]
         pub fn set_power_stage_code(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 688, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 688, value);
         }
 
         /// Sets [`max_heat_sink_temperature`](Self::max_heat_sink_temperature).
@@ -4087,7 +3759,7 @@ pub mod records {
             &mut self,
             value: super::units::Decicelsius<i16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 496, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 496, value.0);
         }
 
         /// Sets [`heat_sink_temperature`](Self::heat_sink_temperature).
@@ -4096,19 +3768,19 @@ pub mod records {
             &mut self,
             value: super::units::Decicelsius<i16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 690, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 690, value.0);
         }
 
         /// Sets [`min_dc_link_voltage`](Self::min_dc_link_voltage).
         #[inline]
         pub fn set_min_dc_link_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 498, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 498, value.0);
         }
 
         /// Sets [`max_dc_link_voltage`](Self::max_dc_link_voltage).
         #[inline]
         pub fn set_max_dc_link_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 500, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 500, value.0);
         }
 
         /// Sets [`temperature_warning_level`](Self::temperature_warning_level).
@@ -4117,36 +3789,36 @@ pub mod records {
             &mut self,
             value: super::units::Decicelsius<u16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 502, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 502, value.0);
         }
 
         /// Sets [`error_mask`](Self::error_mask).
         #[inline]
         pub fn set_error_mask(&mut self, value: super::types::ErrorFlags) {
-            super::glue::put(&mut self.0.borrow_mut().0, 504, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 504, value.0);
         }
 
         /// Sets [`error_flags`](Self::error_flags).
         #[inline]
         pub fn set_error_flags(&mut self, value: super::types::ErrorFlags) {
-            super::glue::put(&mut self.0.borrow_mut().0, 692, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 692, value.0);
         }
 
         /// Sets [`controller_mode`](Self::controller_mode).
         #[inline]
         pub fn set_controller_mode(&mut self, value: super::types::ControllerMode) {
-            super::glue::put(&mut self.0.borrow_mut().0, 506, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 506, value.0);
         }
 
         /// Sets [`max_pwm_frequency`](Self::max_pwm_frequency).
         #[inline]
         pub fn set_max_pwm_frequency(&mut self, value: super::units::Kilohertz<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 508, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 508, value.0);
         }
     }
 
     /// `688Fh` ae resolution: Increments of the additional encoder per revolution of that encoder, as a fraction.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct AeResolution<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> AeResolution<D> {
@@ -4155,9 +3827,7 @@ pub mod records {
         /// UNSIGNED32, rw, in inc, default 512 inc, stored with the application parameters.
         #[inline]
         pub fn encoder_increments(&self) -> super::units::EncoderIncrement<u32> {
-            super::units::EncoderIncrement(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 400)),
-            )
+            super::units::EncoderIncrement(super::glue::get_u32(&self.0.borrow().0, 400))
         }
 
         /// `688Fh.2` encoder revolutions: Revolutions of the encoder; more than 1 only for linear scales.
@@ -4165,7 +3835,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn encoder_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 404))
+            super::glue::get_u32(&self.0.borrow().0, 404)
         }
     }
 
@@ -4176,18 +3846,18 @@ pub mod records {
             &mut self,
             value: super::units::EncoderIncrement<u32>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 400, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 400, value.0);
         }
 
         /// Sets [`encoder_revolutions`](Self::encoder_revolutions).
         #[inline]
         pub fn set_encoder_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 404, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 404, value);
         }
     }
 
     /// `6891h` ae gear ratio: Revolutions of the additional encoder per revolution of the drive shaft, as a fraction.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct AeGearRatio<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> AeGearRatio<D> {
@@ -4196,7 +3866,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn encoder_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 408))
+            super::glue::get_u32(&self.0.borrow().0, 408)
         }
 
         /// `6891h.2` shaft revolutions: Revolutions of the gear shaft.
@@ -4204,7 +3874,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 412))
+            super::glue::get_u32(&self.0.borrow().0, 412)
         }
     }
 
@@ -4212,18 +3882,18 @@ pub mod records {
         /// Sets [`encoder_revolutions`](Self::encoder_revolutions).
         #[inline]
         pub fn set_encoder_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 408, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 408, value);
         }
 
         /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 412, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 412, value);
         }
     }
 
     /// `6892h` ae feed constant: Travel per revolution of the drive shaft, as a fraction, for position control with the additional encoder.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct AeFeedConstant<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmc>> AeFeedConstant<D> {
@@ -4232,9 +3902,7 @@ pub mod records {
         /// UNSIGNED32, rw, in PU, default 36000 PU, stored with the application parameters.
         #[inline]
         pub fn feed(&self) -> super::units::PositionUnit<u32> {
-            super::units::PositionUnit(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 416)),
-            )
+            super::units::PositionUnit(super::glue::get_u32(&self.0.borrow().0, 416))
         }
 
         /// `6892h.2` shaft revolutions: Revolutions of the gear shaft.
@@ -4242,7 +3910,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1, stored with the application parameters.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 420))
+            super::glue::get_u32(&self.0.borrow().0, 420)
         }
     }
 
@@ -4250,13 +3918,13 @@ pub mod records {
         /// Sets [`feed`](Self::feed).
         #[inline]
         pub fn set_feed(&mut self, value: super::units::PositionUnit<u32>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 416, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 416, value.0);
         }
 
         /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 420, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 420, value);
         }
     }
 }
@@ -4293,9 +3961,7 @@ pub mod pdos {
         #[inline]
         pub fn unpack(data: [u8; 2]) -> Self {
             Self {
-                controlword: super::types::Controlword(
-                    u16::from_le_bytes(super::glue::get(&data, 0)),
-                ),
+                controlword: super::types::Controlword(super::glue::get_u16(&data, 0)),
             }
         }
 
@@ -4304,7 +3970,7 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 2] {
             let mut data = [0; 2];
 
-            super::glue::put(&mut data, 0, (self.controlword.0).to_le_bytes());
+            super::glue::put_u16(&mut data, 0, self.controlword.0);
             data
         }
     }
@@ -4345,11 +4011,9 @@ pub mod pdos {
         #[inline]
         pub fn unpack(data: [u8; 6]) -> Self {
             Self {
-                controlword: super::types::Controlword(
-                    u16::from_le_bytes(super::glue::get(&data, 0)),
-                ),
+                controlword: super::types::Controlword(super::glue::get_u16(&data, 0)),
                 target_position: super::units::PositionUnit(
-                    i32::from_le_bytes(super::glue::get(&data, 2)),
+                    super::glue::get_i32(&data, 2),
                 ),
             }
         }
@@ -4359,9 +4023,9 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 6] {
             let mut data = [0; 6];
 
-            super::glue::put(&mut data, 0, (self.controlword.0).to_le_bytes());
+            super::glue::put_u16(&mut data, 0, self.controlword.0);
 
-            super::glue::put(&mut data, 2, (self.target_position.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 2, self.target_position.0);
             data
         }
     }
@@ -4402,11 +4066,9 @@ pub mod pdos {
         #[inline]
         pub fn unpack(data: [u8; 6]) -> Self {
             Self {
-                controlword: super::types::Controlword(
-                    u16::from_le_bytes(super::glue::get(&data, 0)),
-                ),
+                controlword: super::types::Controlword(super::glue::get_u16(&data, 0)),
                 target_velocity: super::units::PositionUnitPerSecond(
-                    i32::from_le_bytes(super::glue::get(&data, 2)),
+                    super::glue::get_i32(&data, 2),
                 ),
             }
         }
@@ -4416,9 +4078,9 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 6] {
             let mut data = [0; 6];
 
-            super::glue::put(&mut data, 0, (self.controlword.0).to_le_bytes());
+            super::glue::put_u16(&mut data, 0, self.controlword.0);
 
-            super::glue::put(&mut data, 2, (self.target_velocity.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 2, self.target_velocity.0);
             data
         }
     }
@@ -4460,10 +4122,10 @@ pub mod pdos {
         pub fn unpack(data: [u8; 8]) -> Self {
             Self {
                 target_position: super::units::PositionUnit(
-                    i32::from_le_bytes(super::glue::get(&data, 0)),
+                    super::glue::get_i32(&data, 0),
                 ),
                 profile_velocity: super::units::PositionUnitPerSecond(
-                    u32::from_le_bytes(super::glue::get(&data, 4)),
+                    super::glue::get_u32(&data, 4),
                 ),
             }
         }
@@ -4473,9 +4135,9 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 8] {
             let mut data = [0; 8];
 
-            super::glue::put(&mut data, 0, (self.target_position.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 0, self.target_position.0);
 
-            super::glue::put(&mut data, 4, (self.profile_velocity.0).to_le_bytes());
+            super::glue::put_u32(&mut data, 4, self.profile_velocity.0);
             data
         }
     }
@@ -4514,9 +4176,7 @@ pub mod pdos {
         #[inline]
         pub fn unpack(data: [u8; 2]) -> Self {
             Self {
-                statusword: super::types::Statusword(
-                    u16::from_le_bytes(super::glue::get(&data, 0)),
-                ),
+                statusword: super::types::Statusword(super::glue::get_u16(&data, 0)),
             }
         }
 
@@ -4525,7 +4185,7 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 2] {
             let mut data = [0; 2];
 
-            super::glue::put(&mut data, 0, (self.statusword.0).to_le_bytes());
+            super::glue::put_u16(&mut data, 0, self.statusword.0);
             data
         }
 
@@ -4534,7 +4194,7 @@ pub mod pdos {
         pub fn of(dictionary: &super::Pmc) -> Self {
             Self {
                 statusword: super::types::Statusword(
-                    u16::from_le_bytes(super::glue::get(&dictionary.0, 678)),
+                    super::glue::get_u16(&dictionary.0, 678),
                 ),
             }
         }
@@ -4576,11 +4236,9 @@ pub mod pdos {
         #[inline]
         pub fn unpack(data: [u8; 6]) -> Self {
             Self {
-                statusword: super::types::Statusword(
-                    u16::from_le_bytes(super::glue::get(&data, 0)),
-                ),
+                statusword: super::types::Statusword(super::glue::get_u16(&data, 0)),
                 position_actual_value: super::units::PositionUnit(
-                    i32::from_le_bytes(super::glue::get(&data, 2)),
+                    super::glue::get_i32(&data, 2),
                 ),
             }
         }
@@ -4590,9 +4248,9 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 6] {
             let mut data = [0; 6];
 
-            super::glue::put(&mut data, 0, (self.statusword.0).to_le_bytes());
+            super::glue::put_u16(&mut data, 0, self.statusword.0);
 
-            super::glue::put(&mut data, 2, (self.position_actual_value.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 2, self.position_actual_value.0);
             data
         }
 
@@ -4601,10 +4259,10 @@ pub mod pdos {
         pub fn of(dictionary: &super::Pmc) -> Self {
             Self {
                 statusword: super::types::Statusword(
-                    u16::from_le_bytes(super::glue::get(&dictionary.0, 678)),
+                    super::glue::get_u16(&dictionary.0, 678),
                 ),
                 position_actual_value: super::units::PositionUnit(
-                    i32::from_le_bytes(super::glue::get(&dictionary.0, 600)),
+                    super::glue::get_i32(&dictionary.0, 600),
                 ),
             }
         }
@@ -4646,11 +4304,9 @@ pub mod pdos {
         #[inline]
         pub fn unpack(data: [u8; 6]) -> Self {
             Self {
-                statusword: super::types::Statusword(
-                    u16::from_le_bytes(super::glue::get(&data, 0)),
-                ),
+                statusword: super::types::Statusword(super::glue::get_u16(&data, 0)),
                 actual_velocity: super::units::PositionUnitPerSecond(
-                    i32::from_le_bytes(super::glue::get(&data, 2)),
+                    super::glue::get_i32(&data, 2),
                 ),
             }
         }
@@ -4660,9 +4316,9 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 6] {
             let mut data = [0; 6];
 
-            super::glue::put(&mut data, 0, (self.statusword.0).to_le_bytes());
+            super::glue::put_u16(&mut data, 0, self.statusword.0);
 
-            super::glue::put(&mut data, 2, (self.actual_velocity.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 2, self.actual_velocity.0);
             data
         }
 
@@ -4671,10 +4327,10 @@ pub mod pdos {
         pub fn of(dictionary: &super::Pmc) -> Self {
             Self {
                 statusword: super::types::Statusword(
-                    u16::from_le_bytes(super::glue::get(&dictionary.0, 678)),
+                    super::glue::get_u16(&dictionary.0, 678),
                 ),
                 actual_velocity: super::units::PositionUnitPerSecond(
-                    i32::from_le_bytes(super::glue::get(&dictionary.0, 604)),
+                    super::glue::get_i32(&dictionary.0, 604),
                 ),
             }
         }
@@ -4717,10 +4373,10 @@ pub mod pdos {
         pub fn unpack(data: [u8; 8]) -> Self {
             Self {
                 position_actual_value: super::units::PositionUnit(
-                    i32::from_le_bytes(super::glue::get(&data, 0)),
+                    super::glue::get_i32(&data, 0),
                 ),
                 actual_velocity: super::units::PositionUnitPerSecond(
-                    i32::from_le_bytes(super::glue::get(&data, 4)),
+                    super::glue::get_i32(&data, 4),
                 ),
             }
         }
@@ -4730,9 +4386,9 @@ pub mod pdos {
         pub fn pack(self) -> [u8; 8] {
             let mut data = [0; 8];
 
-            super::glue::put(&mut data, 0, (self.position_actual_value.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 0, self.position_actual_value.0);
 
-            super::glue::put(&mut data, 4, (self.actual_velocity.0).to_le_bytes());
+            super::glue::put_i32(&mut data, 4, self.actual_velocity.0);
             data
         }
 
@@ -4741,10 +4397,10 @@ pub mod pdos {
         pub fn of(dictionary: &super::Pmc) -> Self {
             Self {
                 position_actual_value: super::units::PositionUnit(
-                    i32::from_le_bytes(super::glue::get(&dictionary.0, 600)),
+                    super::glue::get_i32(&dictionary.0, 600),
                 ),
                 actual_velocity: super::units::PositionUnitPerSecond(
-                    i32::from_le_bytes(super::glue::get(&dictionary.0, 604)),
+                    super::glue::get_i32(&dictionary.0, 604),
                 ),
             }
         }
@@ -7408,7 +7064,7 @@ impl glue::Dictionary for Pmc {
 
     #[inline]
     fn entry(row: u16) -> Option<Entry> {
-        ENTRIES.get(usize::from(row)).copied()
+        BY_ROW.get(usize::from(row)).copied()
     }
 
     #[inline]
@@ -7429,12 +7085,11 @@ impl glue::Dictionary for Pmc {
     fn condition(&self, number: u16) -> bool {
         match number {
             0 => {
-                (i64::from(u16::from_le_bytes(glue::get(&self.0, 676))) >> 3 & 1) == 0
-                    && (i64::from(u16::from_le_bytes(glue::get(&self.0, 678))) >> 2 & 1)
-                        == 0
+                (i64::from(glue::get_u16(&self.0, 676)) >> 3 & 1) == 0
+                    && (i64::from(glue::get_u16(&self.0, 678)) >> 2 & 1) == 0
             }
-            1 => (i64::from(u16::from_le_bytes(glue::get(&self.0, 678))) >> 2 & 1) == 0,
-            2 => i64::from(i8::from_le_bytes(glue::get(&self.0, 699))) == 6,
+            1 => (i64::from(glue::get_u16(&self.0, 678)) >> 2 & 1) == 0,
+            2 => i64::from(glue::get_i8(&self.0, 699)) == 6,
             _ => true,
         }
     }
@@ -7503,42 +7158,42 @@ pub mod constraints {
     ///
     /// `0x6510.4 < 0x6510.5`.
     pub fn dc_link_limits_of_the_drive(dictionary: &super::Pmc) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 498)))
-            < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 500)))
+        i64::from(super::glue::get_u16(&dictionary.0, 498))
+            < i64::from(super::glue::get_u16(&dictionary.0, 500))
     }
 
     /// heat sink warning before switch-off: The heat sink must warn before, or at, its highest temperature.
     ///
     /// `0x6510.6 <= 0x6510.2`.
     pub fn heat_sink_warning_before_switch_off(dictionary: &super::Pmc) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 502)))
-            <= i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 496)))
+        i64::from(super::glue::get_u16(&dictionary.0, 502))
+            <= i64::from(super::glue::get_i16(&dictionary.0, 496))
     }
 
     /// motor warning before switch-off: The motor must warn before, or at, its highest temperature.
     ///
     /// `0x6410.8 <= 0x6410.7`.
     pub fn motor_warning_before_switch_off(dictionary: &super::Pmc) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 482)))
-            <= i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 480)))
+        i64::from(super::glue::get_u16(&dictionary.0, 482))
+            <= i64::from(super::glue::get_u16(&dictionary.0, 480))
     }
 
     /// position limits in order: The lower limit of the target position must not be above the upper one.
     ///
     /// `0x607D.1 <= 0x607D.2`.
     pub fn position_limits_in_order(dictionary: &super::Pmc) -> bool {
-        i64::from(i32::from_le_bytes(super::glue::get(&dictionary.0, 336)))
-            <= i64::from(i32::from_le_bytes(super::glue::get(&dictionary.0, 340)))
+        i64::from(super::glue::get_i32(&dictionary.0, 336))
+            <= i64::from(super::glue::get_i32(&dictionary.0, 340))
     }
 
     /// feather position within position limits: The EFC drive copies its target to 607Ah, where a target beyond the limits is replaced by the limit; the blade would not feather.
     ///
     /// `0x607D.1 <= 0x567A <= 0x607D.2`.
     pub fn feather_position_within_position_limits(dictionary: &super::Pmc) -> bool {
-        i64::from(i32::from_le_bytes(super::glue::get(&dictionary.0, 336)))
-            <= i64::from(i32::from_le_bytes(super::glue::get(&dictionary.0, 304)))
-            && i64::from(i32::from_le_bytes(super::glue::get(&dictionary.0, 304)))
-                <= i64::from(i32::from_le_bytes(super::glue::get(&dictionary.0, 340)))
+        i64::from(super::glue::get_i32(&dictionary.0, 336))
+            <= i64::from(super::glue::get_i32(&dictionary.0, 304))
+            && i64::from(super::glue::get_i32(&dictionary.0, 304))
+                <= i64::from(super::glue::get_i32(&dictionary.0, 340))
     }
 
     /// feather velocity within max profile velocity: The EFC drive copies its velocity to 6081h, where it would be reduced to the maximum; the blade would feather too slowly, and not at all with 0.
@@ -7547,9 +7202,9 @@ pub mod constraints {
     pub fn feather_velocity_within_max_profile_velocity(
         dictionary: &super::Pmc,
     ) -> bool {
-        0 < i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 308)))
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 308)))
-                <= i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 344)))
+        0 < i64::from(super::glue::get_u32(&dictionary.0, 308))
+            && i64::from(super::glue::get_u32(&dictionary.0, 308))
+                <= i64::from(super::glue::get_u32(&dictionary.0, 344))
     }
 
     /// feather acceleration within max acceleration: The EFC drive copies its acceleration to 6083h, where it would be reduced to the maximum; with 0 the axis would not start.
@@ -7558,49 +7213,25 @@ pub mod constraints {
     pub fn feather_acceleration_within_max_acceleration(
         dictionary: &super::Pmc,
     ) -> bool {
-        0 < i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 312)))
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 312)))
-                <= i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 384)))
+        0 < i64::from(super::glue::get_u32(&dictionary.0, 312))
+            && i64::from(super::glue::get_u32(&dictionary.0, 312))
+                <= i64::from(super::glue::get_u32(&dictionary.0, 384))
     }
 
     /// max profile velocity with motor encoder: What the motor can reach through gear and feed (5.10.2.3); 60 turns revolutions per minute into per second. A gear of 20313 : 12 needs a far smaller max profile velocity than the default.
     ///
     /// `0x607F <= 0x6080 / 60 * 0x6092.1 / 0x6092.2 * 0x6091.2 / 0x6091.1`, while `0x606A == 0`.
     pub fn max_profile_velocity_with_motor_encoder(dictionary: &super::Pmc) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 436))) != 0
-            || (i128::from(
-                i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 380))),
-            )
-                * i128::from(
-                    i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 368))),
-                ) == 0
-                || i128::from(
-                    i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 344))),
-                ) * 60
-                    * i128::from(
-                        i64::from(
-                            u32::from_le_bytes(super::glue::get(&dictionary.0, 380)),
-                        ),
-                    )
-                    * i128::from(
-                        i64::from(
-                            u32::from_le_bytes(super::glue::get(&dictionary.0, 368)),
-                        ),
-                    )
-                    <= i128::from(
-                        i64::from(
-                            u32::from_le_bytes(super::glue::get(&dictionary.0, 348)),
-                        ),
-                    )
+        i64::from(super::glue::get_i16(&dictionary.0, 436)) != 0
+            || (i128::from(i64::from(super::glue::get_u32(&dictionary.0, 380)))
+                * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 368))) == 0
+                || i128::from(i64::from(super::glue::get_u32(&dictionary.0, 344))) * 60
+                    * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 380)))
+                    * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 368)))
+                    <= i128::from(i64::from(super::glue::get_u32(&dictionary.0, 348)))
+                        * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 376)))
                         * i128::from(
-                            i64::from(
-                                u32::from_le_bytes(super::glue::get(&dictionary.0, 376)),
-                            ),
-                        )
-                        * i128::from(
-                            i64::from(
-                                u32::from_le_bytes(super::glue::get(&dictionary.0, 372)),
-                            ),
+                            i64::from(super::glue::get_u32(&dictionary.0, 372)),
                         ))
     }
 
@@ -7610,40 +7241,16 @@ pub mod constraints {
     pub fn max_profile_velocity_with_additional_encoder(
         dictionary: &super::Pmc,
     ) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 436))) != (0 - 1)
-            || (i128::from(
-                i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 420))),
-            )
-                * i128::from(
-                    i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 368))),
-                ) == 0
-                || i128::from(
-                    i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 344))),
-                ) * 60
-                    * i128::from(
-                        i64::from(
-                            u32::from_le_bytes(super::glue::get(&dictionary.0, 420)),
-                        ),
-                    )
-                    * i128::from(
-                        i64::from(
-                            u32::from_le_bytes(super::glue::get(&dictionary.0, 368)),
-                        ),
-                    )
-                    <= i128::from(
-                        i64::from(
-                            u32::from_le_bytes(super::glue::get(&dictionary.0, 348)),
-                        ),
-                    )
+        i64::from(super::glue::get_i16(&dictionary.0, 436)) != (0 - 1)
+            || (i128::from(i64::from(super::glue::get_u32(&dictionary.0, 420)))
+                * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 368))) == 0
+                || i128::from(i64::from(super::glue::get_u32(&dictionary.0, 344))) * 60
+                    * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 420)))
+                    * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 368)))
+                    <= i128::from(i64::from(super::glue::get_u32(&dictionary.0, 348)))
+                        * i128::from(i64::from(super::glue::get_u32(&dictionary.0, 416)))
                         * i128::from(
-                            i64::from(
-                                u32::from_le_bytes(super::glue::get(&dictionary.0, 416)),
-                            ),
-                        )
-                        * i128::from(
-                            i64::from(
-                                u32::from_le_bytes(super::glue::get(&dictionary.0, 372)),
-                            ),
+                            i64::from(super::glue::get_u32(&dictionary.0, 372)),
                         ))
     }
 
@@ -7651,33 +7258,32 @@ pub mod constraints {
     ///
     /// `0x608F.1 > 0 and 0x608F.2 > 0 and 0x6091.1 > 0 and 0x6091.2 > 0 and 0x6092.1 > 0 and 0x6092.2 > 0`.
     pub fn motor_encoder_factors_not_zero(dictionary: &super::Pmc) -> bool {
-        i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 360))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 364))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 368))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 372))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 376))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 380))) > 0
+        i64::from(super::glue::get_u32(&dictionary.0, 360)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 364)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 368)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 372)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 376)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 380)) > 0
     }
 
     /// additional encoder factors not zero: The conversion divides by these entries or loses every position with them at 0. Implied; the device may not refuse 0.
     ///
     /// `0x688F.1 > 0 and 0x688F.2 > 0 and 0x6891.1 > 0 and 0x6891.2 > 0 and 0x6892.1 > 0 and 0x6892.2 > 0`.
     pub fn additional_encoder_factors_not_zero(dictionary: &super::Pmc) -> bool {
-        i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 400))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 404))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 408))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 412))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 416))) > 0
-            && i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 420))) > 0
+        i64::from(super::glue::get_u32(&dictionary.0, 400)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 404)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 408)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 412)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 416)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 420)) > 0
     }
 
     /// polarity bits of the axis agree: Bit 6 is not evaluated but should equal bit 7.
     ///
     /// `bit(0x607E, 6) == bit(0x607E, 7)`.
     pub fn polarity_bits_of_the_axis_agree(dictionary: &super::Pmc) -> bool {
-        (i64::from(u8::from_le_bytes(super::glue::get(&dictionary.0, 512))) >> 6 & 1)
-            == (i64::from(u8::from_le_bytes(super::glue::get(&dictionary.0, 512))) >> 7
-                & 1)
+        (i64::from(super::glue::get_u8(&dictionary.0, 512)) >> 6 & 1)
+            == (i64::from(super::glue::get_u8(&dictionary.0, 512)) >> 7 & 1)
     }
 
     /// polarity bits of the additional encoder agree: Bit 6 is not evaluated but should equal bit 7.
@@ -7686,9 +7292,8 @@ pub mod constraints {
     pub fn polarity_bits_of_the_additional_encoder_agree(
         dictionary: &super::Pmc,
     ) -> bool {
-        (i64::from(u8::from_le_bytes(super::glue::get(&dictionary.0, 516))) >> 6 & 1)
-            == (i64::from(u8::from_le_bytes(super::glue::get(&dictionary.0, 516))) >> 7
-                & 1)
+        (i64::from(super::glue::get_u8(&dictionary.0, 516)) >> 6 & 1)
+            == (i64::from(super::glue::get_u8(&dictionary.0, 516)) >> 7 & 1)
     }
 }
 
@@ -7775,880 +7380,9 @@ const VIEW_58F4: glue::View = glue::View::plain(
 
 /// What every entry is.
 static TABLE: glue::Table = glue::Table {
-    objects: &[
-        glue::table::ObjectRow::new(0x1000, 0),
-        glue::table::ObjectRow::new(0x1001, 1),
-        glue::table::ObjectRow::new(0x1003, 2),
-        glue::table::ObjectRow::new(0x1008, 4),
-        glue::table::ObjectRow::new(0x1010, 5),
-        glue::table::ObjectRow::new(0x1011, 10),
-        glue::table::ObjectRow::new(0x1014, 15),
-        glue::table::ObjectRow::new(0x1017, 16),
-        glue::table::ObjectRow::new(0x1018, 17),
-        glue::table::ObjectRow::new(0x1200, 22),
-        glue::table::ObjectRow::new(0x1400, 25),
-        glue::table::ObjectRow::new(0x1401, 28),
-        glue::table::ObjectRow::new(0x1402, 31),
-        glue::table::ObjectRow::new(0x1403, 34),
-        glue::table::ObjectRow::new(0x1600, 37),
-        glue::table::ObjectRow::new(0x1601, 46),
-        glue::table::ObjectRow::new(0x1602, 55),
-        glue::table::ObjectRow::new(0x1603, 64),
-        glue::table::ObjectRow::new(0x1800, 73),
-        glue::table::ObjectRow::new(0x1801, 76),
-        glue::table::ObjectRow::new(0x1802, 79),
-        glue::table::ObjectRow::new(0x1803, 82),
-        glue::table::ObjectRow::new(0x1A00, 85),
-        glue::table::ObjectRow::new(0x1A01, 94),
-        glue::table::ObjectRow::new(0x1A02, 103),
-        glue::table::ObjectRow::new(0x1A03, 112),
-        glue::table::ObjectRow::new(0x2030, 121),
-        glue::table::ObjectRow::new(0x5040, 123),
-        glue::table::ObjectRow::new(0x5041, 124),
-        glue::table::ObjectRow::new(0x5064, 125),
-        glue::table::ObjectRow::new(0x506C, 126),
-        glue::table::ObjectRow::new(0x5079, 127),
-        glue::table::ObjectRow::new(0x507A, 128),
-        glue::table::ObjectRow::new(0x5081, 129),
-        glue::table::ObjectRow::new(0x5083, 130),
-        glue::table::ObjectRow::new(0x5084, 131),
-        glue::table::ObjectRow::new(0x5094, 132),
-        glue::table::ObjectRow::new(0x50B0, 133),
-        glue::table::ObjectRow::new(0x50B1, 134),
-        glue::table::ObjectRow::new(0x50F4, 135),
-        glue::table::ObjectRow::new(0x50FF, 136),
-        glue::table::ObjectRow::new(0x5664, 137),
-        glue::table::ObjectRow::new(0x567A, 140),
-        glue::table::ObjectRow::new(0x5681, 141),
-        glue::table::ObjectRow::new(0x5683, 142),
-        glue::table::ObjectRow::new(0x5684, 143),
-        glue::table::ObjectRow::new(0x5864, 144),
-        glue::table::ObjectRow::new(0x5894, 145),
-        glue::table::ObjectRow::new(0x58F4, 146),
-        glue::table::ObjectRow::new(0x6007, 147),
-        glue::table::ObjectRow::new(0x603F, 148),
-        glue::table::ObjectRow::new(0x6040, 149),
-        glue::table::ObjectRow::new(0x6041, 150),
-        glue::table::ObjectRow::new(0x6044, 151),
-        glue::table::ObjectRow::new(0x605E, 152),
-        glue::table::ObjectRow::new(0x6060, 153),
-        glue::table::ObjectRow::new(0x6061, 154),
-        glue::table::ObjectRow::new(0x6064, 155),
-        glue::table::ObjectRow::new(0x6065, 156),
-        glue::table::ObjectRow::new(0x6066, 157),
-        glue::table::ObjectRow::new(0x6067, 158),
-        glue::table::ObjectRow::new(0x6068, 159),
-        glue::table::ObjectRow::new(0x606A, 160),
-        glue::table::ObjectRow::new(0x606C, 161),
-        glue::table::ObjectRow::new(0x6073, 162),
-        glue::table::ObjectRow::new(0x6076, 163),
-        glue::table::ObjectRow::new(0x6077, 164),
-        glue::table::ObjectRow::new(0x6078, 165),
-        glue::table::ObjectRow::new(0x6079, 166),
-        glue::table::ObjectRow::new(0x607A, 167),
-        glue::table::ObjectRow::new(0x607C, 168),
-        glue::table::ObjectRow::new(0x607D, 169),
-        glue::table::ObjectRow::new(0x607E, 172),
-        glue::table::ObjectRow::new(0x607F, 173),
-        glue::table::ObjectRow::new(0x6080, 174),
-        glue::table::ObjectRow::new(0x6081, 175),
-        glue::table::ObjectRow::new(0x6083, 176),
-        glue::table::ObjectRow::new(0x6084, 177),
-        glue::table::ObjectRow::new(0x608F, 178),
-        glue::table::ObjectRow::new(0x6091, 181),
-        glue::table::ObjectRow::new(0x6092, 184),
-        glue::table::ObjectRow::new(0x6098, 187),
-        glue::table::ObjectRow::new(0x60B0, 188),
-        glue::table::ObjectRow::new(0x60B1, 189),
-        glue::table::ObjectRow::new(0x60BA, 190),
-        glue::table::ObjectRow::new(0x60BB, 191),
-        glue::table::ObjectRow::new(0x60C2, 192),
-        glue::table::ObjectRow::new(0x60C5, 195),
-        glue::table::ObjectRow::new(0x60C6, 196),
-        glue::table::ObjectRow::new(0x60F4, 197),
-        glue::table::ObjectRow::new(0x60F6, 198),
-        glue::table::ObjectRow::new(0x60F9, 202),
-        glue::table::ObjectRow::new(0x60FB, 209),
-        glue::table::ObjectRow::new(0x60FD, 214),
-        glue::table::ObjectRow::new(0x60FE, 215),
-        glue::table::ObjectRow::new(0x60FF, 219),
-        glue::table::ObjectRow::new(0x6402, 220),
-        glue::table::ObjectRow::new(0x6410, 221),
-        glue::table::ObjectRow::new(0x6502, 237),
-        glue::table::ObjectRow::new(0x6510, 238),
-        glue::table::ObjectRow::new(0x6864, 249),
-        glue::table::ObjectRow::new(0x6865, 250),
-        glue::table::ObjectRow::new(0x6866, 251),
-        glue::table::ObjectRow::new(0x687C, 252),
-        glue::table::ObjectRow::new(0x687E, 253),
-        glue::table::ObjectRow::new(0x688F, 254),
-        glue::table::ObjectRow::new(0x6891, 257),
-        glue::table::ObjectRow::new(0x6892, 260),
-        glue::table::ObjectRow::new(0x68F4, 263),
-    ],
-    entries: &[
-        glue::table::EntryRow::new(0, 520),
-        glue::table::EntryRow::new(1, 694),
-        glue::table::EntryRow::new(2, 695),
-        glue::table::EntryRow::new(0, 524),
-        glue::table::EntryRow::new(3, 0),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(5, 528),
-        glue::table::EntryRow::new(5, 532),
-        glue::table::EntryRow::new(5, 536),
-        glue::table::EntryRow::new(5, 540),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(5, 544),
-        glue::table::EntryRow::new(5, 548),
-        glue::table::EntryRow::new(5, 552),
-        glue::table::EntryRow::new(5, 556),
-        glue::table::EntryRow::new(5, 560),
-        glue::table::EntryRow::new(6, 672),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(0, 564),
-        glue::table::EntryRow::new(0, 568),
-        glue::table::EntryRow::new(0, 572),
-        glue::table::EntryRow::new(0, 576),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(0, 580),
-        glue::table::EntryRow::new(0, 584),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 0),
-        glue::table::EntryRow::new(8, 288),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 4),
-        glue::table::EntryRow::new(8, 289),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 8),
-        glue::table::EntryRow::new(8, 290),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 12),
-        glue::table::EntryRow::new(8, 291),
-        glue::table::EntryRow::new(8, 292),
-        glue::table::EntryRow::new(7, 16),
-        glue::table::EntryRow::new(7, 20),
-        glue::table::EntryRow::new(7, 24),
-        glue::table::EntryRow::new(7, 28),
-        glue::table::EntryRow::new(7, 32),
-        glue::table::EntryRow::new(7, 36),
-        glue::table::EntryRow::new(7, 40),
-        glue::table::EntryRow::new(7, 44),
-        glue::table::EntryRow::new(8, 293),
-        glue::table::EntryRow::new(7, 48),
-        glue::table::EntryRow::new(7, 52),
-        glue::table::EntryRow::new(7, 56),
-        glue::table::EntryRow::new(7, 60),
-        glue::table::EntryRow::new(7, 64),
-        glue::table::EntryRow::new(7, 68),
-        glue::table::EntryRow::new(7, 72),
-        glue::table::EntryRow::new(7, 76),
-        glue::table::EntryRow::new(8, 294),
-        glue::table::EntryRow::new(7, 80),
-        glue::table::EntryRow::new(7, 84),
-        glue::table::EntryRow::new(7, 88),
-        glue::table::EntryRow::new(7, 92),
-        glue::table::EntryRow::new(7, 96),
-        glue::table::EntryRow::new(7, 100),
-        glue::table::EntryRow::new(7, 104),
-        glue::table::EntryRow::new(7, 108),
-        glue::table::EntryRow::new(8, 295),
-        glue::table::EntryRow::new(7, 112),
-        glue::table::EntryRow::new(7, 116),
-        glue::table::EntryRow::new(7, 120),
-        glue::table::EntryRow::new(7, 124),
-        glue::table::EntryRow::new(7, 128),
-        glue::table::EntryRow::new(7, 132),
-        glue::table::EntryRow::new(7, 136),
-        glue::table::EntryRow::new(7, 140),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 144),
-        glue::table::EntryRow::new(8, 296),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 148),
-        glue::table::EntryRow::new(8, 297),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 152),
-        glue::table::EntryRow::new(8, 298),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 156),
-        glue::table::EntryRow::new(8, 299),
-        glue::table::EntryRow::new(8, 300),
-        glue::table::EntryRow::new(7, 160),
-        glue::table::EntryRow::new(7, 164),
-        glue::table::EntryRow::new(7, 168),
-        glue::table::EntryRow::new(7, 172),
-        glue::table::EntryRow::new(7, 176),
-        glue::table::EntryRow::new(7, 180),
-        glue::table::EntryRow::new(7, 184),
-        glue::table::EntryRow::new(7, 188),
-        glue::table::EntryRow::new(8, 301),
-        glue::table::EntryRow::new(7, 192),
-        glue::table::EntryRow::new(7, 196),
-        glue::table::EntryRow::new(7, 200),
-        glue::table::EntryRow::new(7, 204),
-        glue::table::EntryRow::new(7, 208),
-        glue::table::EntryRow::new(7, 212),
-        glue::table::EntryRow::new(7, 216),
-        glue::table::EntryRow::new(7, 220),
-        glue::table::EntryRow::new(8, 302),
-        glue::table::EntryRow::new(7, 224),
-        glue::table::EntryRow::new(7, 228),
-        glue::table::EntryRow::new(7, 232),
-        glue::table::EntryRow::new(7, 236),
-        glue::table::EntryRow::new(7, 240),
-        glue::table::EntryRow::new(7, 244),
-        glue::table::EntryRow::new(7, 248),
-        glue::table::EntryRow::new(7, 252),
-        glue::table::EntryRow::new(8, 303),
-        glue::table::EntryRow::new(7, 256),
-        glue::table::EntryRow::new(7, 260),
-        glue::table::EntryRow::new(7, 264),
-        glue::table::EntryRow::new(7, 268),
-        glue::table::EntryRow::new(7, 272),
-        glue::table::EntryRow::new(7, 276),
-        glue::table::EntryRow::new(7, 280),
-        glue::table::EntryRow::new(7, 284),
-        glue::table::EntryRow::new(4, 5),
-        glue::table::EntryRow::new(0, 588),
-        glue::table::EntryRow::new(9, 696),
-        glue::table::EntryRow::new(10, 697),
-        glue::table::EntryRow::new(11, 0),
-        glue::table::EntryRow::new(11, 1),
-        glue::table::EntryRow::new(12, 2),
-        glue::table::EntryRow::new(13, 3),
-        glue::table::EntryRow::new(14, 4),
-        glue::table::EntryRow::new(14, 5),
-        glue::table::EntryRow::new(14, 6),
-        glue::table::EntryRow::new(15, 424),
-        glue::table::EntryRow::new(13, 7),
-        glue::table::EntryRow::new(13, 8),
-        glue::table::EntryRow::new(11, 9),
-        glue::table::EntryRow::new(13, 10),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(16, 592),
-        glue::table::EntryRow::new(16, 596),
-        glue::table::EntryRow::new(17, 304),
-        glue::table::EntryRow::new(18, 308),
-        glue::table::EntryRow::new(18, 312),
-        glue::table::EntryRow::new(18, 316),
-        glue::table::EntryRow::new(11, 11),
-        glue::table::EntryRow::new(19, 426),
-        glue::table::EntryRow::new(11, 12),
-        glue::table::EntryRow::new(20, 428),
-        glue::table::EntryRow::new(21, 674),
-        glue::table::EntryRow::new(22, 676),
-        glue::table::EntryRow::new(21, 678),
-        glue::table::EntryRow::new(23, 680),
-        glue::table::EntryRow::new(24, 430),
-        glue::table::EntryRow::new(25, 698),
-        glue::table::EntryRow::new(26, 699),
-        glue::table::EntryRow::new(27, 600),
-        glue::table::EntryRow::new(18, 320),
-        glue::table::EntryRow::new(28, 432),
-        glue::table::EntryRow::new(18, 324),
-        glue::table::EntryRow::new(28, 434),
-        glue::table::EntryRow::new(29, 436),
-        glue::table::EntryRow::new(27, 604),
-        glue::table::EntryRow::new(30, 438),
-        glue::table::EntryRow::new(18, 328),
-        glue::table::EntryRow::new(23, 682),
-        glue::table::EntryRow::new(23, 684),
-        glue::table::EntryRow::new(31, 608),
-        glue::table::EntryRow::new(32, 612),
-        glue::table::EntryRow::new(33, 332),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(17, 336),
-        glue::table::EntryRow::new(17, 340),
-        glue::table::EntryRow::new(34, 512),
-        glue::table::EntryRow::new(18, 344),
-        glue::table::EntryRow::new(18, 348),
-        glue::table::EntryRow::new(35, 616),
-        glue::table::EntryRow::new(36, 352),
-        glue::table::EntryRow::new(36, 356),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(18, 360),
-        glue::table::EntryRow::new(18, 364),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(37, 368),
-        glue::table::EntryRow::new(37, 372),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(18, 376),
-        glue::table::EntryRow::new(37, 380),
-        glue::table::EntryRow::new(38, 513),
-        glue::table::EntryRow::new(32, 620),
-        glue::table::EntryRow::new(32, 624),
-        glue::table::EntryRow::new(16, 628),
-        glue::table::EntryRow::new(16, 632),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(34, 514),
-        glue::table::EntryRow::new(39, 515),
-        glue::table::EntryRow::new(36, 384),
-        glue::table::EntryRow::new(36, 388),
-        glue::table::EntryRow::new(27, 636),
-        glue::table::EntryRow::new(4, 6),
-        glue::table::EntryRow::new(28, 440),
-        glue::table::EntryRow::new(28, 442),
-        glue::table::EntryRow::new(28, 444),
-        glue::table::EntryRow::new(4, 7),
-        glue::table::EntryRow::new(28, 446),
-        glue::table::EntryRow::new(28, 448),
-        glue::table::EntryRow::new(28, 450),
-        glue::table::EntryRow::new(28, 452),
-        glue::table::EntryRow::new(28, 454),
-        glue::table::EntryRow::new(28, 456),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(28, 458),
-        glue::table::EntryRow::new(28, 460),
-        glue::table::EntryRow::new(28, 462),
-        glue::table::EntryRow::new(28, 464),
-        glue::table::EntryRow::new(31, 640),
-        glue::table::EntryRow::new(4, 6),
-        glue::table::EntryRow::new(5, 644),
-        glue::table::EntryRow::new(5, 648),
-        glue::table::EntryRow::new(0, 652),
-        glue::table::EntryRow::new(32, 656),
-        glue::table::EntryRow::new(40, 466),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(28, 468),
-        glue::table::EntryRow::new(28, 470),
-        glue::table::EntryRow::new(28, 472),
-        glue::table::EntryRow::new(28, 474),
-        glue::table::EntryRow::new(28, 476),
-        glue::table::EntryRow::new(28, 478),
-        glue::table::EntryRow::new(28, 480),
-        glue::table::EntryRow::new(28, 482),
-        glue::table::EntryRow::new(23, 686),
-        glue::table::EntryRow::new(28, 484),
-        glue::table::EntryRow::new(28, 486),
-        glue::table::EntryRow::new(28, 488),
-        glue::table::EntryRow::new(28, 490),
-        glue::table::EntryRow::new(28, 492),
-        glue::table::EntryRow::new(28, 494),
-        glue::table::EntryRow::new(0, 660),
-        glue::table::EntryRow::new(4, 9),
-        glue::table::EntryRow::new(41, 688),
-        glue::table::EntryRow::new(42, 496),
-        glue::table::EntryRow::new(23, 690),
-        glue::table::EntryRow::new(28, 498),
-        glue::table::EntryRow::new(28, 500),
-        glue::table::EntryRow::new(28, 502),
-        glue::table::EntryRow::new(28, 504),
-        glue::table::EntryRow::new(21, 692),
-        glue::table::EntryRow::new(43, 506),
-        glue::table::EntryRow::new(44, 508),
-        glue::table::EntryRow::new(27, 664),
-        glue::table::EntryRow::new(18, 392),
-        glue::table::EntryRow::new(28, 510),
-        glue::table::EntryRow::new(33, 396),
-        glue::table::EntryRow::new(34, 516),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(18, 400),
-        glue::table::EntryRow::new(18, 404),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(18, 408),
-        glue::table::EntryRow::new(18, 412),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(18, 416),
-        glue::table::EntryRow::new(18, 420),
-        glue::table::EntryRow::new(27, 668),
-    ],
-    attributes: &[
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::VisibleString,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Constant,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 3,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Constant,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Communication,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Communication,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Alias,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Alias,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Alias,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Alias,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 0,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer32,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 1,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 2,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(75),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 3,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer8,
-            flags: glue::table::Flags(75),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: 4,
-            condition: 0,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer8,
-            flags: glue::table::Flags(81),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: 4,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer32,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 5,
-            condition: 1,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: 0,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer32,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: 2,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 4,
-            limits: 1,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer8,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: 6,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer8,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 7,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: 8,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: 2,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-    ],
+    objects: &OBJECTS,
+    entries: &ENTRIES,
+    attributes: &ATTRIBUTES,
     sparse: &[],
     aliases: &[
         glue::Alias {
@@ -8751,6 +7485,886 @@ static TABLE: glue::Table = glue::Table {
     dummies: 0x00,
 };
 
+/// Objects: index and row of the first entry.
+static OBJECTS: [glue::table::ObjectRow; 109] = glue::table::objects([
+    [0x1000, 0],
+    [0x1001, 1],
+    [0x1003, 2],
+    [0x1008, 4],
+    [0x1010, 5],
+    [0x1011, 10],
+    [0x1014, 15],
+    [0x1017, 16],
+    [0x1018, 17],
+    [0x1200, 22],
+    [0x1400, 25],
+    [0x1401, 28],
+    [0x1402, 31],
+    [0x1403, 34],
+    [0x1600, 37],
+    [0x1601, 46],
+    [0x1602, 55],
+    [0x1603, 64],
+    [0x1800, 73],
+    [0x1801, 76],
+    [0x1802, 79],
+    [0x1803, 82],
+    [0x1A00, 85],
+    [0x1A01, 94],
+    [0x1A02, 103],
+    [0x1A03, 112],
+    [0x2030, 121],
+    [0x5040, 123],
+    [0x5041, 124],
+    [0x5064, 125],
+    [0x506C, 126],
+    [0x5079, 127],
+    [0x507A, 128],
+    [0x5081, 129],
+    [0x5083, 130],
+    [0x5084, 131],
+    [0x5094, 132],
+    [0x50B0, 133],
+    [0x50B1, 134],
+    [0x50F4, 135],
+    [0x50FF, 136],
+    [0x5664, 137],
+    [0x567A, 140],
+    [0x5681, 141],
+    [0x5683, 142],
+    [0x5684, 143],
+    [0x5864, 144],
+    [0x5894, 145],
+    [0x58F4, 146],
+    [0x6007, 147],
+    [0x603F, 148],
+    [0x6040, 149],
+    [0x6041, 150],
+    [0x6044, 151],
+    [0x605E, 152],
+    [0x6060, 153],
+    [0x6061, 154],
+    [0x6064, 155],
+    [0x6065, 156],
+    [0x6066, 157],
+    [0x6067, 158],
+    [0x6068, 159],
+    [0x606A, 160],
+    [0x606C, 161],
+    [0x6073, 162],
+    [0x6076, 163],
+    [0x6077, 164],
+    [0x6078, 165],
+    [0x6079, 166],
+    [0x607A, 167],
+    [0x607C, 168],
+    [0x607D, 169],
+    [0x607E, 172],
+    [0x607F, 173],
+    [0x6080, 174],
+    [0x6081, 175],
+    [0x6083, 176],
+    [0x6084, 177],
+    [0x608F, 178],
+    [0x6091, 181],
+    [0x6092, 184],
+    [0x6098, 187],
+    [0x60B0, 188],
+    [0x60B1, 189],
+    [0x60BA, 190],
+    [0x60BB, 191],
+    [0x60C2, 192],
+    [0x60C5, 195],
+    [0x60C6, 196],
+    [0x60F4, 197],
+    [0x60F6, 198],
+    [0x60F9, 202],
+    [0x60FB, 209],
+    [0x60FD, 214],
+    [0x60FE, 215],
+    [0x60FF, 219],
+    [0x6402, 220],
+    [0x6410, 221],
+    [0x6502, 237],
+    [0x6510, 238],
+    [0x6864, 249],
+    [0x6865, 250],
+    [0x6866, 251],
+    [0x687C, 252],
+    [0x687E, 253],
+    [0x688F, 254],
+    [0x6891, 257],
+    [0x6892, 260],
+    [0x68F4, 263],
+]);
+
+/// Entries by row: attributes and place.
+static ENTRIES: [glue::table::EntryRow; 264] = glue::table::entries([
+    [0, 520],
+    [1, 694],
+    [2, 695],
+    [0, 524],
+    [3, 0],
+    [4, 3],
+    [5, 528],
+    [5, 532],
+    [5, 536],
+    [5, 540],
+    [4, 3],
+    [5, 544],
+    [5, 548],
+    [5, 552],
+    [5, 556],
+    [5, 560],
+    [6, 672],
+    [4, 3],
+    [0, 564],
+    [0, 568],
+    [0, 572],
+    [0, 576],
+    [4, 4],
+    [0, 580],
+    [0, 584],
+    [4, 4],
+    [7, 0],
+    [8, 288],
+    [4, 4],
+    [7, 4],
+    [8, 289],
+    [4, 4],
+    [7, 8],
+    [8, 290],
+    [4, 4],
+    [7, 12],
+    [8, 291],
+    [8, 292],
+    [7, 16],
+    [7, 20],
+    [7, 24],
+    [7, 28],
+    [7, 32],
+    [7, 36],
+    [7, 40],
+    [7, 44],
+    [8, 293],
+    [7, 48],
+    [7, 52],
+    [7, 56],
+    [7, 60],
+    [7, 64],
+    [7, 68],
+    [7, 72],
+    [7, 76],
+    [8, 294],
+    [7, 80],
+    [7, 84],
+    [7, 88],
+    [7, 92],
+    [7, 96],
+    [7, 100],
+    [7, 104],
+    [7, 108],
+    [8, 295],
+    [7, 112],
+    [7, 116],
+    [7, 120],
+    [7, 124],
+    [7, 128],
+    [7, 132],
+    [7, 136],
+    [7, 140],
+    [4, 4],
+    [7, 144],
+    [8, 296],
+    [4, 4],
+    [7, 148],
+    [8, 297],
+    [4, 4],
+    [7, 152],
+    [8, 298],
+    [4, 4],
+    [7, 156],
+    [8, 299],
+    [8, 300],
+    [7, 160],
+    [7, 164],
+    [7, 168],
+    [7, 172],
+    [7, 176],
+    [7, 180],
+    [7, 184],
+    [7, 188],
+    [8, 301],
+    [7, 192],
+    [7, 196],
+    [7, 200],
+    [7, 204],
+    [7, 208],
+    [7, 212],
+    [7, 216],
+    [7, 220],
+    [8, 302],
+    [7, 224],
+    [7, 228],
+    [7, 232],
+    [7, 236],
+    [7, 240],
+    [7, 244],
+    [7, 248],
+    [7, 252],
+    [8, 303],
+    [7, 256],
+    [7, 260],
+    [7, 264],
+    [7, 268],
+    [7, 272],
+    [7, 276],
+    [7, 280],
+    [7, 284],
+    [4, 5],
+    [0, 588],
+    [9, 696],
+    [10, 697],
+    [11, 0],
+    [11, 1],
+    [12, 2],
+    [13, 3],
+    [14, 4],
+    [14, 5],
+    [14, 6],
+    [15, 424],
+    [13, 7],
+    [13, 8],
+    [11, 9],
+    [13, 10],
+    [4, 4],
+    [16, 592],
+    [16, 596],
+    [17, 304],
+    [18, 308],
+    [18, 312],
+    [18, 316],
+    [11, 11],
+    [19, 426],
+    [11, 12],
+    [20, 428],
+    [21, 674],
+    [22, 676],
+    [21, 678],
+    [23, 680],
+    [24, 430],
+    [25, 698],
+    [26, 699],
+    [27, 600],
+    [18, 320],
+    [28, 432],
+    [18, 324],
+    [28, 434],
+    [29, 436],
+    [27, 604],
+    [30, 438],
+    [18, 328],
+    [23, 682],
+    [23, 684],
+    [31, 608],
+    [32, 612],
+    [33, 332],
+    [4, 4],
+    [17, 336],
+    [17, 340],
+    [34, 512],
+    [18, 344],
+    [18, 348],
+    [35, 616],
+    [36, 352],
+    [36, 356],
+    [4, 4],
+    [18, 360],
+    [18, 364],
+    [4, 4],
+    [37, 368],
+    [37, 372],
+    [4, 4],
+    [18, 376],
+    [37, 380],
+    [38, 513],
+    [32, 620],
+    [32, 624],
+    [16, 628],
+    [16, 632],
+    [4, 4],
+    [34, 514],
+    [39, 515],
+    [36, 384],
+    [36, 388],
+    [27, 636],
+    [4, 6],
+    [28, 440],
+    [28, 442],
+    [28, 444],
+    [4, 7],
+    [28, 446],
+    [28, 448],
+    [28, 450],
+    [28, 452],
+    [28, 454],
+    [28, 456],
+    [4, 3],
+    [28, 458],
+    [28, 460],
+    [28, 462],
+    [28, 464],
+    [31, 640],
+    [4, 6],
+    [5, 644],
+    [5, 648],
+    [0, 652],
+    [32, 656],
+    [40, 466],
+    [4, 8],
+    [28, 468],
+    [28, 470],
+    [28, 472],
+    [28, 474],
+    [28, 476],
+    [28, 478],
+    [28, 480],
+    [28, 482],
+    [23, 686],
+    [28, 484],
+    [28, 486],
+    [28, 488],
+    [28, 490],
+    [28, 492],
+    [28, 494],
+    [0, 660],
+    [4, 9],
+    [41, 688],
+    [42, 496],
+    [23, 690],
+    [28, 498],
+    [28, 500],
+    [28, 502],
+    [28, 504],
+    [21, 692],
+    [43, 506],
+    [44, 508],
+    [27, 664],
+    [18, 392],
+    [28, 510],
+    [33, 396],
+    [34, 516],
+    [4, 4],
+    [18, 400],
+    [18, 404],
+    [4, 4],
+    [18, 408],
+    [18, 412],
+    [4, 4],
+    [18, 416],
+    [18, 420],
+    [27, 668],
+]);
+
+/// What entries have in common.
+static ATTRIBUTES: [glue::table::Attributes; 45] = [
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::VisibleString,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Constant,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 3,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Constant,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Communication,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Communication,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Alias,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Alias,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Alias,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Alias,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 0,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer32,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 1,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 2,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(75),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 3,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer8,
+        flags: glue::table::Flags(75),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: 4,
+        condition: 0,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer8,
+        flags: glue::table::Flags(81),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: 4,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer32,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 5,
+        condition: 1,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: 0,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer32,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: 2,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 4,
+        limits: 1,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer8,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: 6,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer8,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 7,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: 8,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: 2,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+];
+
 /// Values that get the node-ID added to them.
 static NODE_ID_PLACES: [glue::image::NodeIdPlace; 11] = [
     glue::image::NodeIdPlace {
@@ -8845,8 +8459,8 @@ static FACTORY: [u8; 700] = *b"\
         \x00\x00\x00\x00\xA5\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00";
-/// Entries by row.
-static ENTRIES: [Entry; 264] = [
+/// Entries by row, by name.
+static BY_ROW: [Entry; 264] = [
     Entry::DeviceType,
     Entry::ErrorRegister,
     Entry::PreDefinedErrorFieldNumberOfErrors,

@@ -18,53 +18,47 @@ impl Pmm {
     pub const fn new(node_id: u8) -> Self {
         Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
     }
-}
 
-impl Pmm {
     /// `1000h` Device type: Tells which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, ro, default 0x00000000.
     #[inline]
     pub fn device_type(&self) -> types::DeviceTypeCode {
-        types::DeviceTypeCode(u32::from_le_bytes(glue::get(&self.0, 496)))
+        types::DeviceTypeCode(glue::get_u32(&self.0, 496))
     }
 
     /// Sets [`device_type`](Self::device_type).
     #[inline]
     pub fn set_device_type(&mut self, value: types::DeviceTypeCode) {
-        glue::put(&mut self.0, 496, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 496, value.0);
     }
-}
 
-impl Pmm {
     /// `1001h` error register: Groups of the errors that are present, in the layout of CiA 301.
     ///
     /// UNSIGNED8, ro.
     #[inline]
     pub fn error_register(&self) -> types::ErrorRegisterBits {
-        types::ErrorRegisterBits(u8::from_le_bytes(glue::get(&self.0, 666)))
+        types::ErrorRegisterBits(glue::get_u8(&self.0, 666))
     }
 
     /// Sets [`error_register`](Self::error_register).
     #[inline]
     pub fn set_error_register(&mut self, value: types::ErrorRegisterBits) {
-        glue::put(&mut self.0, 666, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 666, value.0);
     }
-}
 
-impl Pmm {
     /// `1003h` Number of errors.
     ///
     /// UNSIGNED8, rw, default 0.
     #[inline]
     pub fn pre_defined_error_field_number_of_errors(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 667))
+        glue::get_u8(&self.0, 667)
     }
 
     /// Sets [`pre_defined_error_field_number_of_errors`](Self::pre_defined_error_field_number_of_errors).
     #[inline]
     pub fn set_pre_defined_error_field_number_of_errors(&mut self, value: u8) {
-        glue::put(&mut self.0, 667, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 667, value);
     }
 
     /// `1003h` pre defined error field: Error history, newest first. The low word of an entry is the error code of Table 6. Warnings are not entered. `sub` is the sub-index, 1 to 1; `None` for any other.
@@ -73,7 +67,7 @@ impl Pmm {
     #[inline]
     pub fn pre_defined_error_field(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 1, 500, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`pre_defined_error_field`](Self::pre_defined_error_field); `None` if it does not exist.
@@ -81,12 +75,10 @@ impl Pmm {
     pub fn set_pre_defined_error_field(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 1, 500, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1008h` Manufacturer device name: Name of the product as its manufacturer writes it. (CiA 301 v4.02, 9.6.3)
     ///
     /// VISIBLE_STRING, const, default PMM.
@@ -94,9 +86,7 @@ impl Pmm {
     pub fn manufacturer_device_name(&self) -> &'static str {
         "PMM"
     }
-}
 
-impl Pmm {
     /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn store_parameters(&self) -> records::StoreParameters<&Self> {
@@ -108,9 +98,7 @@ impl Pmm {
     pub const fn store_parameters_mut(&mut self) -> records::StoreParameters<&mut Self> {
         records::StoreParameters(self)
     }
-}
 
-impl Pmm {
     /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn restore_default_parameters(
@@ -126,25 +114,21 @@ impl Pmm {
     ) -> records::RestoreDefaultParameters<&mut Self> {
         records::RestoreDefaultParameters(self)
     }
-}
 
-impl Pmm {
     /// `1014h` COB-ID EMCY: CAN-ID of the device's emergency message. To change it, first switch the message off (bit 31). (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, rw, default $NODEID+0x80.
     #[inline]
     pub fn cob_id_emcy(&self) -> types::EmcyCobId {
-        types::EmcyCobId(u32::from_le_bytes(glue::get(&self.0, 536)))
+        types::EmcyCobId(glue::get_u32(&self.0, 536))
     }
 
     /// Sets [`cob_id_emcy`](Self::cob_id_emcy).
     #[inline]
     pub fn set_cob_id_emcy(&mut self, value: types::EmcyCobId) {
-        glue::put(&mut self.0, 536, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 536, value.0);
     }
-}
 
-impl Pmm {
     /// `1017h` Producer heartbeat time: Time between two heartbeats of this device, in ms; 0 switches the heartbeat off. A non-zero value takes the place of node guarding. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED16, rw, in ms, 0: heartbeat off, default 0 (heartbeat off).
@@ -152,7 +136,7 @@ impl Pmm {
     pub fn producer_heartbeat_time(
         &self,
     ) -> glue::Special<units::Millisecond<u16>, specials::HeartbeatOff> {
-        match u16::from_le_bytes(glue::get(&self.0, 588)) {
+        match glue::get_u16(&self.0, 588) {
             0 => glue::Special::Special(specials::HeartbeatOff::HeartbeatOff),
             value => glue::Special::Value(units::Millisecond(value)),
         }
@@ -164,19 +148,16 @@ impl Pmm {
         &mut self,
         value: glue::Special<units::Millisecond<u16>, specials::HeartbeatOff>,
     ) {
-        glue::put(
+        glue::put_u16(
             &mut self.0,
             588,
             match value {
                 glue::Special::Value(value) => value.0,
                 glue::Special::Special(specials::HeartbeatOff::HeartbeatOff) => 0,
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmm {
     /// `1018h` Identity object: Says whose product this is, which one and which revision. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn identity_object(&self) -> records::IdentityObject<&Self> {
@@ -188,9 +169,7 @@ impl Pmm {
     pub const fn identity_object_mut(&mut self) -> records::IdentityObject<&mut Self> {
         records::IdentityObject(self)
     }
-}
 
-impl Pmm {
     /// `1200h` SDO server parameter: COB-IDs of the SDO channel that every device has; they follow the node-ID and cannot be changed. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn sdo_server_parameter(&self) -> records::SdoServerParameter<&Self> {
@@ -204,9 +183,7 @@ impl Pmm {
     ) -> records::SdoServerParameter<&mut Self> {
         records::SdoServerParameter(self)
     }
-}
 
-impl Pmm {
     /// `1400h` RPDO 1 communication parameter.
     #[inline]
     pub const fn rpdo_1_communication_parameter(
@@ -222,9 +199,7 @@ impl Pmm {
     ) -> records::Rpdo1CommunicationParameter<&mut Self> {
         records::Rpdo1CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1401h` RPDO 2 communication parameter.
     #[inline]
     pub const fn rpdo_2_communication_parameter(
@@ -240,9 +215,7 @@ impl Pmm {
     ) -> records::Rpdo2CommunicationParameter<&mut Self> {
         records::Rpdo2CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1402h` RPDO 3 communication parameter.
     #[inline]
     pub const fn rpdo_3_communication_parameter(
@@ -258,9 +231,7 @@ impl Pmm {
     ) -> records::Rpdo3CommunicationParameter<&mut Self> {
         records::Rpdo3CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1403h` RPDO 4 communication parameter.
     #[inline]
     pub const fn rpdo_4_communication_parameter(
@@ -276,21 +247,19 @@ impl Pmm {
     ) -> records::Rpdo4CommunicationParameter<&mut Self> {
         records::Rpdo4CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn rpdo_1_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 292))
+        glue::get_u8(&self.0, 292)
     }
 
     /// Sets [`rpdo_1_mapping_parameter_number_of_mapped_entries`](Self::rpdo_1_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_1_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 292, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 292, value);
     }
 
     /// `1600h` RPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -299,7 +268,7 @@ impl Pmm {
     #[inline]
     pub fn rpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 16, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter); `None` if it does not exist.
@@ -307,24 +276,22 @@ impl Pmm {
     pub fn set_rpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 16, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1601h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn rpdo_2_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 293))
+        glue::get_u8(&self.0, 293)
     }
 
     /// Sets [`rpdo_2_mapping_parameter_number_of_mapped_entries`](Self::rpdo_2_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_2_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 293, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 293, value);
     }
 
     /// `1601h` RPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -333,7 +300,7 @@ impl Pmm {
     #[inline]
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter); `None` if it does not exist.
@@ -341,24 +308,22 @@ impl Pmm {
     pub fn set_rpdo_2_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1602h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn rpdo_3_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 294))
+        glue::get_u8(&self.0, 294)
     }
 
     /// Sets [`rpdo_3_mapping_parameter_number_of_mapped_entries`](Self::rpdo_3_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_3_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 294, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 294, value);
     }
 
     /// `1602h` RPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -367,7 +332,7 @@ impl Pmm {
     #[inline]
     pub fn rpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 80, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter); `None` if it does not exist.
@@ -375,24 +340,22 @@ impl Pmm {
     pub fn set_rpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 80, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1603h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn rpdo_4_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 295))
+        glue::get_u8(&self.0, 295)
     }
 
     /// Sets [`rpdo_4_mapping_parameter_number_of_mapped_entries`](Self::rpdo_4_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_4_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 295, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 295, value);
     }
 
     /// `1603h` RPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -401,7 +364,7 @@ impl Pmm {
     #[inline]
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter); `None` if it does not exist.
@@ -409,12 +372,10 @@ impl Pmm {
     pub fn set_rpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1800h` TPDO 1 communication parameter.
     #[inline]
     pub const fn tpdo_1_communication_parameter(
@@ -430,9 +391,7 @@ impl Pmm {
     ) -> records::Tpdo1CommunicationParameter<&mut Self> {
         records::Tpdo1CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1801h` TPDO 2 communication parameter.
     #[inline]
     pub const fn tpdo_2_communication_parameter(
@@ -448,9 +407,7 @@ impl Pmm {
     ) -> records::Tpdo2CommunicationParameter<&mut Self> {
         records::Tpdo2CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1802h` TPDO 3 communication parameter.
     #[inline]
     pub const fn tpdo_3_communication_parameter(
@@ -466,9 +423,7 @@ impl Pmm {
     ) -> records::Tpdo3CommunicationParameter<&mut Self> {
         records::Tpdo3CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1803h` TPDO 4 communication parameter.
     #[inline]
     pub const fn tpdo_4_communication_parameter(
@@ -484,21 +439,19 @@ impl Pmm {
     ) -> records::Tpdo4CommunicationParameter<&mut Self> {
         records::Tpdo4CommunicationParameter(self)
     }
-}
 
-impl Pmm {
     /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn tpdo_1_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 300))
+        glue::get_u8(&self.0, 300)
     }
 
     /// Sets [`tpdo_1_mapping_parameter_number_of_mapped_entries`](Self::tpdo_1_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_1_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 300, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 300, value);
     }
 
     /// `1A00h` TPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -507,7 +460,7 @@ impl Pmm {
     #[inline]
     pub fn tpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 160, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter); `None` if it does not exist.
@@ -515,24 +468,22 @@ impl Pmm {
     pub fn set_tpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 160, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1A01h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn tpdo_2_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 301))
+        glue::get_u8(&self.0, 301)
     }
 
     /// Sets [`tpdo_2_mapping_parameter_number_of_mapped_entries`](Self::tpdo_2_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_2_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 301, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 301, value);
     }
 
     /// `1A01h` TPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -541,7 +492,7 @@ impl Pmm {
     #[inline]
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter); `None` if it does not exist.
@@ -549,24 +500,22 @@ impl Pmm {
     pub fn set_tpdo_2_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1A02h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn tpdo_3_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 302))
+        glue::get_u8(&self.0, 302)
     }
 
     /// Sets [`tpdo_3_mapping_parameter_number_of_mapped_entries`](Self::tpdo_3_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_3_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 302, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 302, value);
     }
 
     /// `1A02h` TPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -575,7 +524,7 @@ impl Pmm {
     #[inline]
     pub fn tpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 224, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter); `None` if it does not exist.
@@ -583,24 +532,22 @@ impl Pmm {
     pub fn set_tpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 224, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `1A03h` number of mapped entries: 0 disables the mapping while it is changed
     ///
     /// UNSIGNED8, rw, default 0, stored with the communication parameters.
     #[inline]
     pub fn tpdo_4_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        u8::from_le_bytes(glue::get(&self.0, 303))
+        glue::get_u8(&self.0, 303)
     }
 
     /// Sets [`tpdo_4_mapping_parameter_number_of_mapped_entries`](Self::tpdo_4_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_4_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put(&mut self.0, 303, value.to_le_bytes());
+        glue::put_u8(&mut self.0, 303, value);
     }
 
     /// `1A03h` TPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -609,7 +556,7 @@ impl Pmm {
     #[inline]
     pub fn tpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 256, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter); `None` if it does not exist.
@@ -617,19 +564,17 @@ impl Pmm {
     pub fn set_tpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 8, 256, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `2030h` error field time stamp: Times that belong to the entries of the error history. `sub` is the sub-index, 1 to 1; `None` for any other.
     ///
     /// UNSIGNED32, ro.
     #[inline]
     pub fn error_field_time_stamp(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 1, 564, 4)?;
-        Some(u32::from_le_bytes(glue::get(&self.0, offset)))
+        Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`error_field_time_stamp`](Self::error_field_time_stamp); `None` if it does not exist.
@@ -637,204 +582,178 @@ impl Pmm {
     pub fn set_error_field_time_stamp(&mut self, sub: u8, value: u32) -> Option<()> {
         let offset = glue::image::element(sub, 1, 564, 4)?;
 
-        glue::put(&mut self.0, offset, value.to_le_bytes());
+        glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
-}
 
-impl Pmm {
     /// `3000h` PMM status: Collective status of the unit; poll it cyclically. Faults are acknowledged with bit 7 of the PMM controlword (3040h).
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn pmm_status(&self) -> types::PmmStatus {
-        types::PmmStatus(u8::from_le_bytes(glue::get(&self.0, 668)))
+        types::PmmStatus(glue::get_u8(&self.0, 668))
     }
 
     /// Sets [`pmm_status`](Self::pmm_status).
     #[inline]
     pub fn set_pmm_status(&mut self, value: types::PmmStatus) {
-        glue::put(&mut self.0, 668, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 668, value.0);
     }
-}
 
-impl Pmm {
     /// `3001h` charger status: Charging stage and faults of the battery charger. The charger is off while the booster runs.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn charger_status(&self) -> types::ChargerStatus {
-        types::ChargerStatus(u8::from_le_bytes(glue::get(&self.0, 669)))
+        types::ChargerStatus(glue::get_u8(&self.0, 669))
     }
 
     /// Sets [`charger_status`](Self::charger_status).
     #[inline]
     pub fn set_charger_status(&mut self, value: types::ChargerStatus) {
-        glue::put(&mut self.0, 669, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 669, value.0);
     }
-}
 
-impl Pmm {
     /// `3002h` booster status: Activity and faults of the boost converter.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn booster_status(&self) -> types::BoosterStatus {
-        types::BoosterStatus(u8::from_le_bytes(glue::get(&self.0, 670)))
+        types::BoosterStatus(glue::get_u8(&self.0, 670))
     }
 
     /// Sets [`booster_status`](Self::booster_status).
     #[inline]
     pub fn set_booster_status(&mut self, value: types::BoosterStatus) {
-        glue::put(&mut self.0, 670, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 670, value.0);
     }
-}
 
-impl Pmm {
     /// `3003h` chopper status: Activity and faults of the brake chopper.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn chopper_status(&self) -> types::ChopperStatus {
-        types::ChopperStatus(u8::from_le_bytes(glue::get(&self.0, 671)))
+        types::ChopperStatus(glue::get_u8(&self.0, 671))
     }
 
     /// Sets [`chopper_status`](Self::chopper_status).
     #[inline]
     pub fn set_chopper_status(&mut self, value: types::ChopperStatus) {
-        glue::put(&mut self.0, 671, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 671, value.0);
     }
-}
 
-impl Pmm {
     /// `3004h` 24V supply status: State of the 24 V feed-in, of an external supply and of the supervised load current.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn n24v_supply_status(&self) -> types::N24vSupplyStatus {
-        types::N24vSupplyStatus(u8::from_le_bytes(glue::get(&self.0, 672)))
+        types::N24vSupplyStatus(glue::get_u8(&self.0, 672))
     }
 
     /// Sets [`n24v_supply_status`](Self::n24v_supply_status).
     #[inline]
     pub fn set_n24v_supply_status(&mut self, value: types::N24vSupplyStatus) {
-        glue::put(&mut self.0, 672, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 672, value.0);
     }
-}
 
-impl Pmm {
     /// `3005h` test status: Progress and result of the battery test, which waits for charged batteries and motors at standstill.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn test_status(&self) -> types::TestStatus {
-        types::TestStatus(u8::from_le_bytes(glue::get(&self.0, 673)))
+        types::TestStatus(glue::get_u8(&self.0, 673))
     }
 
     /// Sets [`test_status`](Self::test_status).
     #[inline]
     pub fn set_test_status(&mut self, value: types::TestStatus) {
-        glue::put(&mut self.0, 673, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 673, value.0);
     }
-}
 
-impl Pmm {
     /// `3006h` battery temperature status: Monitoring (3110h) and control (3201h) of the battery temperature.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn battery_temperature_status(&self) -> types::TemperatureStatus {
-        types::TemperatureStatus(u8::from_le_bytes(glue::get(&self.0, 674)))
+        types::TemperatureStatus(glue::get_u8(&self.0, 674))
     }
 
     /// Sets [`battery_temperature_status`](Self::battery_temperature_status).
     #[inline]
     pub fn set_battery_temperature_status(&mut self, value: types::TemperatureStatus) {
-        glue::put(&mut self.0, 674, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 674, value.0);
     }
-}
 
-impl Pmm {
     /// `3007h` heat sink temperature status: Monitoring (3111h) of the heat sink temperature. It has no controller, hence bits 1, 2 and 3 stay 0.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn heat_sink_temperature_status(&self) -> types::TemperatureStatus {
-        types::TemperatureStatus(u8::from_le_bytes(glue::get(&self.0, 675)))
+        types::TemperatureStatus(glue::get_u8(&self.0, 675))
     }
 
     /// Sets [`heat_sink_temperature_status`](Self::heat_sink_temperature_status).
     #[inline]
     pub fn set_heat_sink_temperature_status(&mut self, value: types::TemperatureStatus) {
-        glue::put(&mut self.0, 675, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 675, value.0);
     }
-}
 
-impl Pmm {
     /// `3008h` sensor1 temperature status: Monitoring (3112h) and control (3202h) of external sensor 1 at X15.1/X15.2.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn sensor1_temperature_status(&self) -> types::TemperatureStatus {
-        types::TemperatureStatus(u8::from_le_bytes(glue::get(&self.0, 676)))
+        types::TemperatureStatus(glue::get_u8(&self.0, 676))
     }
 
     /// Sets [`sensor1_temperature_status`](Self::sensor1_temperature_status).
     #[inline]
     pub fn set_sensor1_temperature_status(&mut self, value: types::TemperatureStatus) {
-        glue::put(&mut self.0, 676, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 676, value.0);
     }
-}
 
-impl Pmm {
     /// `3009h` sensor2 temperature status: Monitoring (3113h) and control (3203h) of external sensor 2 at X15.3/X15.4.
     ///
     /// UNSIGNED8, ro, TPDO.
     #[inline]
     pub fn sensor2_temperature_status(&self) -> types::TemperatureStatus {
-        types::TemperatureStatus(u8::from_le_bytes(glue::get(&self.0, 677)))
+        types::TemperatureStatus(glue::get_u8(&self.0, 677))
     }
 
     /// Sets [`sensor2_temperature_status`](Self::sensor2_temperature_status).
     #[inline]
     pub fn set_sensor2_temperature_status(&mut self, value: types::TemperatureStatus) {
-        glue::put(&mut self.0, 677, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 677, value.0);
     }
-}
 
-impl Pmm {
     /// `3010h` actual battery temperature: Temperature that stands for the whole battery: the coldest bloc while that is below 10 °C, otherwise the hottest bloc. Input of the battery temperature controller.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 °C.
     #[inline]
     pub fn actual_battery_temperature(&self) -> units::Decicelsius<i16> {
-        units::Decicelsius(i16::from_le_bytes(glue::get(&self.0, 590)))
+        units::Decicelsius(glue::get_i16(&self.0, 590))
     }
 
     /// Sets [`actual_battery_temperature`](Self::actual_battery_temperature).
     #[inline]
     pub fn set_actual_battery_temperature(&mut self, value: units::Decicelsius<i16>) {
-        glue::put(&mut self.0, 590, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 590, value.0);
     }
-}
 
-impl Pmm {
     /// `3011h` actual heat sink temperature: Temperature of the unit's heat sink, from a sensor mounted on it.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 °C.
     #[inline]
     pub fn actual_heat_sink_temperature(&self) -> units::Decicelsius<i16> {
-        units::Decicelsius(i16::from_le_bytes(glue::get(&self.0, 592)))
+        units::Decicelsius(glue::get_i16(&self.0, 592))
     }
 
     /// Sets [`actual_heat_sink_temperature`](Self::actual_heat_sink_temperature).
     #[inline]
     pub fn set_actual_heat_sink_temperature(&mut self, value: units::Decicelsius<i16>) {
-        glue::put(&mut self.0, 592, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 592, value.0);
     }
-}
 
-impl Pmm {
     /// `3012h` temperature sensor1: External KTY110 sensor 1 at X15.1/X15.2. A sensor fault raises no error, only these values and bits in 3008h.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 °C, -32768: short circuit, 32767: wire break.
@@ -842,7 +761,7 @@ impl Pmm {
     pub fn temperature_sensor1(
         &self,
     ) -> glue::Special<units::Decicelsius<i16>, specials::ShortCircuitOrWireBreak> {
-        match i16::from_le_bytes(glue::get(&self.0, 594)) {
+        match glue::get_i16(&self.0, 594) {
             -32768 => {
                 glue::Special::Special(specials::ShortCircuitOrWireBreak::ShortCircuit)
             }
@@ -857,7 +776,7 @@ impl Pmm {
         &mut self,
         value: glue::Special<units::Decicelsius<i16>, specials::ShortCircuitOrWireBreak>,
     ) {
-        glue::put(
+        glue::put_i16(
             &mut self.0,
             594,
             match value {
@@ -868,13 +787,10 @@ impl Pmm {
                 glue::Special::Special(specials::ShortCircuitOrWireBreak::WireBreak) => {
                     32767
                 }
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmm {
     /// `3013h` temperature sensor2: External KTY110 sensor 2 at X15.3/X15.4. A sensor fault raises no error, only these values and bits in 3009h.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 °C, -32768: short circuit, 32767: wire break.
@@ -882,7 +798,7 @@ impl Pmm {
     pub fn temperature_sensor2(
         &self,
     ) -> glue::Special<units::Decicelsius<i16>, specials::ShortCircuitOrWireBreak> {
-        match i16::from_le_bytes(glue::get(&self.0, 596)) {
+        match glue::get_i16(&self.0, 596) {
             -32768 => {
                 glue::Special::Special(specials::ShortCircuitOrWireBreak::ShortCircuit)
             }
@@ -897,7 +813,7 @@ impl Pmm {
         &mut self,
         value: glue::Special<units::Decicelsius<i16>, specials::ShortCircuitOrWireBreak>,
     ) {
-        glue::put(
+        glue::put_i16(
             &mut self.0,
             596,
             match value {
@@ -908,20 +824,17 @@ impl Pmm {
                 glue::Special::Special(specials::ShortCircuitOrWireBreak::WireBreak) => {
                     32767
                 }
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmm {
     /// `301Fh` battery temperature: Temperatures of the battery blocs, read through the interface of each bloc. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 °C.
     #[inline]
     pub fn battery_temperature(&self, sub: u8) -> Option<units::Decicelsius<i16>> {
         let offset = glue::image::element(sub, 8, 598, 2)?;
-        Some(units::Decicelsius(i16::from_le_bytes(glue::get(&self.0, offset))))
+        Some(units::Decicelsius(glue::get_i16(&self.0, offset)))
     }
 
     /// Sets an element of [`battery_temperature`](Self::battery_temperature); `None` if it does not exist.
@@ -933,12 +846,10 @@ impl Pmm {
     ) -> Option<()> {
         let offset = glue::image::element(sub, 8, 598, 2)?;
 
-        glue::put(&mut self.0, offset, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, offset, value.0);
         Some(())
     }
-}
 
-impl Pmm {
     /// `3020h` battery parameter: Description of the battery, which consists of blocs in series, each with its own interface for voltage and temperature.
     #[inline]
     pub const fn battery_parameter(&self) -> records::BatteryParameter<&Self> {
@@ -952,31 +863,27 @@ impl Pmm {
     ) -> records::BatteryParameter<&mut Self> {
         records::BatteryParameter(self)
     }
-}
 
-impl Pmm {
     /// `3040h` PMM controlword: Commands to the PMM. Normal operation needs none of them. Bits without a function have to be written 0.
     ///
     /// UNSIGNED16, rw, RPDO.
     #[inline]
     pub fn pmm_controlword(&self) -> types::PmmControlword {
-        types::PmmControlword(u16::from_le_bytes(glue::get(&self.0, 614)))
+        types::PmmControlword(glue::get_u16(&self.0, 614))
     }
 
     /// Sets [`pmm_controlword`](Self::pmm_controlword).
     #[inline]
     pub fn set_pmm_controlword(&mut self, value: types::PmmControlword) {
-        glue::put(&mut self.0, 614, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 614, value.0);
     }
-}
 
-impl Pmm {
     /// `3050h` cumulative total Ah charge: Charge put into the battery over its life, summed up at every charging. Write 0 after a change of the battery.
     ///
     /// UNSIGNED32, rw, TPDO, in mAh, kept over power-off.
     #[inline]
     pub fn cumulative_total_ah_charge(&self) -> units::MilliampereHour<u32> {
-        units::MilliampereHour(u32::from_le_bytes(glue::get(&self.0, 488)))
+        units::MilliampereHour(glue::get_u32(&self.0, 488))
     }
 
     /// Sets [`cumulative_total_ah_charge`](Self::cumulative_total_ah_charge).
@@ -985,17 +892,15 @@ impl Pmm {
         &mut self,
         value: units::MilliampereHour<u32>,
     ) {
-        glue::put(&mut self.0, 488, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 488, value.0);
     }
-}
 
-impl Pmm {
     /// `3051h` Ah expended since last charge: Charge taken from the battery since it was last charged. The next charging cycle sets it to 0.
     ///
     /// INTEGER16, ro, TPDO, in mAh, kept over power-off.
     #[inline]
     pub fn ah_expended_since_last_charge(&self) -> units::MilliampereHour<i16> {
-        units::MilliampereHour(i16::from_le_bytes(glue::get(&self.0, 492)))
+        units::MilliampereHour(glue::get_i16(&self.0, 492))
     }
 
     /// Sets [`ah_expended_since_last_charge`](Self::ah_expended_since_last_charge).
@@ -1004,17 +909,15 @@ impl Pmm {
         &mut self,
         value: units::MilliampereHour<i16>,
     ) {
-        glue::put(&mut self.0, 492, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 492, value.0);
     }
-}
 
-impl Pmm {
     /// `3052h` Ah returned during last charge: Charge put into the battery in one charging cycle. The next charging cycle sets it to 0.
     ///
     /// INTEGER16, ro, TPDO, in mAh, kept over power-off.
     #[inline]
     pub fn ah_returned_during_last_charge(&self) -> units::MilliampereHour<i16> {
-        units::MilliampereHour(i16::from_le_bytes(glue::get(&self.0, 494)))
+        units::MilliampereHour(glue::get_i16(&self.0, 494))
     }
 
     /// Sets [`ah_returned_during_last_charge`](Self::ah_returned_during_last_charge).
@@ -1023,50 +926,44 @@ impl Pmm {
         &mut self,
         value: units::MilliampereHour<i16>,
     ) {
-        glue::put(&mut self.0, 494, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 494, value.0);
     }
-}
 
-impl Pmm {
     /// `3053h` actual battery capacity: Present capacity, worked out while the battery is idle and kept up by counting charge in and out.
     ///
     /// UNSIGNED16, ro, TPDO, in mAh.
     #[inline]
     pub fn actual_battery_capacity(&self) -> units::MilliampereHour<u16> {
-        units::MilliampereHour(u16::from_le_bytes(glue::get(&self.0, 616)))
+        units::MilliampereHour(glue::get_u16(&self.0, 616))
     }
 
     /// Sets [`actual_battery_capacity`](Self::actual_battery_capacity).
     #[inline]
     pub fn set_actual_battery_capacity(&mut self, value: units::MilliampereHour<u16>) {
-        glue::put(&mut self.0, 616, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 616, value.0);
     }
-}
 
-impl Pmm {
     /// `3060h` actual battery voltage: Battery voltage at clamp X19.
     ///
     /// UNSIGNED16, ro, TPDO, in V.
     #[inline]
     pub fn actual_battery_voltage(&self) -> units::Volt<u16> {
-        units::Volt(u16::from_le_bytes(glue::get(&self.0, 618)))
+        units::Volt(glue::get_u16(&self.0, 618))
     }
 
     /// Sets [`actual_battery_voltage`](Self::actual_battery_voltage).
     #[inline]
     pub fn set_actual_battery_voltage(&mut self, value: units::Volt<u16>) {
-        glue::put(&mut self.0, 618, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 618, value.0);
     }
-}
 
-impl Pmm {
     /// `3061h` battery voltage: Voltages of the battery blocs, read through the interface of each bloc. Only connected blocs deliver a measured value. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
     /// UNSIGNED16, ro, TPDO, in mV.
     #[inline]
     pub fn battery_voltage(&self, sub: u8) -> Option<units::Millivolt<u16>> {
         let offset = glue::image::element(sub, 8, 620, 2)?;
-        Some(units::Millivolt(u16::from_le_bytes(glue::get(&self.0, offset))))
+        Some(units::Millivolt(glue::get_u16(&self.0, offset)))
     }
 
     /// Sets an element of [`battery_voltage`](Self::battery_voltage); `None` if it does not exist.
@@ -1078,332 +975,290 @@ impl Pmm {
     ) -> Option<()> {
         let offset = glue::image::element(sub, 8, 620, 2)?;
 
-        glue::put(&mut self.0, offset, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, offset, value.0);
         Some(())
     }
-}
 
-impl Pmm {
     /// `3062h` actual mains voltage: Mains voltage, measured directly at the mains clamp.
     ///
     /// UNSIGNED16, ro, TPDO, in V.
     #[inline]
     pub fn actual_mains_voltage(&self) -> units::Volt<u16> {
-        units::Volt(u16::from_le_bytes(glue::get(&self.0, 636)))
+        units::Volt(glue::get_u16(&self.0, 636))
     }
 
     /// Sets [`actual_mains_voltage`](Self::actual_mains_voltage).
     #[inline]
     pub fn set_actual_mains_voltage(&mut self, value: units::Volt<u16>) {
-        glue::put(&mut self.0, 636, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 636, value.0);
     }
-}
 
-impl Pmm {
     /// `3063h` actual dc-link voltage: Present voltage of the DC link.
     ///
     /// UNSIGNED16, ro, TPDO, in V.
     #[inline]
     pub fn actual_dc_link_voltage(&self) -> units::Volt<u16> {
-        units::Volt(u16::from_le_bytes(glue::get(&self.0, 638)))
+        units::Volt(glue::get_u16(&self.0, 638))
     }
 
     /// Sets [`actual_dc_link_voltage`](Self::actual_dc_link_voltage).
     #[inline]
     pub fn set_actual_dc_link_voltage(&mut self, value: units::Volt<u16>) {
-        glue::put(&mut self.0, 638, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 638, value.0);
     }
-}
 
-impl Pmm {
     /// `3064h` actual charger voltage: Output voltage of the charger, about 1 V above the battery while charging and about 10 V below its off-load voltage otherwise.
     ///
     /// UNSIGNED16, ro, TPDO, in V.
     #[inline]
     pub fn actual_charger_voltage(&self) -> units::Volt<u16> {
-        units::Volt(u16::from_le_bytes(glue::get(&self.0, 640)))
+        units::Volt(glue::get_u16(&self.0, 640))
     }
 
     /// Sets [`actual_charger_voltage`](Self::actual_charger_voltage).
     #[inline]
     pub fn set_actual_charger_voltage(&mut self, value: units::Volt<u16>) {
-        glue::put(&mut self.0, 640, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 640, value.0);
     }
-}
 
-impl Pmm {
     /// `3065h` actual supply voltage: 24 V supply at clamp X20.4: the internally made voltage or, with an external supply, that supply less the drop of a diode (about 0.7 V).
     ///
     /// UNSIGNED16, ro, TPDO, in mV.
     #[inline]
     pub fn actual_supply_voltage(&self) -> units::Millivolt<u16> {
-        units::Millivolt(u16::from_le_bytes(glue::get(&self.0, 642)))
+        units::Millivolt(glue::get_u16(&self.0, 642))
     }
 
     /// Sets [`actual_supply_voltage`](Self::actual_supply_voltage).
     #[inline]
     pub fn set_actual_supply_voltage(&mut self, value: units::Millivolt<u16>) {
-        glue::put(&mut self.0, 642, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 642, value.0);
     }
-}
 
-impl Pmm {
     /// `3066h` actual supply voltage external: External 24 V supply at clamp X20.6, kept apart from the internal supply by a diode.
     ///
     /// UNSIGNED16, ro, TPDO, in mV.
     #[inline]
     pub fn actual_supply_voltage_external(&self) -> units::Millivolt<u16> {
-        units::Millivolt(u16::from_le_bytes(glue::get(&self.0, 644)))
+        units::Millivolt(glue::get_u16(&self.0, 644))
     }
 
     /// Sets [`actual_supply_voltage_external`](Self::actual_supply_voltage_external).
     #[inline]
     pub fn set_actual_supply_voltage_external(&mut self, value: units::Millivolt<u16>) {
-        glue::put(&mut self.0, 644, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 644, value.0);
     }
-}
 
-impl Pmm {
     /// `3067h` battery off-load voltage: Battery voltage without load; follows while the battery carries no current.
     ///
     /// UNSIGNED16, ro, TPDO, in V.
     #[inline]
     pub fn battery_off_load_voltage(&self) -> units::Volt<u16> {
-        units::Volt(u16::from_le_bytes(glue::get(&self.0, 646)))
+        units::Volt(glue::get_u16(&self.0, 646))
     }
 
     /// Sets [`battery_off_load_voltage`](Self::battery_off_load_voltage).
     #[inline]
     pub fn set_battery_off_load_voltage(&mut self, value: units::Volt<u16>) {
-        glue::put(&mut self.0, 646, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 646, value.0);
     }
-}
 
-impl Pmm {
     /// `3068h` battery test voltage: Lowest battery voltage seen during the automatic battery test.
     ///
     /// UNSIGNED16, ro, TPDO, in V.
     #[inline]
     pub fn battery_test_voltage(&self) -> units::Volt<u16> {
-        units::Volt(u16::from_le_bytes(glue::get(&self.0, 648)))
+        units::Volt(glue::get_u16(&self.0, 648))
     }
 
     /// Sets [`battery_test_voltage`](Self::battery_test_voltage).
     #[inline]
     pub fn set_battery_test_voltage(&mut self, value: units::Volt<u16>) {
-        glue::put(&mut self.0, 648, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 648, value.0);
     }
-}
 
-impl Pmm {
     /// `3070h` actual battery current: Battery current, positive when discharging (resolution 400 mA), negative when charging (resolution 2.5 mA).
     ///
     /// INTEGER32, ro, TPDO, in mA.
     #[inline]
     pub fn actual_battery_current(&self) -> units::Milliampere<i32> {
-        units::Milliampere(i32::from_le_bytes(glue::get(&self.0, 568)))
+        units::Milliampere(glue::get_i32(&self.0, 568))
     }
 
     /// Sets [`actual_battery_current`](Self::actual_battery_current).
     #[inline]
     pub fn set_actual_battery_current(&mut self, value: units::Milliampere<i32>) {
-        glue::put(&mut self.0, 568, value.0.to_le_bytes());
+        glue::put_i32(&mut self.0, 568, value.0);
     }
-}
 
-impl Pmm {
     /// `3073h` actual booster current: Current that the boost converter delivers. The manual states no sign convention.
     ///
     /// INTEGER16, ro, TPDO, in A.
     #[inline]
     pub fn actual_booster_current(&self) -> units::Ampere<i16> {
-        units::Ampere(i16::from_le_bytes(glue::get(&self.0, 650)))
+        units::Ampere(glue::get_i16(&self.0, 650))
     }
 
     /// Sets [`actual_booster_current`](Self::actual_booster_current).
     #[inline]
     pub fn set_actual_booster_current(&mut self, value: units::Ampere<i16>) {
-        glue::put(&mut self.0, 650, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 650, value.0);
     }
-}
 
-impl Pmm {
     /// `3074h` actual charger current: Output current of the charger, i.e. battery charging current plus input current of the 24 V supply. No sign convention stated.
     ///
     /// INTEGER16, ro, TPDO, in mA.
     #[inline]
     pub fn actual_charger_current(&self) -> units::Milliampere<i16> {
-        units::Milliampere(i16::from_le_bytes(glue::get(&self.0, 652)))
+        units::Milliampere(glue::get_i16(&self.0, 652))
     }
 
     /// Sets [`actual_charger_current`](Self::actual_charger_current).
     #[inline]
     pub fn set_actual_charger_current(&mut self, value: units::Milliampere<i16>) {
-        glue::put(&mut self.0, 652, value.0.to_le_bytes());
+        glue::put_i16(&mut self.0, 652, value.0);
     }
-}
 
-impl Pmm {
     /// `3075h` actual supply current: Total 24 V current, own consumption and outputs together.
     ///
     /// UNSIGNED16, ro, TPDO, in mA.
     #[inline]
     pub fn actual_supply_current(&self) -> units::Milliampere<u16> {
-        units::Milliampere(u16::from_le_bytes(glue::get(&self.0, 654)))
+        units::Milliampere(glue::get_u16(&self.0, 654))
     }
 
     /// Sets [`actual_supply_current`](Self::actual_supply_current).
     #[inline]
     pub fn set_actual_supply_current(&mut self, value: units::Milliampere<u16>) {
-        glue::put(&mut self.0, 654, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 654, value.0);
     }
-}
 
-impl Pmm {
     /// `3080h` battery state of charge: State of charge, determined while the battery is idle and kept up by counting charge in and out.
     ///
     /// UNSIGNED8, ro, TPDO, in %.
     #[inline]
     pub fn battery_state_of_charge(&self) -> units::Percent<u8> {
-        units::Percent(u8::from_le_bytes(glue::get(&self.0, 678)))
+        units::Percent(glue::get_u8(&self.0, 678))
     }
 
     /// Sets [`battery_state_of_charge`](Self::battery_state_of_charge).
     #[inline]
     pub fn set_battery_state_of_charge(&mut self, value: units::Percent<u8>) {
-        glue::put(&mut self.0, 678, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 678, value.0);
     }
-}
 
-impl Pmm {
     /// `3081h` battery state of health: State of health from the measured internal resistance; meaningful only after a discharge.
     ///
     /// UNSIGNED8, ro, TPDO, in %.
     #[inline]
     pub fn battery_state_of_health(&self) -> units::Percent<u8> {
-        units::Percent(u8::from_le_bytes(glue::get(&self.0, 679)))
+        units::Percent(glue::get_u8(&self.0, 679))
     }
 
     /// Sets [`battery_state_of_health`](Self::battery_state_of_health).
     #[inline]
     pub fn set_battery_state_of_health(&mut self, value: units::Percent<u8>) {
-        glue::put(&mut self.0, 679, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 679, value.0);
     }
-}
 
-impl Pmm {
     /// `30A0h` read analog input 1: Voltage at the analog input, which spans 0 to 10 V with a resolution of 10 bits.
     ///
     /// UNSIGNED16, ro, TPDO, in mV.
     #[inline]
     pub fn read_analog_input_1(&self) -> units::Millivolt<u16> {
-        units::Millivolt(u16::from_le_bytes(glue::get(&self.0, 656)))
+        units::Millivolt(glue::get_u16(&self.0, 656))
     }
 
     /// Sets [`read_analog_input_1`](Self::read_analog_input_1).
     #[inline]
     pub fn set_read_analog_input_1(&mut self, value: units::Millivolt<u16>) {
-        glue::put(&mut self.0, 656, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 656, value.0);
     }
-}
 
-impl Pmm {
     /// `30B0h` actual load booster: How far the output stage of the booster is used, i.e. its on-time against its off-time.
     ///
     /// UNSIGNED8, ro, TPDO, in %.
     #[inline]
     pub fn actual_load_booster(&self) -> units::Percent<u8> {
-        units::Percent(u8::from_le_bytes(glue::get(&self.0, 680)))
+        units::Percent(glue::get_u8(&self.0, 680))
     }
 
     /// Sets [`actual_load_booster`](Self::actual_load_booster).
     #[inline]
     pub fn set_actual_load_booster(&mut self, value: units::Percent<u8>) {
-        glue::put(&mut self.0, 680, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 680, value.0);
     }
-}
 
-impl Pmm {
     /// `30B1h` actual load chopper: How far the brake chopper is used; 100 % is 300 W.
     ///
     /// UNSIGNED8, ro, TPDO, in %.
     #[inline]
     pub fn actual_load_chopper(&self) -> units::Percent<u8> {
-        units::Percent(u8::from_le_bytes(glue::get(&self.0, 681)))
+        units::Percent(glue::get_u8(&self.0, 681))
     }
 
     /// Sets [`actual_load_chopper`](Self::actual_load_chopper).
     #[inline]
     pub fn set_actual_load_chopper(&mut self, value: units::Percent<u8>) {
-        glue::put(&mut self.0, 681, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 681, value.0);
     }
-}
 
-impl Pmm {
     /// `30B2h` remaining time to backup: Time left after a power failure until the emergency mode starts. Counts down from max time of power failure (30E0h).
     ///
     /// UNSIGNED16, ro, TPDO, in ms.
     #[inline]
     pub fn remaining_time_to_backup(&self) -> units::Millisecond<u16> {
-        units::Millisecond(u16::from_le_bytes(glue::get(&self.0, 658)))
+        units::Millisecond(glue::get_u16(&self.0, 658))
     }
 
     /// Sets [`remaining_time_to_backup`](Self::remaining_time_to_backup).
     #[inline]
     pub fn set_remaining_time_to_backup(&mut self, value: units::Millisecond<u16>) {
-        glue::put(&mut self.0, 658, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 658, value.0);
     }
-}
 
-impl Pmm {
     /// `30B3h` remaining time to power down: Time left until the unit shuts down. Counts down from max time to shutdown (30E1h).
     ///
     /// UNSIGNED16, ro, TPDO, in s.
     #[inline]
     pub fn remaining_time_to_power_down(&self) -> units::Second<u16> {
-        units::Second(u16::from_le_bytes(glue::get(&self.0, 660)))
+        units::Second(glue::get_u16(&self.0, 660))
     }
 
     /// Sets [`remaining_time_to_power_down`](Self::remaining_time_to_power_down).
     #[inline]
     pub fn set_remaining_time_to_power_down(&mut self, value: units::Second<u16>) {
-        glue::put(&mut self.0, 660, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 660, value.0);
     }
-}
 
-impl Pmm {
     /// `30B4h` battery internal resistance: Internal resistance measured during discharge; compare with the nominal one in battery parameter (3020h.8).
     ///
     /// UNSIGNED16, ro, TPDO, in mOhm.
     #[inline]
     pub fn battery_internal_resistance(&self) -> units::Milliohm<u16> {
-        units::Milliohm(u16::from_le_bytes(glue::get(&self.0, 662)))
+        units::Milliohm(glue::get_u16(&self.0, 662))
     }
 
     /// Sets [`battery_internal_resistance`](Self::battery_internal_resistance).
     #[inline]
     pub fn set_battery_internal_resistance(&mut self, value: units::Milliohm<u16>) {
-        glue::put(&mut self.0, 662, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 662, value.0);
     }
-}
 
-impl Pmm {
     /// `30C0h` supervisor current level: 24 V current above which bit 2 of 24V supply status (3004h) is set, for example to see that the brake has been released. Set it to the usual consumption plus a margin.
     ///
     /// UNSIGNED16, rw, in mA, default 1000 mA, stored with the application parameters.
     #[inline]
     pub fn supervisor_current_level(&self) -> units::Milliampere<u16> {
-        units::Milliampere(u16::from_le_bytes(glue::get(&self.0, 318)))
+        units::Milliampere(glue::get_u16(&self.0, 318))
     }
 
     /// Sets [`supervisor_current_level`](Self::supervisor_current_level).
     #[inline]
     pub fn set_supervisor_current_level(&mut self, value: units::Milliampere<u16>) {
-        glue::put(&mut self.0, 318, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 318, value.0);
     }
-}
 
-impl Pmm {
     /// `30DCh` dc motor parameter set: Ramps of a DC motor fed straight from the DC link. As of July 2007 the function is not available yet.
     #[inline]
     pub const fn dc_motor_parameter_set(&self) -> records::DcMotorParameterSet<&Self> {
@@ -1417,47 +1272,41 @@ impl Pmm {
     ) -> records::DcMotorParameterSet<&mut Self> {
         records::DcMotorParameterSet(self)
     }
-}
 
-impl Pmm {
     /// `30E0h` max time of power failure: Longest power failure to ride through; after this time the emergency mode starts. At least 3 s are advised, as grid operators ask for it.
     ///
     /// UNSIGNED16, rw, in ms, default 3000 ms, stored with the application parameters.
     #[inline]
     pub fn max_time_of_power_failure(&self) -> units::Millisecond<u16> {
-        units::Millisecond(u16::from_le_bytes(glue::get(&self.0, 328)))
+        units::Millisecond(glue::get_u16(&self.0, 328))
     }
 
     /// Sets [`max_time_of_power_failure`](Self::max_time_of_power_failure).
     #[inline]
     pub fn set_max_time_of_power_failure(&mut self, value: units::Millisecond<u16>) {
-        glue::put(&mut self.0, 328, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 328, value.0);
     }
-}
 
-impl Pmm {
     /// `30E1h` max time to shutdown: Time from the power failure to the shutdown. Has to cover the ride-through time (30E0h) and the longest travel of the blades to the feather position.
     ///
     /// UNSIGNED16, rw, in s, default 30 s, stored with the application parameters.
     #[inline]
     pub fn max_time_to_shutdown(&self) -> units::Second<u16> {
-        units::Second(u16::from_le_bytes(glue::get(&self.0, 330)))
+        units::Second(glue::get_u16(&self.0, 330))
     }
 
     /// Sets [`max_time_to_shutdown`](Self::max_time_to_shutdown).
     #[inline]
     pub fn set_max_time_to_shutdown(&mut self, value: units::Second<u16>) {
-        glue::put(&mut self.0, 330, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 330, value.0);
     }
-}
 
-impl Pmm {
     /// `30E2h` pulse width input check signal: Length to which a test pulse on X13.7, X13.8 or X13.10 is stretched in bits 16, 18 and 19 of digital inputs (30FDh). The test pulse itself may hold the input at 0 V for 40 ms at most; from about 50 ms on, the emergency mode is executed.
     ///
     /// UNSIGNED16, rw, in ms, default 2000 ms, stored with the application parameters.
     #[inline]
     pub fn pulse_width_input_check_signal(&self) -> units::Millisecond<u16> {
-        units::Millisecond(u16::from_le_bytes(glue::get(&self.0, 332)))
+        units::Millisecond(glue::get_u16(&self.0, 332))
     }
 
     /// Sets [`pulse_width_input_check_signal`](Self::pulse_width_input_check_signal).
@@ -1466,11 +1315,9 @@ impl Pmm {
         &mut self,
         value: units::Millisecond<u16>,
     ) {
-        glue::put(&mut self.0, 332, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, 332, value.0);
     }
-}
 
-impl Pmm {
     /// `30E3h` selftest time: Cycle time of the automatic battery test, at least 60 minutes. The result is in test status (3005h) and 3068h.
     ///
     /// UNSIGNED16, rw, in min, from 60 min, 0: automatic test off, default 0 (automatic test off), stored with the application parameters.
@@ -1478,7 +1325,7 @@ impl Pmm {
     pub fn selftest_time(
         &self,
     ) -> glue::Special<units::Minute<u16>, specials::AutomaticTestOff> {
-        match u16::from_le_bytes(glue::get(&self.0, 334)) {
+        match glue::get_u16(&self.0, 334) {
             0 => glue::Special::Special(specials::AutomaticTestOff::AutomaticTestOff),
             value => glue::Special::Value(units::Minute(value)),
         }
@@ -1490,19 +1337,16 @@ impl Pmm {
         &mut self,
         value: glue::Special<units::Minute<u16>, specials::AutomaticTestOff>,
     ) {
-        glue::put(
+        glue::put_u16(
             &mut self.0,
             334,
             match value {
                 glue::Special::Value(value) => value.0,
                 glue::Special::Special(specials::AutomaticTestOff::AutomaticTestOff) => 0,
-            }
-                .to_le_bytes(),
+            },
         );
     }
-}
 
-impl Pmm {
     /// `30F0h` supply controller parameter set: Cascaded PI controller of the regulated mains adapter. Set in the factory, varies with the machine; wrong values can damage the machine.
     #[inline]
     pub const fn supply_controller_parameter_set(
@@ -1518,9 +1362,7 @@ impl Pmm {
     ) -> records::SupplyControllerParameterSet<&mut Self> {
         records::SupplyControllerParameterSet(self)
     }
-}
 
-impl Pmm {
     /// `30F1h` charge controller parameter set: PI controller and low-pass filter of the battery charger (sub-indices 1 to 3, set in the factory), and the charging limits, which depend on type and number of the battery blocs.
     #[inline]
     pub const fn charge_controller_parameter_set(
@@ -1536,9 +1378,7 @@ impl Pmm {
     ) -> records::ChargeControllerParameterSet<&mut Self> {
         records::ChargeControllerParameterSet(self)
     }
-}
 
-impl Pmm {
     /// `30FAh` dc-link voltage: Thresholds of the DC link monitoring.
     #[inline]
     pub const fn dc_link_voltage(&self) -> records::DcLinkVoltage<&Self> {
@@ -1550,9 +1390,7 @@ impl Pmm {
     pub const fn dc_link_voltage_mut(&mut self) -> records::DcLinkVoltage<&mut Self> {
         records::DcLinkVoltage(self)
     }
-}
 
-impl Pmm {
     /// `30FBh` booster parameter set: Cascaded PI controller of the boost converter (sub-indices 1 to 6, set in the factory, varies with the machine; wrong values can damage the machine), and its working points.
     #[inline]
     pub const fn booster_parameter_set(&self) -> records::BoosterParameterSet<&Self> {
@@ -1566,9 +1404,7 @@ impl Pmm {
     ) -> records::BoosterParameterSet<&mut Self> {
         records::BoosterParameterSet(self)
     }
-}
 
-impl Pmm {
     /// `30FCh` brake chopper: DC link voltages between which the brake chopper works. Neither may be below the target voltage of the booster (30FBh.7).
     #[inline]
     pub const fn brake_chopper(&self) -> records::BrakeChopper<&Self> {
@@ -1580,25 +1416,21 @@ impl Pmm {
     pub const fn brake_chopper_mut(&mut self) -> records::BrakeChopper<&mut Self> {
         records::BrakeChopper(self)
     }
-}
 
-impl Pmm {
     /// `30FDh` digital inputs: Digital inputs of the PMM. Internal functions may use an input as well, see alarm inputs (3300h).
     ///
     /// UNSIGNED32, ro, TPDO.
     #[inline]
     pub fn digital_inputs(&self) -> types::PmmDigitalInputs {
-        types::PmmDigitalInputs(u32::from_le_bytes(glue::get(&self.0, 572)))
+        types::PmmDigitalInputs(glue::get_u32(&self.0, 572))
     }
 
     /// Sets [`digital_inputs`](Self::digital_inputs).
     #[inline]
     pub fn set_digital_inputs(&mut self, value: types::PmmDigitalInputs) {
-        glue::put(&mut self.0, 572, value.0.to_le_bytes());
+        glue::put_u32(&mut self.0, 572, value.0);
     }
-}
 
-impl Pmm {
     /// `30FEh` digital outputs: Digital outputs of the PMM, shared between the fieldbus and internal functions by means of a mask.
     #[inline]
     pub const fn digital_outputs(&self) -> records::DigitalOutputs<&Self> {
@@ -1610,9 +1442,7 @@ impl Pmm {
     pub const fn digital_outputs_mut(&mut self) -> records::DigitalOutputs<&mut Self> {
         records::DigitalOutputs(self)
     }
-}
 
-impl Pmm {
     /// `30FFh` signaling outputs: Outputs that show a fault or a warning with 24 V; the outputs of several units may be wired in parallel.
     #[inline]
     pub const fn signaling_outputs(&self) -> records::SignalingOutputs<&Self> {
@@ -1626,9 +1456,7 @@ impl Pmm {
     ) -> records::SignalingOutputs<&mut Self> {
         records::SignalingOutputs(self)
     }
-}
 
-impl Pmm {
     /// `3110h` temperature supervisor battery: Monitoring of the battery temperature (3010h); result in 3006h.
     #[inline]
     pub const fn temperature_supervisor_battery(
@@ -1644,9 +1472,7 @@ impl Pmm {
     ) -> records::TemperatureSupervisorBattery<&mut Self> {
         records::TemperatureSupervisorBattery(self)
     }
-}
 
-impl Pmm {
     /// `3111h` temperature supervisor heat sink: Monitoring of the heat sink temperature (3011h); result in 3007h.
     #[inline]
     pub const fn temperature_supervisor_heat_sink(
@@ -1662,9 +1488,7 @@ impl Pmm {
     ) -> records::TemperatureSupervisorHeatSink<&mut Self> {
         records::TemperatureSupervisorHeatSink(self)
     }
-}
 
-impl Pmm {
     /// `3112h` temperature supervisor sensor1: Monitoring of external sensor 1 (3012h) at X15.1/X15.2; result in 3008h.
     #[inline]
     pub const fn temperature_supervisor_sensor1(
@@ -1680,9 +1504,7 @@ impl Pmm {
     ) -> records::TemperatureSupervisorSensor1<&mut Self> {
         records::TemperatureSupervisorSensor1(self)
     }
-}
 
-impl Pmm {
     /// `3113h` temperature supervisor sensor2: Monitoring of external sensor 2 (3013h) at X15.3/X15.4; result in 3009h.
     #[inline]
     pub const fn temperature_supervisor_sensor2(
@@ -1698,9 +1520,7 @@ impl Pmm {
     ) -> records::TemperatureSupervisorSensor2<&mut Self> {
         records::TemperatureSupervisorSensor2(self)
     }
-}
 
-impl Pmm {
     /// `3201h` temperature controller battery: Keeps the battery temperature (3010h) inside a range. As delivered it heats with the relay at X16.1/X16.2 and blows with the fan at X14.5; cooling is not used.
     #[inline]
     pub const fn temperature_controller_battery(
@@ -1716,9 +1536,7 @@ impl Pmm {
     ) -> records::TemperatureControllerBattery<&mut Self> {
         records::TemperatureControllerBattery(self)
     }
-}
 
-impl Pmm {
     /// `3202h` temperature controller sensor 1: Keeps the temperature of external sensor 1 (3012h, X15.1/X15.2) inside a range. As delivered all its output masks are 0, which turns it off.
     #[inline]
     pub const fn temperature_controller_sensor_1(
@@ -1734,9 +1552,7 @@ impl Pmm {
     ) -> records::TemperatureControllerSensor1<&mut Self> {
         records::TemperatureControllerSensor1(self)
     }
-}
 
-impl Pmm {
     /// `3203h` temperature controller sensor 2: Keeps the temperature of external sensor 2 (3013h, X15.3/X15.4) inside a range. As delivered it heats with the relay at X16.3/X16.4 and blows with the fan at X14.6; cooling is not used.
     #[inline]
     pub const fn temperature_controller_sensor_2(
@@ -1752,9 +1568,7 @@ impl Pmm {
     ) -> records::TemperatureControllerSensor2<&mut Self> {
         records::TemperatureControllerSensor2(self)
     }
-}
 
-impl Pmm {
     /// `3204h` motor fan controller: Switches the fan of the motor by the motor temperature that the PMM gets from the PMC over CAN. Off while output fan is 0.
     #[inline]
     pub const fn motor_fan_controller(&self) -> records::MotorFanController<&Self> {
@@ -1768,9 +1582,7 @@ impl Pmm {
     ) -> records::MotorFanController<&mut Self> {
         records::MotorFanController(self)
     }
-}
 
-impl Pmm {
     /// `3220h` position range enable: Sets an output while the position of the axis, which the PMC reports over CAN, lies between two limits.
     #[inline]
     pub const fn position_range_enable(&self) -> records::PositionRangeEnable<&Self> {
@@ -1784,16 +1596,14 @@ impl Pmm {
     ) -> records::PositionRangeEnable<&mut Self> {
         records::PositionRangeEnable(self)
     }
-}
 
-impl Pmm {
     /// `3300h` alarm inputs: Assigns digital inputs to the alarm codes FFF1h to FFF8h. As delivered no input is assigned. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
     /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
     #[inline]
     pub fn alarm_inputs(&self, sub: u8) -> Option<types::AlarmInputMask> {
         let offset = glue::image::element(sub, 8, 470, 2)?;
-        Some(types::AlarmInputMask(u16::from_le_bytes(glue::get(&self.0, offset))))
+        Some(types::AlarmInputMask(glue::get_u16(&self.0, offset)))
     }
 
     /// Sets an element of [`alarm_inputs`](Self::alarm_inputs); `None` if it does not exist.
@@ -1805,72 +1615,64 @@ impl Pmm {
     ) -> Option<()> {
         let offset = glue::image::element(sub, 8, 470, 2)?;
 
-        glue::put(&mut self.0, offset, value.0.to_le_bytes());
+        glue::put_u16(&mut self.0, offset, value.0);
         Some(())
     }
-}
 
-impl Pmm {
     /// `5040h` manual control: Commands a manual function in place of mode switch and key button, e.g. from an external operator terminal.
     ///
     /// UNSIGNED8, rw, RPDO, default 0x00.
     #[inline]
     pub fn manual_control(&self) -> types::ManualControl {
-        types::ManualControl(u8::from_le_bytes(glue::get(&self.0, 682)))
+        types::ManualControl(glue::get_u8(&self.0, 682))
     }
 
     /// Sets [`manual_control`](Self::manual_control).
     #[inline]
     pub fn set_manual_control(&mut self, value: types::ManualControl) {
-        glue::put(&mut self.0, 682, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 682, value.0);
     }
-}
 
-impl Pmm {
     /// `5041h` manual status: Feedback of the manual operation.
     ///
     /// UNSIGNED8, ro, TPDO, default 0x00.
     #[inline]
     pub fn manual_status(&self) -> types::ManualStatus {
-        types::ManualStatus(u8::from_le_bytes(glue::get(&self.0, 683)))
+        types::ManualStatus(glue::get_u8(&self.0, 683))
     }
 
     /// Sets [`manual_status`](Self::manual_status).
     #[inline]
     pub fn set_manual_status(&mut self, value: types::ManualStatus) {
-        glue::put(&mut self.0, 683, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 683, value.0);
     }
-}
 
-impl Pmm {
     /// `5042h` manual control out: Manual command that the PMM passes to its PMC; stems from the mode switch or from manual control (5040h).
     ///
     /// UNSIGNED8, ro, TPDO, default 0x00.
     #[inline]
     pub fn manual_control_out(&self) -> types::ManualControl {
-        types::ManualControl(u8::from_le_bytes(glue::get(&self.0, 684)))
+        types::ManualControl(glue::get_u8(&self.0, 684))
     }
 
     /// Sets [`manual_control_out`](Self::manual_control_out).
     #[inline]
     pub fn set_manual_control_out(&mut self, value: types::ManualControl) {
-        glue::put(&mut self.0, 684, value.0.to_le_bytes());
+        glue::put_u8(&mut self.0, 684, value.0);
     }
-}
 
-impl Pmm {
     /// `603Fh` error code: Code of the present error or warning, see Table 6; 0 = none. An error also goes to the low word of 1003h.
     ///
     /// UNSIGNED16, ro, TPDO, default 0.
     #[inline]
     pub fn error_code(&self) -> u16 {
-        u16::from_le_bytes(glue::get(&self.0, 664))
+        glue::get_u16(&self.0, 664)
     }
 
     /// Sets [`error_code`](Self::error_code).
     #[inline]
     pub fn set_error_code(&mut self, value: u16) {
-        glue::put(&mut self.0, 664, value.to_le_bytes());
+        glue::put_u16(&mut self.0, 664, value);
     }
 }
 
@@ -2500,7 +2302,7 @@ pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
     /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct StoreParameters<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> StoreParameters<D> {
@@ -2509,9 +2311,7 @@ pub mod records {
         /// UNSIGNED32, rw, 1702257011: save.
         #[inline]
         pub fn save_all_parameters(&self) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 504)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 504))
         }
 
         /// `1010h.2` Save communication parameters: Saves 1000h to 1FFFh and the manufacturer's communication parameters.
@@ -2519,9 +2319,7 @@ pub mod records {
         /// UNSIGNED32, rw, 1702257011: save.
         #[inline]
         pub fn save_communication_parameters(&self) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 508)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 508))
         }
 
         /// `1010h.3` Save application parameters: Saves 6000h to 9FFFh and the manufacturer's application parameters.
@@ -2529,9 +2327,7 @@ pub mod records {
         /// UNSIGNED32, rw, 1702257011: save.
         #[inline]
         pub fn save_application_parameters(&self) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 512)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 512))
         }
 
         /// `1010h.4` Save manufacturer defined parameters: Saves a group of parameters that the manufacturer chose.
@@ -2541,9 +2337,7 @@ pub mod records {
         pub fn save_manufacturer_defined_parameters(
             &self,
         ) -> super::types::StoreCapability {
-            super::types::StoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 516)),
-            )
+            super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 516))
         }
     }
 
@@ -2551,7 +2345,7 @@ pub mod records {
         /// Sets [`save_all_parameters`](Self::save_all_parameters).
         #[inline]
         pub fn set_save_all_parameters(&mut self, value: super::types::StoreCapability) {
-            super::glue::put(&mut self.0.borrow_mut().0, 504, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 504, value.0);
         }
 
         /// Sets [`save_communication_parameters`](Self::save_communication_parameters).
@@ -2560,7 +2354,7 @@ pub mod records {
             &mut self,
             value: super::types::StoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 508, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 508, value.0);
         }
 
         /// Sets [`save_application_parameters`](Self::save_application_parameters).
@@ -2569,7 +2363,7 @@ pub mod records {
             &mut self,
             value: super::types::StoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 512, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 512, value.0);
         }
 
         /// Sets [`save_manufacturer_defined_parameters`](Self::save_manufacturer_defined_parameters).
@@ -2578,12 +2372,12 @@ pub mod records {
             &mut self,
             value: super::types::StoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 516, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 516, value.0);
         }
     }
 
     /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct RestoreDefaultParameters<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> RestoreDefaultParameters<D> {
@@ -2593,7 +2387,7 @@ pub mod records {
         #[inline]
         pub fn restore_all_default_parameters(&self) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 520)),
+                super::glue::get_u32(&self.0.borrow().0, 520),
             )
         }
 
@@ -2605,7 +2399,7 @@ pub mod records {
             &self,
         ) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 524)),
+                super::glue::get_u32(&self.0.borrow().0, 524),
             )
         }
 
@@ -2617,7 +2411,7 @@ pub mod records {
             &self,
         ) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 528)),
+                super::glue::get_u32(&self.0.borrow().0, 528),
             )
         }
 
@@ -2629,7 +2423,7 @@ pub mod records {
             &self,
         ) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 532)),
+                super::glue::get_u32(&self.0.borrow().0, 532),
             )
         }
     }
@@ -2641,7 +2435,7 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 520, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 520, value.0);
         }
 
         /// Sets [`restore_communication_default_parameters`](Self::restore_communication_default_parameters).
@@ -2650,7 +2444,7 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 524, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 524, value.0);
         }
 
         /// Sets [`restore_application_default_parameters`](Self::restore_application_default_parameters).
@@ -2659,7 +2453,7 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 528, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 528, value.0);
         }
 
         /// Sets [`restore_manufacturer_defined_default_parameters`](Self::restore_manufacturer_defined_default_parameters).
@@ -2668,12 +2462,12 @@ pub mod records {
             &mut self,
             value: super::types::RestoreCapability,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 532, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 532, value.0);
         }
     }
 
     /// `1018h` Identity object: Says whose product this is, which one and which revision. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct IdentityObject<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> IdentityObject<D> {
@@ -2682,7 +2476,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 540))
+            super::glue::get_u32(&self.0.borrow().0, 540)
         }
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
@@ -2690,7 +2484,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0.
         #[inline]
         pub fn product_code(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 544))
+            super::glue::get_u32(&self.0.borrow().0, 544)
         }
 
         /// `1018h.3` Revision number: Revision of the product; the high word changes when its CANopen behaviour changes.
@@ -2698,9 +2492,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn revision_number(&self) -> super::types::RevisionCode {
-            super::types::RevisionCode(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 548)),
-            )
+            super::types::RevisionCode(super::glue::get_u32(&self.0.borrow().0, 548))
         }
 
         /// `1018h.4` Serial number: Number of this single device; LSS needs it.
@@ -2708,7 +2500,7 @@ pub mod records {
         /// UNSIGNED32, ro.
         #[inline]
         pub fn serial_number(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 552))
+            super::glue::get_u32(&self.0.borrow().0, 552)
         }
     }
 
@@ -2716,30 +2508,30 @@ pub mod records {
         /// Sets [`vendor_id`](Self::vendor_id).
         #[inline]
         pub fn set_vendor_id(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 540, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 540, value);
         }
 
         /// Sets [`product_code`](Self::product_code).
         #[inline]
         pub fn set_product_code(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 544, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 544, value);
         }
 
         /// Sets [`revision_number`](Self::revision_number).
         #[inline]
         pub fn set_revision_number(&mut self, value: super::types::RevisionCode) {
-            super::glue::put(&mut self.0.borrow_mut().0, 548, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 548, value.0);
         }
 
         /// Sets [`serial_number`](Self::serial_number).
         #[inline]
         pub fn set_serial_number(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 552, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 552, value);
         }
     }
 
     /// `1200h` SDO server parameter: COB-IDs of the SDO channel that every device has; they follow the node-ID and cannot be changed. (CiA 301 v4.02, 9.6.3)
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct SdoServerParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> SdoServerParameter<D> {
@@ -2748,9 +2540,7 @@ pub mod records {
         /// UNSIGNED32, ro, default $NODEID+0x600.
         #[inline]
         pub fn cob_id_client_to_server_rx(&self) -> super::types::SdoCobId {
-            super::types::SdoCobId(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 556)),
-            )
+            super::types::SdoCobId(super::glue::get_u32(&self.0.borrow().0, 556))
         }
 
         /// `1200h.2` COB-ID server to client (tx): CAN-ID of this device's answers.
@@ -2758,9 +2548,7 @@ pub mod records {
         /// UNSIGNED32, ro, default $NODEID+0x580.
         #[inline]
         pub fn cob_id_server_to_client_tx(&self) -> super::types::SdoCobId {
-            super::types::SdoCobId(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 560)),
-            )
+            super::types::SdoCobId(super::glue::get_u32(&self.0.borrow().0, 560))
         }
     }
 
@@ -2768,18 +2556,18 @@ pub mod records {
         /// Sets [`cob_id_client_to_server_rx`](Self::cob_id_client_to_server_rx).
         #[inline]
         pub fn set_cob_id_client_to_server_rx(&mut self, value: super::types::SdoCobId) {
-            super::glue::put(&mut self.0.borrow_mut().0, 556, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 556, value.0);
         }
 
         /// Sets [`cob_id_server_to_client_tx`](Self::cob_id_server_to_client_tx).
         #[inline]
         pub fn set_cob_id_server_to_client_tx(&mut self, value: super::types::SdoCobId) {
-            super::glue::put(&mut self.0.borrow_mut().0, 560, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 560, value.0);
         }
     }
 
     /// `1400h` RPDO 1 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo1CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Rpdo1CommunicationParameter<D> {
@@ -2788,7 +2576,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000200, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 0))
+            super::glue::get_u32(&self.0.borrow().0, 0)
         }
 
         /// `1400h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2796,7 +2584,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 288))
+            super::glue::get_u8(&self.0.borrow().0, 288)
         }
     }
 
@@ -2804,18 +2592,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 0, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 0, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 288, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 288, value);
         }
     }
 
     /// `1401h` RPDO 2 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo2CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Rpdo2CommunicationParameter<D> {
@@ -2824,7 +2612,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 4))
+            super::glue::get_u32(&self.0.borrow().0, 4)
         }
 
         /// `1401h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2832,7 +2620,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 289))
+            super::glue::get_u8(&self.0.borrow().0, 289)
         }
     }
 
@@ -2840,18 +2628,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 4, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 4, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 289, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 289, value);
         }
     }
 
     /// `1402h` RPDO 3 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo3CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Rpdo3CommunicationParameter<D> {
@@ -2860,7 +2648,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 8))
+            super::glue::get_u32(&self.0.borrow().0, 8)
         }
 
         /// `1402h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2868,7 +2656,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 290))
+            super::glue::get_u8(&self.0.borrow().0, 290)
         }
     }
 
@@ -2876,18 +2664,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 8, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 8, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 290, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 290, value);
         }
     }
 
     /// `1403h` RPDO 4 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Rpdo4CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Rpdo4CommunicationParameter<D> {
@@ -2896,7 +2684,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 12))
+            super::glue::get_u32(&self.0.borrow().0, 12)
         }
 
         /// `1403h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2904,7 +2692,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 291))
+            super::glue::get_u8(&self.0.borrow().0, 291)
         }
     }
 
@@ -2912,18 +2700,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 12, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 12, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 291, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 291, value);
         }
     }
 
     /// `1800h` TPDO 1 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo1CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Tpdo1CommunicationParameter<D> {
@@ -2932,7 +2720,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000180, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 144))
+            super::glue::get_u32(&self.0.borrow().0, 144)
         }
 
         /// `1800h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2940,7 +2728,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 296))
+            super::glue::get_u8(&self.0.borrow().0, 296)
         }
     }
 
@@ -2948,18 +2736,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 144, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 144, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 296, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 296, value);
         }
     }
 
     /// `1801h` TPDO 2 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo2CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Tpdo2CommunicationParameter<D> {
@@ -2968,7 +2756,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000280, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 148))
+            super::glue::get_u32(&self.0.borrow().0, 148)
         }
 
         /// `1801h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -2976,7 +2764,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 297))
+            super::glue::get_u8(&self.0.borrow().0, 297)
         }
     }
 
@@ -2984,18 +2772,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 148, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 148, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 297, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 297, value);
         }
     }
 
     /// `1802h` TPDO 3 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo3CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Tpdo3CommunicationParameter<D> {
@@ -3004,7 +2792,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000380, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 152))
+            super::glue::get_u32(&self.0.borrow().0, 152)
         }
 
         /// `1802h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3012,7 +2800,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 298))
+            super::glue::get_u8(&self.0.borrow().0, 298)
         }
     }
 
@@ -3020,18 +2808,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 152, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 152, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 298, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 298, value);
         }
     }
 
     /// `1803h` TPDO 4 communication parameter.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct Tpdo4CommunicationParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> Tpdo4CommunicationParameter<D> {
@@ -3040,7 +2828,7 @@ pub mod records {
         /// UNSIGNED32, rw, default $NODEID+0x80000480, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 156))
+            super::glue::get_u32(&self.0.borrow().0, 156)
         }
 
         /// `1803h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
@@ -3048,7 +2836,7 @@ pub mod records {
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 299))
+            super::glue::get_u8(&self.0.borrow().0, 299)
         }
     }
 
@@ -3056,18 +2844,18 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put(&mut self.0.borrow_mut().0, 156, value.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 156, value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put(&mut self.0.borrow_mut().0, 299, value.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 299, value);
         }
     }
 
     /// `3020h` battery parameter: Description of the battery, which consists of blocs in series, each with its own interface for voltage and temperature.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct BatteryParameter<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> BatteryParameter<D> {
@@ -3076,9 +2864,7 @@ pub mod records {
         /// UNSIGNED8, rw, default lithium ion type 1, stored with the application parameters.
         #[inline]
         pub fn type_(&self) -> super::types::BatteryType {
-            super::types::BatteryType(
-                u8::from_le_bytes(super::glue::get(&self.0.borrow().0, 486)),
-            )
+            super::types::BatteryType(super::glue::get_u8(&self.0.borrow().0, 486))
         }
 
         /// `3020h.2` nominal capacity: Nominal capacity.
@@ -3086,9 +2872,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mAh, default 3000 mAh, stored with the application parameters.
         #[inline]
         pub fn nominal_capacity(&self) -> super::units::MilliampereHour<u16> {
-            super::units::MilliampereHour(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 304)),
-            )
+            super::units::MilliampereHour(super::glue::get_u16(&self.0.borrow().0, 304))
         }
 
         /// `3020h.3` charging current: Charging current.
@@ -3096,9 +2880,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mA, default 1000 mA, stored with the application parameters.
         #[inline]
         pub fn charging_current(&self) -> super::units::Milliampere<u16> {
-            super::units::Milliampere(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 306)),
-            )
+            super::units::Milliampere(super::glue::get_u16(&self.0.borrow().0, 306))
         }
 
         /// `3020h.4` number of blocs: Number of battery blocs in series; the interface has room for eight.
@@ -3106,7 +2888,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 6, stored with the application parameters.
         #[inline]
         pub fn number_of_blocs(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 308))
+            super::glue::get_u16(&self.0.borrow().0, 308)
         }
 
         /// `3020h.5` nominal bloc voltage: Nominal voltage of one bloc.
@@ -3114,9 +2896,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mV, default 36000 mV, stored with the application parameters.
         #[inline]
         pub fn nominal_bloc_voltage(&self) -> super::units::Millivolt<u16> {
-            super::units::Millivolt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 310)),
-            )
+            super::units::Millivolt(super::glue::get_u16(&self.0.borrow().0, 310))
         }
 
         /// `3020h.6` maximum bloc voltage: Highest voltage that a bloc may reach while charging; from there on the charger limits the voltage. A higher value gives more capacity and a shorter life.
@@ -3124,9 +2904,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mV, default 41000 mV, stored with the application parameters.
         #[inline]
         pub fn maximum_bloc_voltage(&self) -> super::units::Millivolt<u16> {
-            super::units::Millivolt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 312)),
-            )
+            super::units::Millivolt(super::glue::get_u16(&self.0.borrow().0, 312))
         }
 
         /// `3020h.7` lead resistance: Resistance of the battery leads with their contacts, needed to work out the internal resistance.
@@ -3134,9 +2912,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mOhm, default 100 mOhm, stored with the application parameters.
         #[inline]
         pub fn lead_resistance(&self) -> super::units::Milliohm<u16> {
-            super::units::Milliohm(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 314)),
-            )
+            super::units::Milliohm(super::glue::get_u16(&self.0.borrow().0, 314))
         }
 
         /// `3020h.8` internal resistance: Internal resistance of a battery in good health; the measured one (30B4h) is compared with it to judge the present health.
@@ -3144,9 +2920,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mOhm, default 150 mOhm, stored with the application parameters.
         #[inline]
         pub fn internal_resistance(&self) -> super::units::Milliohm<u16> {
-            super::units::Milliohm(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 316)),
-            )
+            super::units::Milliohm(super::glue::get_u16(&self.0.borrow().0, 316))
         }
     }
 
@@ -3154,7 +2928,7 @@ pub mod records {
         /// Sets [`type_`](Self::type_).
         #[inline]
         pub fn set_type_(&mut self, value: super::types::BatteryType) {
-            super::glue::put(&mut self.0.borrow_mut().0, 486, value.0.to_le_bytes());
+            super::glue::put_u8(&mut self.0.borrow_mut().0, 486, value.0);
         }
 
         /// Sets [`nominal_capacity`](Self::nominal_capacity).
@@ -3163,48 +2937,48 @@ pub mod records {
             &mut self,
             value: super::units::MilliampereHour<u16>,
         ) {
-            super::glue::put(&mut self.0.borrow_mut().0, 304, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 304, value.0);
         }
 
         /// Sets [`charging_current`](Self::charging_current).
         #[inline]
         pub fn set_charging_current(&mut self, value: super::units::Milliampere<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 306, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 306, value.0);
         }
 
         /// Sets [`number_of_blocs`](Self::number_of_blocs).
         #[inline]
         pub fn set_number_of_blocs(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 308, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 308, value);
         }
 
         /// Sets [`nominal_bloc_voltage`](Self::nominal_bloc_voltage).
         #[inline]
         pub fn set_nominal_bloc_voltage(&mut self, value: super::units::Millivolt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 310, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 310, value.0);
         }
 
         /// Sets [`maximum_bloc_voltage`](Self::maximum_bloc_voltage).
         #[inline]
         pub fn set_maximum_bloc_voltage(&mut self, value: super::units::Millivolt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 312, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 312, value.0);
         }
 
         /// Sets [`lead_resistance`](Self::lead_resistance).
         #[inline]
         pub fn set_lead_resistance(&mut self, value: super::units::Milliohm<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 314, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 314, value.0);
         }
 
         /// Sets [`internal_resistance`](Self::internal_resistance).
         #[inline]
         pub fn set_internal_resistance(&mut self, value: super::units::Milliohm<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 316, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 316, value.0);
         }
     }
 
     /// `30DCh` dc motor parameter set: Ramps of a DC motor fed straight from the DC link. As of July 2007 the function is not available yet.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct DcMotorParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> DcMotorParameterSet<D> {
@@ -3213,9 +2987,7 @@ pub mod records {
         /// UNSIGNED16, rw, in ms, stored with the application parameters.
         #[inline]
         pub fn switch_on_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 320)),
-            )
+            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 320))
         }
 
         /// `30DCh.2` acceleration: Slope of the rising motor voltage.
@@ -3223,9 +2995,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V/s, stored with the application parameters.
         #[inline]
         pub fn acceleration(&self) -> super::units::VoltPerSecond<u16> {
-            super::units::VoltPerSecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 322)),
-            )
+            super::units::VoltPerSecond(super::glue::get_u16(&self.0.borrow().0, 322))
         }
 
         /// `30DCh.3` deceleration: Slope of the falling motor voltage.
@@ -3233,9 +3003,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V/s, stored with the application parameters.
         #[inline]
         pub fn deceleration(&self) -> super::units::VoltPerSecond<u16> {
-            super::units::VoltPerSecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 324)),
-            )
+            super::units::VoltPerSecond(super::glue::get_u16(&self.0.borrow().0, 324))
         }
 
         /// `30DCh.4` max voltage: Highest motor voltage.
@@ -3243,9 +3011,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, stored with the application parameters.
         #[inline]
         pub fn max_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 326)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 326))
         }
     }
 
@@ -3253,30 +3019,30 @@ pub mod records {
         /// Sets [`switch_on_delay`](Self::switch_on_delay).
         #[inline]
         pub fn set_switch_on_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 320, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 320, value.0);
         }
 
         /// Sets [`acceleration`](Self::acceleration).
         #[inline]
         pub fn set_acceleration(&mut self, value: super::units::VoltPerSecond<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 322, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 322, value.0);
         }
 
         /// Sets [`deceleration`](Self::deceleration).
         #[inline]
         pub fn set_deceleration(&mut self, value: super::units::VoltPerSecond<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 324, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 324, value.0);
         }
 
         /// Sets [`max_voltage`](Self::max_voltage).
         #[inline]
         pub fn set_max_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 326, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 326, value.0);
         }
     }
 
     /// `30F0h` supply controller parameter set: Cascaded PI controller of the regulated mains adapter. Set in the factory, varies with the machine; wrong values can damage the machine.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct SupplyControllerParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> SupplyControllerParameterSet<D> {
@@ -3285,7 +3051,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 2000, stored with the application parameters.
         #[inline]
         pub fn voltage_gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 336))
+            super::glue::get_u16(&self.0.borrow().0, 336)
         }
 
         /// `30F0h.2` voltage integration time: Integral part of the voltage controller.
@@ -3293,7 +3059,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 4000, stored with the application parameters.
         #[inline]
         pub fn voltage_integration_time(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 338))
+            super::glue::get_u16(&self.0.borrow().0, 338)
         }
 
         /// `30F0h.3` current limit: Limit of the current.
@@ -3301,9 +3067,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, in mA, default 1500 mA, stored with the application parameters.
         #[inline]
         pub fn current_limit(&self) -> super::units::Milliampere<u16> {
-            super::units::Milliampere(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 340)),
-            )
+            super::units::Milliampere(super::glue::get_u16(&self.0.borrow().0, 340))
         }
 
         /// `30F0h.4` current gain: Proportional part of the current controller.
@@ -3311,7 +3075,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 64, stored with the application parameters.
         #[inline]
         pub fn current_gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 342))
+            super::glue::get_u16(&self.0.borrow().0, 342)
         }
 
         /// `30F0h.5` current integration time: Integral part of the current controller.
@@ -3319,7 +3083,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 1500, stored with the application parameters.
         #[inline]
         pub fn current_integration_time(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 344))
+            super::glue::get_u16(&self.0.borrow().0, 344)
         }
 
         /// `30F0h.6` PWM limit: Limit of the PWM control value.
@@ -3327,9 +3091,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, in %, default 70 %, stored with the application parameters.
         #[inline]
         pub fn pwm_limit(&self) -> super::units::Percent<u16> {
-            super::units::Percent(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 346)),
-            )
+            super::units::Percent(super::glue::get_u16(&self.0.borrow().0, 346))
         }
     }
 
@@ -3337,42 +3099,42 @@ pub mod records {
         /// Sets [`voltage_gain`](Self::voltage_gain).
         #[inline]
         pub fn set_voltage_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 336, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 336, value);
         }
 
         /// Sets [`voltage_integration_time`](Self::voltage_integration_time).
         #[inline]
         pub fn set_voltage_integration_time(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 338, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 338, value);
         }
 
         /// Sets [`current_limit`](Self::current_limit).
         #[inline]
         pub fn set_current_limit(&mut self, value: super::units::Milliampere<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 340, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 340, value.0);
         }
 
         /// Sets [`current_gain`](Self::current_gain).
         #[inline]
         pub fn set_current_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 342, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 342, value);
         }
 
         /// Sets [`current_integration_time`](Self::current_integration_time).
         #[inline]
         pub fn set_current_integration_time(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 344, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 344, value);
         }
 
         /// Sets [`pwm_limit`](Self::pwm_limit).
         #[inline]
         pub fn set_pwm_limit(&mut self, value: super::units::Percent<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 346, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 346, value.0);
         }
     }
 
     /// `30F1h` charge controller parameter set: PI controller and low-pass filter of the battery charger (sub-indices 1 to 3, set in the factory), and the charging limits, which depend on type and number of the battery blocs.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct ChargeControllerParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> ChargeControllerParameterSet<D> {
@@ -3381,7 +3143,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 512, stored with the application parameters.
         #[inline]
         pub fn current_gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 348))
+            super::glue::get_u16(&self.0.borrow().0, 348)
         }
 
         /// `30F1h.2` current integration time: Integral part of the current controller.
@@ -3389,7 +3151,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 500, stored with the application parameters.
         #[inline]
         pub fn current_integration_time(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 350))
+            super::glue::get_u16(&self.0.borrow().0, 350)
         }
 
         /// `30F1h.3` filter time: Time constant of the low-pass filter.
@@ -3397,9 +3159,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, in ms, default 500 ms, stored with the application parameters.
         #[inline]
         pub fn filter_time(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 352)),
-            )
+            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 352))
         }
 
         /// `30F1h.4` charging voltage: Voltage to which the battery is charged, the maximum bloc voltage times the number of blocs.
@@ -3407,9 +3167,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 246 V, stored with the application parameters.
         #[inline]
         pub fn charging_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 354)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 354))
         }
 
         /// `30F1h.5` threshold voltage: Battery voltage at which a new charging starts.
@@ -3417,9 +3175,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 241 V, stored with the application parameters.
         #[inline]
         pub fn threshold_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 356)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 356))
         }
 
         /// `30F1h.6` switch-off current: Charging ends when the current falls below this value; a tenth of the nominal capacity is advised.
@@ -3427,9 +3183,7 @@ pub mod records {
         /// UNSIGNED16, rw, in mA, default 300 mA, stored with the application parameters.
         #[inline]
         pub fn switch_off_current(&self) -> super::units::Milliampere<u16> {
-            super::units::Milliampere(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 358)),
-            )
+            super::units::Milliampere(super::glue::get_u16(&self.0.borrow().0, 358))
         }
     }
 
@@ -3437,42 +3191,42 @@ pub mod records {
         /// Sets [`current_gain`](Self::current_gain).
         #[inline]
         pub fn set_current_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 348, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 348, value);
         }
 
         /// Sets [`current_integration_time`](Self::current_integration_time).
         #[inline]
         pub fn set_current_integration_time(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 350, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 350, value);
         }
 
         /// Sets [`filter_time`](Self::filter_time).
         #[inline]
         pub fn set_filter_time(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 352, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 352, value.0);
         }
 
         /// Sets [`charging_voltage`](Self::charging_voltage).
         #[inline]
         pub fn set_charging_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 354, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 354, value.0);
         }
 
         /// Sets [`threshold_voltage`](Self::threshold_voltage).
         #[inline]
         pub fn set_threshold_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 356, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 356, value.0);
         }
 
         /// Sets [`switch_off_current`](Self::switch_off_current).
         #[inline]
         pub fn set_switch_off_current(&mut self, value: super::units::Milliampere<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 358, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 358, value.0);
         }
     }
 
     /// `30FAh` dc-link voltage: Thresholds of the DC link monitoring.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct DcLinkVoltage<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> DcLinkVoltage<D> {
@@ -3481,9 +3235,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 560 V, stored with the application parameters.
         #[inline]
         pub fn nominal_value(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 360)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 360))
         }
 
         /// `30FAh.2` maximal value: Above this voltage error 3211h is raised.
@@ -3491,9 +3243,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 750 V, stored with the application parameters.
         #[inline]
         pub fn maximal_value(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 362)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 362))
         }
 
         /// `30FAh.3` minimal value: Below this voltage error 3220h is raised.
@@ -3501,9 +3251,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 400 V, stored with the application parameters.
         #[inline]
         pub fn minimal_value(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 364)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 364))
         }
     }
 
@@ -3511,24 +3259,24 @@ pub mod records {
         /// Sets [`nominal_value`](Self::nominal_value).
         #[inline]
         pub fn set_nominal_value(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 360, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 360, value.0);
         }
 
         /// Sets [`maximal_value`](Self::maximal_value).
         #[inline]
         pub fn set_maximal_value(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 362, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 362, value.0);
         }
 
         /// Sets [`minimal_value`](Self::minimal_value).
         #[inline]
         pub fn set_minimal_value(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 364, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 364, value.0);
         }
     }
 
     /// `30FBh` booster parameter set: Cascaded PI controller of the boost converter (sub-indices 1 to 6, set in the factory, varies with the machine; wrong values can damage the machine), and its working points.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct BoosterParameterSet<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> BoosterParameterSet<D> {
@@ -3537,7 +3285,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 128, stored with the application parameters.
         #[inline]
         pub fn voltage_gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 366))
+            super::glue::get_u16(&self.0.borrow().0, 366)
         }
 
         /// `30FBh.2` voltage integration time: Integral part of the voltage controller.
@@ -3545,7 +3293,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 2000, stored with the application parameters.
         #[inline]
         pub fn voltage_integration_time(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 368))
+            super::glue::get_u16(&self.0.borrow().0, 368)
         }
 
         /// `30FBh.3` current limit: Limit of the current.
@@ -3553,9 +3301,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, in A, default 90 A, stored with the application parameters.
         #[inline]
         pub fn current_limit(&self) -> super::units::Ampere<u16> {
-            super::units::Ampere(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 370)),
-            )
+            super::units::Ampere(super::glue::get_u16(&self.0.borrow().0, 370))
         }
 
         /// `30FBh.4` current gain: Proportional part of the current controller.
@@ -3563,7 +3309,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 64, stored with the application parameters.
         #[inline]
         pub fn current_gain(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 372))
+            super::glue::get_u16(&self.0.borrow().0, 372)
         }
 
         /// `30FBh.5` current integration time: Integral part of the current controller.
@@ -3571,7 +3317,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, default 5000, stored with the application parameters.
         #[inline]
         pub fn current_integration_time(&self) -> u16 {
-            u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 374))
+            super::glue::get_u16(&self.0.borrow().0, 374)
         }
 
         /// `30FBh.6` PWM limit: Limit of the PWM control value.
@@ -3579,9 +3325,7 @@ pub mod records {
         /// UNSIGNED16, rw locked, in %, default 80 %, stored with the application parameters.
         #[inline]
         pub fn pwm_limit(&self) -> super::units::Percent<u16> {
-            super::units::Percent(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 376)),
-            )
+            super::units::Percent(super::glue::get_u16(&self.0.borrow().0, 376))
         }
 
         /// `30FBh.7` target voltage: DC link voltage that the booster holds; above the nominal one, so that no current rushes in when the mains return.
@@ -3589,9 +3333,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 600 V, stored with the application parameters.
         #[inline]
         pub fn target_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 378)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 378))
         }
 
         /// `30FBh.8` switch-on voltage: During a power failure the booster starts when the DC link falls below this voltage.
@@ -3599,9 +3341,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 420 V, stored with the application parameters.
         #[inline]
         pub fn switch_on_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 380)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 380))
         }
 
         /// `30FBh.9` inductance: Inductance of the booster reactor, from its type label; needed to work out the booster current.
@@ -3609,9 +3349,7 @@ pub mod records {
         /// UNSIGNED16, rw, in µH, default 180 µH, stored with the application parameters.
         #[inline]
         pub fn inductance(&self) -> super::units::Microhenry<u16> {
-            super::units::Microhenry(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 382)),
-            )
+            super::units::Microhenry(super::glue::get_u16(&self.0.borrow().0, 382))
         }
     }
 
@@ -3619,60 +3357,60 @@ pub mod records {
         /// Sets [`voltage_gain`](Self::voltage_gain).
         #[inline]
         pub fn set_voltage_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 366, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 366, value);
         }
 
         /// Sets [`voltage_integration_time`](Self::voltage_integration_time).
         #[inline]
         pub fn set_voltage_integration_time(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 368, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 368, value);
         }
 
         /// Sets [`current_limit`](Self::current_limit).
         #[inline]
         pub fn set_current_limit(&mut self, value: super::units::Ampere<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 370, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 370, value.0);
         }
 
         /// Sets [`current_gain`](Self::current_gain).
         #[inline]
         pub fn set_current_gain(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 372, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 372, value);
         }
 
         /// Sets [`current_integration_time`](Self::current_integration_time).
         #[inline]
         pub fn set_current_integration_time(&mut self, value: u16) {
-            super::glue::put(&mut self.0.borrow_mut().0, 374, value.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 374, value);
         }
 
         /// Sets [`pwm_limit`](Self::pwm_limit).
         #[inline]
         pub fn set_pwm_limit(&mut self, value: super::units::Percent<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 376, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 376, value.0);
         }
 
         /// Sets [`target_voltage`](Self::target_voltage).
         #[inline]
         pub fn set_target_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 378, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 378, value.0);
         }
 
         /// Sets [`switch_on_voltage`](Self::switch_on_voltage).
         #[inline]
         pub fn set_switch_on_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 380, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 380, value.0);
         }
 
         /// Sets [`inductance`](Self::inductance).
         #[inline]
         pub fn set_inductance(&mut self, value: super::units::Microhenry<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 382, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 382, value.0);
         }
     }
 
     /// `30FCh` brake chopper: DC link voltages between which the brake chopper works. Neither may be below the target voltage of the booster (30FBh.7).
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct BrakeChopper<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> BrakeChopper<D> {
@@ -3681,9 +3419,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 670 V, stored with the application parameters.
         #[inline]
         pub fn switch_on_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 384)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 384))
         }
 
         /// `30FCh.2` switch-off voltage: Below this voltage the chopper stops.
@@ -3691,9 +3427,7 @@ pub mod records {
         /// UNSIGNED16, rw, in V, default 650 V, stored with the application parameters.
         #[inline]
         pub fn switch_off_voltage(&self) -> super::units::Volt<u16> {
-            super::units::Volt(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 386)),
-            )
+            super::units::Volt(super::glue::get_u16(&self.0.borrow().0, 386))
         }
     }
 
@@ -3701,18 +3435,18 @@ pub mod records {
         /// Sets [`switch_on_voltage`](Self::switch_on_voltage).
         #[inline]
         pub fn set_switch_on_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 384, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 384, value.0);
         }
 
         /// Sets [`switch_off_voltage`](Self::switch_off_voltage).
         #[inline]
         pub fn set_switch_off_voltage(&mut self, value: super::units::Volt<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 386, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 386, value.0);
         }
     }
 
     /// `30FEh` digital outputs: Digital outputs of the PMM, shared between the fieldbus and internal functions by means of a mask.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct DigitalOutputs<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> DigitalOutputs<D> {
@@ -3722,7 +3456,7 @@ pub mod records {
         #[inline]
         pub fn physical_outputs(&self) -> super::types::PmmDigitalOutputs {
             super::types::PmmDigitalOutputs(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 576)),
+                super::glue::get_u32(&self.0.borrow().0, 576),
             )
         }
 
@@ -3732,7 +3466,7 @@ pub mod records {
         #[inline]
         pub fn bitmask(&self) -> super::types::PmmDigitalOutputs {
             super::types::PmmDigitalOutputs(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 580)),
+                super::glue::get_u32(&self.0.borrow().0, 580),
             )
         }
 
@@ -3742,7 +3476,7 @@ pub mod records {
         #[inline]
         pub fn read_back(&self) -> super::types::PmmDigitalOutputs {
             super::types::PmmDigitalOutputs(
-                u32::from_le_bytes(super::glue::get(&self.0.borrow().0, 584)),
+                super::glue::get_u32(&self.0.borrow().0, 584),
             )
         }
     }
@@ -3751,24 +3485,24 @@ pub mod records {
         /// Sets [`physical_outputs`](Self::physical_outputs).
         #[inline]
         pub fn set_physical_outputs(&mut self, value: super::types::PmmDigitalOutputs) {
-            super::glue::put(&mut self.0.borrow_mut().0, 576, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 576, value.0);
         }
 
         /// Sets [`bitmask`](Self::bitmask).
         #[inline]
         pub fn set_bitmask(&mut self, value: super::types::PmmDigitalOutputs) {
-            super::glue::put(&mut self.0.borrow_mut().0, 580, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 580, value.0);
         }
 
         /// Sets [`read_back`](Self::read_back).
         #[inline]
         pub fn set_read_back(&mut self, value: super::types::PmmDigitalOutputs) {
-            super::glue::put(&mut self.0.borrow_mut().0, 584, value.0.to_le_bytes());
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 584, value.0);
         }
     }
 
     /// `30FFh` signaling outputs: Outputs that show a fault or a warning with 24 V; the outputs of several units may be wired in parallel.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct SignalingOutputs<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> SignalingOutputs<D> {
@@ -3777,9 +3511,7 @@ pub mod records {
         /// UNSIGNED16, rw, RPDO, default 0x0800, stored with the application parameters.
         #[inline]
         pub fn fault(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 388)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 388))
         }
 
         /// `30FFh.2` warning: Outputs that show a warning.
@@ -3787,9 +3519,7 @@ pub mod records {
         /// UNSIGNED16, rw, RPDO, default 0x0400, stored with the application parameters.
         #[inline]
         pub fn warning(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 390)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 390))
         }
     }
 
@@ -3797,18 +3527,18 @@ pub mod records {
         /// Sets [`fault`](Self::fault).
         #[inline]
         pub fn set_fault(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 388, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 388, value.0);
         }
 
         /// Sets [`warning`](Self::warning).
         #[inline]
         pub fn set_warning(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 390, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 390, value.0);
         }
     }
 
     /// `3110h` temperature supervisor battery: Monitoring of the battery temperature (3010h); result in 3006h.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureSupervisorBattery<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorBattery<D> {
@@ -3817,9 +3547,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 392)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 392))
         }
 
         /// `3110h.2` error limit: Fault with an emergency message from this temperature on.
@@ -3827,9 +3555,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 55.0 °C, stored with the application parameters.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 394)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 394))
         }
 
         /// `3110h.3` lower limit: Warning below this temperature.
@@ -3837,9 +3563,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 396)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 396))
         }
     }
 
@@ -3847,24 +3571,24 @@ pub mod records {
         /// Sets [`warning_limit`](Self::warning_limit).
         #[inline]
         pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 392, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 392, value.0);
         }
 
         /// Sets [`error_limit`](Self::error_limit).
         #[inline]
         pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 394, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 394, value.0);
         }
 
         /// Sets [`lower_limit`](Self::lower_limit).
         #[inline]
         pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 396, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 396, value.0);
         }
     }
 
     /// `3111h` temperature supervisor heat sink: Monitoring of the heat sink temperature (3011h); result in 3007h.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureSupervisorHeatSink<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorHeatSink<D> {
@@ -3873,9 +3597,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 75.0 °C, stored with the application parameters.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 398)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 398))
         }
 
         /// `3111h.2` error limit: Fault with an emergency message from this temperature on.
@@ -3883,9 +3605,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 80.0 °C, stored with the application parameters.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 400)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 400))
         }
 
         /// `3111h.3` lower limit: Warning below this temperature.
@@ -3893,9 +3613,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 402)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 402))
         }
     }
 
@@ -3903,24 +3621,24 @@ pub mod records {
         /// Sets [`warning_limit`](Self::warning_limit).
         #[inline]
         pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 398, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 398, value.0);
         }
 
         /// Sets [`error_limit`](Self::error_limit).
         #[inline]
         pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 400, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 400, value.0);
         }
 
         /// Sets [`lower_limit`](Self::lower_limit).
         #[inline]
         pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 402, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 402, value.0);
         }
     }
 
     /// `3112h` temperature supervisor sensor1: Monitoring of external sensor 1 (3012h) at X15.1/X15.2; result in 3008h.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureSupervisorSensor1<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorSensor1<D> {
@@ -3929,9 +3647,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 404)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 404))
         }
 
         /// `3112h.2` error limit: Fault with an emergency message from this temperature on.
@@ -3939,9 +3655,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 406)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 406))
         }
 
         /// `3112h.3` lower limit: Warning below this temperature.
@@ -3949,9 +3663,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 408)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 408))
         }
     }
 
@@ -3959,24 +3671,24 @@ pub mod records {
         /// Sets [`warning_limit`](Self::warning_limit).
         #[inline]
         pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 404, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 404, value.0);
         }
 
         /// Sets [`error_limit`](Self::error_limit).
         #[inline]
         pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 406, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 406, value.0);
         }
 
         /// Sets [`lower_limit`](Self::lower_limit).
         #[inline]
         pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 408, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 408, value.0);
         }
     }
 
     /// `3113h` temperature supervisor sensor2: Monitoring of external sensor 2 (3013h) at X15.3/X15.4; result in 3009h.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureSupervisorSensor2<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorSensor2<D> {
@@ -3985,9 +3697,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 410)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 410))
         }
 
         /// `3113h.2` error limit: Fault with an emergency message from this temperature on.
@@ -3995,9 +3705,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 412)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 412))
         }
 
         /// `3113h.3` lower limit: Warning below this temperature.
@@ -4005,9 +3713,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 414)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 414))
         }
     }
 
@@ -4015,24 +3721,24 @@ pub mod records {
         /// Sets [`warning_limit`](Self::warning_limit).
         #[inline]
         pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 410, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 410, value.0);
         }
 
         /// Sets [`error_limit`](Self::error_limit).
         #[inline]
         pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 412, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 412, value.0);
         }
 
         /// Sets [`lower_limit`](Self::lower_limit).
         #[inline]
         pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 414, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 414, value.0);
         }
     }
 
     /// `3201h` temperature controller battery: Keeps the battery temperature (3010h) inside a range. As delivered it heats with the relay at X16.1/X16.2 and blows with the fan at X14.5; cooling is not used.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureControllerBattery<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureControllerBattery<D> {
@@ -4041,9 +3747,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
         #[inline]
         pub fn heater(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 416)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 416))
         }
 
         /// `3201h.2` cooler: Cooler and fan run above this temperature.
@@ -4051,9 +3755,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn cooler(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 418)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 418))
         }
 
         /// `3201h.3` hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
@@ -4061,9 +3763,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 420)),
-            )
+            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 420))
         }
 
         /// `3201h.4` output heater: Outputs that switch the heater.
@@ -4071,9 +3771,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0040, stored with the application parameters.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 422)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 422))
         }
 
         /// `3201h.5` output cooler: Outputs that switch the cooler.
@@ -4081,9 +3779,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_cooler(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 424)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 424))
         }
 
         /// `3201h.6` output fan: Outputs that switch the fan.
@@ -4091,9 +3787,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0010, stored with the application parameters.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 426)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 426))
         }
 
         /// `3201h.7` delay fan off: Time for which the fan runs on after heating or cooling.
@@ -4101,9 +3795,7 @@ pub mod records {
         /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
         #[inline]
         pub fn delay_fan_off(&self) -> super::units::Second<u16> {
-            super::units::Second(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 428)),
-            )
+            super::units::Second(super::glue::get_u16(&self.0.borrow().0, 428))
         }
     }
 
@@ -4111,48 +3803,48 @@ pub mod records {
         /// Sets [`heater`](Self::heater).
         #[inline]
         pub fn set_heater(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 416, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 416, value.0);
         }
 
         /// Sets [`cooler`](Self::cooler).
         #[inline]
         pub fn set_cooler(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 418, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 418, value.0);
         }
 
         /// Sets [`hysteresis`](Self::hysteresis).
         #[inline]
         pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 420, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 420, value.0);
         }
 
         /// Sets [`output_heater`](Self::output_heater).
         #[inline]
         pub fn set_output_heater(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 422, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 422, value.0);
         }
 
         /// Sets [`output_cooler`](Self::output_cooler).
         #[inline]
         pub fn set_output_cooler(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 424, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 424, value.0);
         }
 
         /// Sets [`output_fan`](Self::output_fan).
         #[inline]
         pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 426, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 426, value.0);
         }
 
         /// Sets [`delay_fan_off`](Self::delay_fan_off).
         #[inline]
         pub fn set_delay_fan_off(&mut self, value: super::units::Second<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 428, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 428, value.0);
         }
     }
 
     /// `3202h` temperature controller sensor 1: Keeps the temperature of external sensor 1 (3012h, X15.1/X15.2) inside a range. As delivered all its output masks are 0, which turns it off.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureControllerSensor1<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureControllerSensor1<D> {
@@ -4161,9 +3853,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
         #[inline]
         pub fn heater(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 430)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 430))
         }
 
         /// `3202h.2` cooler: Cooler and fan run above this temperature.
@@ -4171,9 +3861,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn cooler(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 432)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 432))
         }
 
         /// `3202h.3` hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
@@ -4181,9 +3869,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 434)),
-            )
+            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 434))
         }
 
         /// `3202h.4` output heater: Outputs that switch the heater.
@@ -4191,9 +3877,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 436)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 436))
         }
 
         /// `3202h.5` output cooler: Outputs that switch the cooler.
@@ -4201,9 +3885,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_cooler(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 438)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 438))
         }
 
         /// `3202h.6` output fan: Outputs that switch the fan.
@@ -4211,9 +3893,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 440)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 440))
         }
 
         /// `3202h.7` delay fan off: Time for which the fan runs on after heating or cooling.
@@ -4221,9 +3901,7 @@ pub mod records {
         /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
         #[inline]
         pub fn delay_fan_off(&self) -> super::units::Second<u16> {
-            super::units::Second(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 442)),
-            )
+            super::units::Second(super::glue::get_u16(&self.0.borrow().0, 442))
         }
     }
 
@@ -4231,48 +3909,48 @@ pub mod records {
         /// Sets [`heater`](Self::heater).
         #[inline]
         pub fn set_heater(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 430, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 430, value.0);
         }
 
         /// Sets [`cooler`](Self::cooler).
         #[inline]
         pub fn set_cooler(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 432, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 432, value.0);
         }
 
         /// Sets [`hysteresis`](Self::hysteresis).
         #[inline]
         pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 434, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 434, value.0);
         }
 
         /// Sets [`output_heater`](Self::output_heater).
         #[inline]
         pub fn set_output_heater(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 436, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 436, value.0);
         }
 
         /// Sets [`output_cooler`](Self::output_cooler).
         #[inline]
         pub fn set_output_cooler(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 438, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 438, value.0);
         }
 
         /// Sets [`output_fan`](Self::output_fan).
         #[inline]
         pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 440, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 440, value.0);
         }
 
         /// Sets [`delay_fan_off`](Self::delay_fan_off).
         #[inline]
         pub fn set_delay_fan_off(&mut self, value: super::units::Second<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 442, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 442, value.0);
         }
     }
 
     /// `3203h` temperature controller sensor 2: Keeps the temperature of external sensor 2 (3013h, X15.3/X15.4) inside a range. As delivered it heats with the relay at X16.3/X16.4 and blows with the fan at X14.6; cooling is not used.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct TemperatureControllerSensor2<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> TemperatureControllerSensor2<D> {
@@ -4281,9 +3959,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
         #[inline]
         pub fn heater(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 444)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 444))
         }
 
         /// `3203h.2` cooler: Cooler and fan run above this temperature.
@@ -4291,9 +3967,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn cooler(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 446)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 446))
         }
 
         /// `3203h.3` hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
@@ -4301,9 +3975,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 448)),
-            )
+            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 448))
         }
 
         /// `3203h.4` output heater: Outputs that switch the heater.
@@ -4311,9 +3983,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0080, stored with the application parameters.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 450)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 450))
         }
 
         /// `3203h.5` output cooler: Outputs that switch the cooler.
@@ -4321,9 +3991,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_cooler(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 452)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 452))
         }
 
         /// `3203h.6` output fan: Outputs that switch the fan.
@@ -4331,9 +3999,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0020, stored with the application parameters.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 454)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 454))
         }
 
         /// `3203h.7` delay fan off: Time for which the fan runs on after heating or cooling.
@@ -4341,9 +4007,7 @@ pub mod records {
         /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
         #[inline]
         pub fn delay_fan_off(&self) -> super::units::Second<u16> {
-            super::units::Second(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 456)),
-            )
+            super::units::Second(super::glue::get_u16(&self.0.borrow().0, 456))
         }
     }
 
@@ -4351,48 +4015,48 @@ pub mod records {
         /// Sets [`heater`](Self::heater).
         #[inline]
         pub fn set_heater(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 444, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 444, value.0);
         }
 
         /// Sets [`cooler`](Self::cooler).
         #[inline]
         pub fn set_cooler(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 446, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 446, value.0);
         }
 
         /// Sets [`hysteresis`](Self::hysteresis).
         #[inline]
         pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 448, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 448, value.0);
         }
 
         /// Sets [`output_heater`](Self::output_heater).
         #[inline]
         pub fn set_output_heater(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 450, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 450, value.0);
         }
 
         /// Sets [`output_cooler`](Self::output_cooler).
         #[inline]
         pub fn set_output_cooler(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 452, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 452, value.0);
         }
 
         /// Sets [`output_fan`](Self::output_fan).
         #[inline]
         pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 454, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 454, value.0);
         }
 
         /// Sets [`delay_fan_off`](Self::delay_fan_off).
         #[inline]
         pub fn set_delay_fan_off(&mut self, value: super::units::Second<u16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 456, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 456, value.0);
         }
     }
 
     /// `3204h` motor fan controller: Switches the fan of the motor by the motor temperature that the PMM gets from the PMC over CAN. Off while output fan is 0.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct MotorFanController<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> MotorFanController<D> {
@@ -4401,9 +4065,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 °C, default 80.0 °C, stored with the application parameters.
         #[inline]
         pub fn temperature(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 458)),
-            )
+            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 458))
         }
 
         /// `3204h.2` hysteresis: The fan stops this much below the temperature threshold.
@@ -4411,9 +4073,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 460)),
-            )
+            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 460))
         }
 
         /// `3204h.3` output fan: Outputs that switch the motor fan.
@@ -4421,9 +4081,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 462)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 462))
         }
     }
 
@@ -4431,24 +4089,24 @@ pub mod records {
         /// Sets [`temperature`](Self::temperature).
         #[inline]
         pub fn set_temperature(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 458, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 458, value.0);
         }
 
         /// Sets [`hysteresis`](Self::hysteresis).
         #[inline]
         pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 460, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 460, value.0);
         }
 
         /// Sets [`output_fan`](Self::output_fan).
         #[inline]
         pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 462, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 462, value.0);
         }
     }
 
     /// `3220h` position range enable: Sets an output while the position of the axis, which the PMC reports over CAN, lies between two limits.
-    #[derive(Debug, Clone, Copy)]
+    #[derive(Debug)]
     pub struct PositionRangeEnable<D>(pub(super) D);
 
     impl<D: Borrow<super::Pmm>> PositionRangeEnable<D> {
@@ -4457,9 +4115,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.01 °, default -87.00 °, stored with the application parameters.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Centidegree<i16> {
-            super::units::Centidegree(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 464)),
-            )
+            super::units::Centidegree(super::glue::get_i16(&self.0.borrow().0, 464))
         }
 
         /// `3220h.2` upper limit: Upper end of the range.
@@ -4467,9 +4123,7 @@ pub mod records {
         /// INTEGER16, rw, in 0.01 °, default 87.00 °, stored with the application parameters.
         #[inline]
         pub fn upper_limit(&self) -> super::units::Centidegree<i16> {
-            super::units::Centidegree(
-                i16::from_le_bytes(super::glue::get(&self.0.borrow().0, 466)),
-            )
+            super::units::Centidegree(super::glue::get_i16(&self.0.borrow().0, 466))
         }
 
         /// `3220h.3` output: Outputs that are set inside the range.
@@ -4477,9 +4131,7 @@ pub mod records {
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(
-                u16::from_le_bytes(super::glue::get(&self.0.borrow().0, 468)),
-            )
+            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 468))
         }
     }
 
@@ -4487,19 +4139,19 @@ pub mod records {
         /// Sets [`lower_limit`](Self::lower_limit).
         #[inline]
         pub fn set_lower_limit(&mut self, value: super::units::Centidegree<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 464, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 464, value.0);
         }
 
         /// Sets [`upper_limit`](Self::upper_limit).
         #[inline]
         pub fn set_upper_limit(&mut self, value: super::units::Centidegree<i16>) {
-            super::glue::put(&mut self.0.borrow_mut().0, 466, value.0.to_le_bytes());
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 466, value.0);
         }
 
         /// Sets [`output`](Self::output).
         #[inline]
         pub fn set_output(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put(&mut self.0.borrow_mut().0, 468, value.0.to_le_bytes());
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 468, value.0);
         }
     }
 }
@@ -7569,7 +7221,7 @@ impl glue::Dictionary for Pmm {
 
     #[inline]
     fn entry(row: u16) -> Option<Entry> {
-        ENTRIES.get(usize::from(row)).copied()
+        BY_ROW.get(usize::from(row)).copied()
     }
 
     #[inline]
@@ -7716,1242 +7368,400 @@ pub mod constraints {
     ///
     /// `pmc:0x6510.4 < 0x30FA.3 < 0x30FB.8 < 0x30FA.1 < 0x30FB.7 <= 0x30FC.2 < 0x30FC.1 < 0x30FA.2 <= pmc:0x6510.5`. Only what can be told from this device.
     pub fn dc_link_voltage_ladder(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 364)))
-            < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 380)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 380)))
-                < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 360)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 360)))
-                < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 378)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 378)))
-                <= i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 386)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 386)))
-                < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 384)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 384)))
-                < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 362)))
+        i64::from(super::glue::get_u16(&dictionary.0, 364))
+            < i64::from(super::glue::get_u16(&dictionary.0, 380))
+            && i64::from(super::glue::get_u16(&dictionary.0, 380))
+                < i64::from(super::glue::get_u16(&dictionary.0, 360))
+            && i64::from(super::glue::get_u16(&dictionary.0, 360))
+                < i64::from(super::glue::get_u16(&dictionary.0, 378))
+            && i64::from(super::glue::get_u16(&dictionary.0, 378))
+                <= i64::from(super::glue::get_u16(&dictionary.0, 386))
+            && i64::from(super::glue::get_u16(&dictionary.0, 386))
+                < i64::from(super::glue::get_u16(&dictionary.0, 384))
+            && i64::from(super::glue::get_u16(&dictionary.0, 384))
+                < i64::from(super::glue::get_u16(&dictionary.0, 362))
     }
 
     /// booster target above nominal voltage: Otherwise a current rushes into the link when the mains return.
     ///
     /// `0x30FB.7 > 0x30FA.1`.
     pub fn booster_target_above_nominal_voltage(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 378)))
-            > i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 360)))
+        i64::from(super::glue::get_u16(&dictionary.0, 378))
+            > i64::from(super::glue::get_u16(&dictionary.0, 360))
     }
 
     /// chopper not below booster target: Otherwise the chopper burns what the booster delivers.
     ///
     /// `0x30FC.2 >= 0x30FB.7 and 0x30FC.1 >= 0x30FB.7`.
     pub fn chopper_not_below_booster_target(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 386)))
-            >= i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 378)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 384)))
-                >= i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 378)))
+        i64::from(super::glue::get_u16(&dictionary.0, 386))
+            >= i64::from(super::glue::get_u16(&dictionary.0, 378))
+            && i64::from(super::glue::get_u16(&dictionary.0, 384))
+                >= i64::from(super::glue::get_u16(&dictionary.0, 378))
     }
 
     /// shutdown after ride-through: The time to the shutdown has to cover the bridged power failure and, after it, the travel to the feather position.
     ///
     /// `0x30E0 < 0x30E1`.
     pub fn shutdown_after_ride_through(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 328)))
-            < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 330))) * 1000
+        i64::from(super::glue::get_u16(&dictionary.0, 328))
+            < i64::from(super::glue::get_u16(&dictionary.0, 330)) * 1000
     }
 
     /// charging voltage fits the battery: The manual advises the maximum bloc voltage times the number of blocs. More is dangerous for the cells and is refused; less is safe and allowed, as whole volts cannot meet every product and a lower voltage spares the cells. It has to stay above the nominal voltage, or the battery would never hold the charge for an emergency drive; that bound is implied, not printed.
     ///
     /// `0x3020.4 * 0x3020.5 < 0x30F1.4 <= 0x3020.4 * 0x3020.6`.
     pub fn charging_voltage_fits_the_battery(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 308)))
-            * i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 310)))
-            < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 354))) * 1000
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 354))) * 1000
-                <= i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 308)))
-                    * i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 312)))
+        i64::from(super::glue::get_u16(&dictionary.0, 308))
+            * i64::from(super::glue::get_u16(&dictionary.0, 310))
+            < i64::from(super::glue::get_u16(&dictionary.0, 354)) * 1000
+            && i64::from(super::glue::get_u16(&dictionary.0, 354)) * 1000
+                <= i64::from(super::glue::get_u16(&dictionary.0, 308))
+                    * i64::from(super::glue::get_u16(&dictionary.0, 312))
     }
 
     /// recharging below the charging voltage: A new charging starts below the voltage at which the last one ended; otherwise it would never end. Implied by the two meanings.
     ///
     /// `0x30F1.5 < 0x30F1.4`.
     pub fn recharging_below_the_charging_voltage(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 356)))
-            < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 354)))
+        i64::from(super::glue::get_u16(&dictionary.0, 356))
+            < i64::from(super::glue::get_u16(&dictionary.0, 354))
     }
 
     /// battery described: A battery has at least one bloc, whose maximum voltage is above its nominal one. Implied by the meanings of the entries.
     ///
     /// `1 <= 0x3020.4 and 0x3020.5 < 0x3020.6`.
     pub fn battery_described(dictionary: &super::Pmm) -> bool {
-        1 <= i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 308)))
-            && i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 310)))
-                < i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 312)))
+        1 <= i64::from(super::glue::get_u16(&dictionary.0, 308))
+            && i64::from(super::glue::get_u16(&dictionary.0, 310))
+                < i64::from(super::glue::get_u16(&dictionary.0, 312))
     }
 
     /// blocs fit the bloc arrays: Bloc voltages, bloc temperatures and bloc error codes exist for eight blocs.
     ///
     /// `0x3020.4 <= 8`.
     pub fn blocs_fit_the_bloc_arrays(dictionary: &super::Pmm) -> bool {
-        i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 308))) <= 8
+        i64::from(super::glue::get_u16(&dictionary.0, 308)) <= 8
     }
 
     /// battery temperature limits: A warning comes before the fault, and the lower limit is below both.
     ///
     /// `0x3110.3 < 0x3110.1 < 0x3110.2`.
     pub fn battery_temperature_limits(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 396)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 392)))
-            && i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 392)))
-                < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 394)))
+        i64::from(super::glue::get_i16(&dictionary.0, 396))
+            < i64::from(super::glue::get_i16(&dictionary.0, 392))
+            && i64::from(super::glue::get_i16(&dictionary.0, 392))
+                < i64::from(super::glue::get_i16(&dictionary.0, 394))
     }
 
     /// heat sink temperature limits: A warning comes before the fault, and the lower limit is below both.
     ///
     /// `0x3111.3 < 0x3111.1 < 0x3111.2`.
     pub fn heat_sink_temperature_limits(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 402)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 398)))
-            && i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 398)))
-                < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 400)))
+        i64::from(super::glue::get_i16(&dictionary.0, 402))
+            < i64::from(super::glue::get_i16(&dictionary.0, 398))
+            && i64::from(super::glue::get_i16(&dictionary.0, 398))
+                < i64::from(super::glue::get_i16(&dictionary.0, 400))
     }
 
     /// sensor 1 temperature limits: A warning comes before the fault, and the lower limit is below both.
     ///
     /// `0x3112.3 < 0x3112.1 < 0x3112.2`.
     pub fn sensor_1_temperature_limits(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 408)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 404)))
-            && i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 404)))
-                < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 406)))
+        i64::from(super::glue::get_i16(&dictionary.0, 408))
+            < i64::from(super::glue::get_i16(&dictionary.0, 404))
+            && i64::from(super::glue::get_i16(&dictionary.0, 404))
+                < i64::from(super::glue::get_i16(&dictionary.0, 406))
     }
 
     /// sensor 2 temperature limits: A warning comes before the fault, and the lower limit is below both.
     ///
     /// `0x3113.3 < 0x3113.1 < 0x3113.2`.
     pub fn sensor_2_temperature_limits(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 414)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 410)))
-            && i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 410)))
-                < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 412)))
+        i64::from(super::glue::get_i16(&dictionary.0, 414))
+            < i64::from(super::glue::get_i16(&dictionary.0, 410))
+            && i64::from(super::glue::get_i16(&dictionary.0, 410))
+                < i64::from(super::glue::get_i16(&dictionary.0, 412))
     }
 
     /// battery heats below cooling: The controller keeps a range, so heating starts below the temperature at which cooling does.
     ///
     /// `0x3201.1 < 0x3201.2`.
     pub fn battery_heats_below_cooling(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 416)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 418)))
+        i64::from(super::glue::get_i16(&dictionary.0, 416))
+            < i64::from(super::glue::get_i16(&dictionary.0, 418))
     }
 
     /// sensor 1 heats below cooling: The controller keeps a range, so heating starts below the temperature at which cooling does.
     ///
     /// `0x3202.1 < 0x3202.2`.
     pub fn sensor_1_heats_below_cooling(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 430)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 432)))
+        i64::from(super::glue::get_i16(&dictionary.0, 430))
+            < i64::from(super::glue::get_i16(&dictionary.0, 432))
     }
 
     /// sensor 2 heats below cooling: The controller keeps a range, so heating starts below the temperature at which cooling does.
     ///
     /// `0x3203.1 < 0x3203.2`.
     pub fn sensor_2_heats_below_cooling(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 444)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 446)))
+        i64::from(super::glue::get_i16(&dictionary.0, 444))
+            < i64::from(super::glue::get_i16(&dictionary.0, 446))
     }
 
     /// bus leaves output bit 0 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 0) * (bit(0x30FF.1, 0) + bit(0x30FF.2, 0) + bit(0x3201.4, 0) + bit(0x3201.5, 0) + bit(0x3201.6, 0) + bit(0x3202.4, 0) + bit(0x3202.5, 0) + bit(0x3202.6, 0) + bit(0x3203.4, 0) + bit(0x3203.5, 0) + bit(0x3203.6, 0) + bit(0x3204.3, 0) + bit(0x3220.3, 0)) == 0`.
     pub fn bus_leaves_output_bit_0_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) & 1)) == 0
     }
 
     /// bus leaves output bit 1 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 1) * (bit(0x30FF.1, 1) + bit(0x30FF.2, 1) + bit(0x3201.4, 1) + bit(0x3201.5, 1) + bit(0x3201.6, 1) + bit(0x3202.4, 1) + bit(0x3202.5, 1) + bit(0x3202.6, 1) + bit(0x3203.4, 1) + bit(0x3203.5, 1) + bit(0x3203.6, 1) + bit(0x3204.3, 1) + bit(0x3220.3, 1)) == 0`.
     pub fn bus_leaves_output_bit_1_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 1 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 1 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 1 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 1 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 1 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 1 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 1 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 1 & 1)) == 0
     }
 
     /// bus leaves output bit 2 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 2) * (bit(0x30FF.1, 2) + bit(0x30FF.2, 2) + bit(0x3201.4, 2) + bit(0x3201.5, 2) + bit(0x3201.6, 2) + bit(0x3202.4, 2) + bit(0x3202.5, 2) + bit(0x3202.6, 2) + bit(0x3203.4, 2) + bit(0x3203.5, 2) + bit(0x3203.6, 2) + bit(0x3204.3, 2) + bit(0x3220.3, 2)) == 0`.
     pub fn bus_leaves_output_bit_2_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 2 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 2 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 2 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 2 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 2 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 2 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 2 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 2 & 1)) == 0
     }
 
     /// bus leaves output bit 3 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 3) * (bit(0x30FF.1, 3) + bit(0x30FF.2, 3) + bit(0x3201.4, 3) + bit(0x3201.5, 3) + bit(0x3201.6, 3) + bit(0x3202.4, 3) + bit(0x3202.5, 3) + bit(0x3202.6, 3) + bit(0x3203.4, 3) + bit(0x3203.5, 3) + bit(0x3203.6, 3) + bit(0x3204.3, 3) + bit(0x3220.3, 3)) == 0`.
     pub fn bus_leaves_output_bit_3_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 3 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 3 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 3 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 3 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 3 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 3 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 3 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 3 & 1)) == 0
     }
 
     /// bus leaves output bit 4 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 4) * (bit(0x30FF.1, 4) + bit(0x30FF.2, 4) + bit(0x3201.4, 4) + bit(0x3201.5, 4) + bit(0x3201.6, 4) + bit(0x3202.4, 4) + bit(0x3202.5, 4) + bit(0x3202.6, 4) + bit(0x3203.4, 4) + bit(0x3203.5, 4) + bit(0x3203.6, 4) + bit(0x3204.3, 4) + bit(0x3220.3, 4)) == 0`.
     pub fn bus_leaves_output_bit_4_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 4 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 4 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 4 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 4 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 4 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 4 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 4 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 4 & 1)) == 0
     }
 
     /// bus leaves output bit 5 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 5) * (bit(0x30FF.1, 5) + bit(0x30FF.2, 5) + bit(0x3201.4, 5) + bit(0x3201.5, 5) + bit(0x3201.6, 5) + bit(0x3202.4, 5) + bit(0x3202.5, 5) + bit(0x3202.6, 5) + bit(0x3203.4, 5) + bit(0x3203.5, 5) + bit(0x3203.6, 5) + bit(0x3204.3, 5) + bit(0x3220.3, 5)) == 0`.
     pub fn bus_leaves_output_bit_5_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 5 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 5 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 5 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 5 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 5 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 5 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 5 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 5 & 1)) == 0
     }
 
     /// bus leaves output bit 6 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 6) * (bit(0x30FF.1, 6) + bit(0x30FF.2, 6) + bit(0x3201.4, 6) + bit(0x3201.5, 6) + bit(0x3201.6, 6) + bit(0x3202.4, 6) + bit(0x3202.5, 6) + bit(0x3202.6, 6) + bit(0x3203.4, 6) + bit(0x3203.5, 6) + bit(0x3203.6, 6) + bit(0x3204.3, 6) + bit(0x3220.3, 6)) == 0`.
     pub fn bus_leaves_output_bit_6_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 6 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 6 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 6 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 6 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 6 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 6 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 6 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 6 & 1)) == 0
     }
 
     /// bus leaves output bit 7 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 7) * (bit(0x30FF.1, 7) + bit(0x30FF.2, 7) + bit(0x3201.4, 7) + bit(0x3201.5, 7) + bit(0x3201.6, 7) + bit(0x3202.4, 7) + bit(0x3202.5, 7) + bit(0x3202.6, 7) + bit(0x3203.4, 7) + bit(0x3203.5, 7) + bit(0x3203.6, 7) + bit(0x3204.3, 7) + bit(0x3220.3, 7)) == 0`.
     pub fn bus_leaves_output_bit_7_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 7 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 7 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 7 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 7 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 7 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 7 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 7 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 7 & 1)) == 0
     }
 
     /// bus leaves output bit 8 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 8) * (bit(0x30FF.1, 8) + bit(0x30FF.2, 8) + bit(0x3201.4, 8) + bit(0x3201.5, 8) + bit(0x3201.6, 8) + bit(0x3202.4, 8) + bit(0x3202.5, 8) + bit(0x3202.6, 8) + bit(0x3203.4, 8) + bit(0x3203.5, 8) + bit(0x3203.6, 8) + bit(0x3204.3, 8) + bit(0x3220.3, 8)) == 0`.
     pub fn bus_leaves_output_bit_8_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 8 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 8 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 8 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 8 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 8 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 8 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 8 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 8 & 1)) == 0
     }
 
     /// bus leaves output bit 9 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 9) * (bit(0x30FF.1, 9) + bit(0x30FF.2, 9) + bit(0x3201.4, 9) + bit(0x3201.5, 9) + bit(0x3201.6, 9) + bit(0x3202.4, 9) + bit(0x3202.5, 9) + bit(0x3202.6, 9) + bit(0x3203.4, 9) + bit(0x3203.5, 9) + bit(0x3203.6, 9) + bit(0x3204.3, 9) + bit(0x3220.3, 9)) == 0`.
     pub fn bus_leaves_output_bit_9_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 9 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 9 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 9 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 9 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 9 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 9 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 9 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 9 & 1)) == 0
     }
 
     /// bus leaves output bit 10 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 10) * (bit(0x30FF.1, 10) + bit(0x30FF.2, 10) + bit(0x3201.4, 10) + bit(0x3201.5, 10) + bit(0x3201.6, 10) + bit(0x3202.4, 10) + bit(0x3202.5, 10) + bit(0x3202.6, 10) + bit(0x3203.4, 10) + bit(0x3203.5, 10) + bit(0x3203.6, 10) + bit(0x3204.3, 10) + bit(0x3220.3, 10)) == 0`.
     pub fn bus_leaves_output_bit_10_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 10 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 10 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 10 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 10 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 10 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 10 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 10 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 10 & 1)) == 0
     }
 
     /// bus leaves output bit 11 to its function: A bit of the bitmask has to stay 0 where an internal function uses the output; otherwise bus and function both drive it.
     ///
     /// `bit(0x30FE.2, 11) * (bit(0x30FF.1, 11) + bit(0x30FF.2, 11) + bit(0x3201.4, 11) + bit(0x3201.5, 11) + bit(0x3201.6, 11) + bit(0x3202.4, 11) + bit(0x3202.5, 11) + bit(0x3202.6, 11) + bit(0x3203.4, 11) + bit(0x3203.5, 11) + bit(0x3203.6, 11) + bit(0x3204.3, 11) + bit(0x3220.3, 11)) == 0`.
     pub fn bus_leaves_output_bit_11_to_its_function(dictionary: &super::Pmm) -> bool {
-        (i64::from(u32::from_le_bytes(super::glue::get(&dictionary.0, 580))) >> 11 & 1)
-            * (((((((((((((i64::from(
-                u16::from_le_bytes(super::glue::get(&dictionary.0, 388)),
-            ) >> 11 & 1)
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 390)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 422)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 424)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 426)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 436)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 438)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 440)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 450)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 452)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 454)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 462)))
-                    >> 11 & 1))
-                + (i64::from(u16::from_le_bytes(super::glue::get(&dictionary.0, 468)))
-                    >> 11 & 1)) == 0
+        (i64::from(super::glue::get_u32(&dictionary.0, 580)) >> 11 & 1)
+            * (((((((((((((i64::from(super::glue::get_u16(&dictionary.0, 388)) >> 11 & 1)
+                + (i64::from(super::glue::get_u16(&dictionary.0, 390)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 422)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 424)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 426)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 436)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 438)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 440)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 450)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 452)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 454)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 462)) >> 11 & 1))
+                + (i64::from(super::glue::get_u16(&dictionary.0, 468)) >> 11 & 1)) == 0
     }
 
     /// position range: The output is set between the limits, so the lower one has to be below the upper one.
     ///
     /// `0x3220.1 < 0x3220.2`.
     pub fn position_range(dictionary: &super::Pmm) -> bool {
-        i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 464)))
-            < i64::from(i16::from_le_bytes(super::glue::get(&dictionary.0, 466)))
+        i64::from(super::glue::get_i16(&dictionary.0, 464))
+            < i64::from(super::glue::get_i16(&dictionary.0, 466))
     }
 }
 
 /// What every entry is.
 static TABLE: glue::Table = glue::Table {
-    objects: &[
-        glue::table::ObjectRow::new(0x1000, 0),
-        glue::table::ObjectRow::new(0x1001, 1),
-        glue::table::ObjectRow::new(0x1003, 2),
-        glue::table::ObjectRow::new(0x1008, 4),
-        glue::table::ObjectRow::new(0x1010, 5),
-        glue::table::ObjectRow::new(0x1011, 10),
-        glue::table::ObjectRow::new(0x1014, 15),
-        glue::table::ObjectRow::new(0x1017, 16),
-        glue::table::ObjectRow::new(0x1018, 17),
-        glue::table::ObjectRow::new(0x1200, 22),
-        glue::table::ObjectRow::new(0x1400, 25),
-        glue::table::ObjectRow::new(0x1401, 28),
-        glue::table::ObjectRow::new(0x1402, 31),
-        glue::table::ObjectRow::new(0x1403, 34),
-        glue::table::ObjectRow::new(0x1600, 37),
-        glue::table::ObjectRow::new(0x1601, 46),
-        glue::table::ObjectRow::new(0x1602, 55),
-        glue::table::ObjectRow::new(0x1603, 64),
-        glue::table::ObjectRow::new(0x1800, 73),
-        glue::table::ObjectRow::new(0x1801, 76),
-        glue::table::ObjectRow::new(0x1802, 79),
-        glue::table::ObjectRow::new(0x1803, 82),
-        glue::table::ObjectRow::new(0x1A00, 85),
-        glue::table::ObjectRow::new(0x1A01, 94),
-        glue::table::ObjectRow::new(0x1A02, 103),
-        glue::table::ObjectRow::new(0x1A03, 112),
-        glue::table::ObjectRow::new(0x2030, 121),
-        glue::table::ObjectRow::new(0x3000, 123),
-        glue::table::ObjectRow::new(0x3001, 124),
-        glue::table::ObjectRow::new(0x3002, 125),
-        glue::table::ObjectRow::new(0x3003, 126),
-        glue::table::ObjectRow::new(0x3004, 127),
-        glue::table::ObjectRow::new(0x3005, 128),
-        glue::table::ObjectRow::new(0x3006, 129),
-        glue::table::ObjectRow::new(0x3007, 130),
-        glue::table::ObjectRow::new(0x3008, 131),
-        glue::table::ObjectRow::new(0x3009, 132),
-        glue::table::ObjectRow::new(0x3010, 133),
-        glue::table::ObjectRow::new(0x3011, 134),
-        glue::table::ObjectRow::new(0x3012, 135),
-        glue::table::ObjectRow::new(0x3013, 136),
-        glue::table::ObjectRow::new(0x301F, 137),
-        glue::table::ObjectRow::new(0x3020, 146),
-        glue::table::ObjectRow::new(0x3040, 155),
-        glue::table::ObjectRow::new(0x3050, 156),
-        glue::table::ObjectRow::new(0x3051, 157),
-        glue::table::ObjectRow::new(0x3052, 158),
-        glue::table::ObjectRow::new(0x3053, 159),
-        glue::table::ObjectRow::new(0x3060, 160),
-        glue::table::ObjectRow::new(0x3061, 161),
-        glue::table::ObjectRow::new(0x3062, 170),
-        glue::table::ObjectRow::new(0x3063, 171),
-        glue::table::ObjectRow::new(0x3064, 172),
-        glue::table::ObjectRow::new(0x3065, 173),
-        glue::table::ObjectRow::new(0x3066, 174),
-        glue::table::ObjectRow::new(0x3067, 175),
-        glue::table::ObjectRow::new(0x3068, 176),
-        glue::table::ObjectRow::new(0x3070, 177),
-        glue::table::ObjectRow::new(0x3073, 178),
-        glue::table::ObjectRow::new(0x3074, 179),
-        glue::table::ObjectRow::new(0x3075, 180),
-        glue::table::ObjectRow::new(0x3080, 181),
-        glue::table::ObjectRow::new(0x3081, 182),
-        glue::table::ObjectRow::new(0x30A0, 183),
-        glue::table::ObjectRow::new(0x30B0, 184),
-        glue::table::ObjectRow::new(0x30B1, 185),
-        glue::table::ObjectRow::new(0x30B2, 186),
-        glue::table::ObjectRow::new(0x30B3, 187),
-        glue::table::ObjectRow::new(0x30B4, 188),
-        glue::table::ObjectRow::new(0x30C0, 189),
-        glue::table::ObjectRow::new(0x30DC, 190),
-        glue::table::ObjectRow::new(0x30E0, 195),
-        glue::table::ObjectRow::new(0x30E1, 196),
-        glue::table::ObjectRow::new(0x30E2, 197),
-        glue::table::ObjectRow::new(0x30E3, 198),
-        glue::table::ObjectRow::new(0x30F0, 199),
-        glue::table::ObjectRow::new(0x30F1, 206),
-        glue::table::ObjectRow::new(0x30FA, 213),
-        glue::table::ObjectRow::new(0x30FB, 217),
-        glue::table::ObjectRow::new(0x30FC, 227),
-        glue::table::ObjectRow::new(0x30FD, 230),
-        glue::table::ObjectRow::new(0x30FE, 231),
-        glue::table::ObjectRow::new(0x30FF, 235),
-        glue::table::ObjectRow::new(0x3110, 238),
-        glue::table::ObjectRow::new(0x3111, 242),
-        glue::table::ObjectRow::new(0x3112, 246),
-        glue::table::ObjectRow::new(0x3113, 250),
-        glue::table::ObjectRow::new(0x3201, 254),
-        glue::table::ObjectRow::new(0x3202, 262),
-        glue::table::ObjectRow::new(0x3203, 270),
-        glue::table::ObjectRow::new(0x3204, 278),
-        glue::table::ObjectRow::new(0x3220, 282),
-        glue::table::ObjectRow::new(0x3300, 286),
-        glue::table::ObjectRow::new(0x5040, 295),
-        glue::table::ObjectRow::new(0x5041, 296),
-        glue::table::ObjectRow::new(0x5042, 297),
-        glue::table::ObjectRow::new(0x603F, 298),
-    ],
-    entries: &[
-        glue::table::EntryRow::new(0, 496),
-        glue::table::EntryRow::new(1, 666),
-        glue::table::EntryRow::new(2, 667),
-        glue::table::EntryRow::new(0, 500),
-        glue::table::EntryRow::new(3, 0),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(5, 504),
-        glue::table::EntryRow::new(5, 508),
-        glue::table::EntryRow::new(5, 512),
-        glue::table::EntryRow::new(5, 516),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(5, 520),
-        glue::table::EntryRow::new(5, 524),
-        glue::table::EntryRow::new(5, 528),
-        glue::table::EntryRow::new(5, 532),
-        glue::table::EntryRow::new(5, 536),
-        glue::table::EntryRow::new(6, 588),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(0, 540),
-        glue::table::EntryRow::new(0, 544),
-        glue::table::EntryRow::new(0, 548),
-        glue::table::EntryRow::new(0, 552),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(0, 556),
-        glue::table::EntryRow::new(0, 560),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 0),
-        glue::table::EntryRow::new(8, 288),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 4),
-        glue::table::EntryRow::new(8, 289),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 8),
-        glue::table::EntryRow::new(8, 290),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 12),
-        glue::table::EntryRow::new(8, 291),
-        glue::table::EntryRow::new(8, 292),
-        glue::table::EntryRow::new(7, 16),
-        glue::table::EntryRow::new(7, 20),
-        glue::table::EntryRow::new(7, 24),
-        glue::table::EntryRow::new(7, 28),
-        glue::table::EntryRow::new(7, 32),
-        glue::table::EntryRow::new(7, 36),
-        glue::table::EntryRow::new(7, 40),
-        glue::table::EntryRow::new(7, 44),
-        glue::table::EntryRow::new(8, 293),
-        glue::table::EntryRow::new(7, 48),
-        glue::table::EntryRow::new(7, 52),
-        glue::table::EntryRow::new(7, 56),
-        glue::table::EntryRow::new(7, 60),
-        glue::table::EntryRow::new(7, 64),
-        glue::table::EntryRow::new(7, 68),
-        glue::table::EntryRow::new(7, 72),
-        glue::table::EntryRow::new(7, 76),
-        glue::table::EntryRow::new(8, 294),
-        glue::table::EntryRow::new(7, 80),
-        glue::table::EntryRow::new(7, 84),
-        glue::table::EntryRow::new(7, 88),
-        glue::table::EntryRow::new(7, 92),
-        glue::table::EntryRow::new(7, 96),
-        glue::table::EntryRow::new(7, 100),
-        glue::table::EntryRow::new(7, 104),
-        glue::table::EntryRow::new(7, 108),
-        glue::table::EntryRow::new(8, 295),
-        glue::table::EntryRow::new(7, 112),
-        glue::table::EntryRow::new(7, 116),
-        glue::table::EntryRow::new(7, 120),
-        glue::table::EntryRow::new(7, 124),
-        glue::table::EntryRow::new(7, 128),
-        glue::table::EntryRow::new(7, 132),
-        glue::table::EntryRow::new(7, 136),
-        glue::table::EntryRow::new(7, 140),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 144),
-        glue::table::EntryRow::new(8, 296),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 148),
-        glue::table::EntryRow::new(8, 297),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 152),
-        glue::table::EntryRow::new(8, 298),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(7, 156),
-        glue::table::EntryRow::new(8, 299),
-        glue::table::EntryRow::new(8, 300),
-        glue::table::EntryRow::new(7, 160),
-        glue::table::EntryRow::new(7, 164),
-        glue::table::EntryRow::new(7, 168),
-        glue::table::EntryRow::new(7, 172),
-        glue::table::EntryRow::new(7, 176),
-        glue::table::EntryRow::new(7, 180),
-        glue::table::EntryRow::new(7, 184),
-        glue::table::EntryRow::new(7, 188),
-        glue::table::EntryRow::new(8, 301),
-        glue::table::EntryRow::new(7, 192),
-        glue::table::EntryRow::new(7, 196),
-        glue::table::EntryRow::new(7, 200),
-        glue::table::EntryRow::new(7, 204),
-        glue::table::EntryRow::new(7, 208),
-        glue::table::EntryRow::new(7, 212),
-        glue::table::EntryRow::new(7, 216),
-        glue::table::EntryRow::new(7, 220),
-        glue::table::EntryRow::new(8, 302),
-        glue::table::EntryRow::new(7, 224),
-        glue::table::EntryRow::new(7, 228),
-        glue::table::EntryRow::new(7, 232),
-        glue::table::EntryRow::new(7, 236),
-        glue::table::EntryRow::new(7, 240),
-        glue::table::EntryRow::new(7, 244),
-        glue::table::EntryRow::new(7, 248),
-        glue::table::EntryRow::new(7, 252),
-        glue::table::EntryRow::new(8, 303),
-        glue::table::EntryRow::new(7, 256),
-        glue::table::EntryRow::new(7, 260),
-        glue::table::EntryRow::new(7, 264),
-        glue::table::EntryRow::new(7, 268),
-        glue::table::EntryRow::new(7, 272),
-        glue::table::EntryRow::new(7, 276),
-        glue::table::EntryRow::new(7, 280),
-        glue::table::EntryRow::new(7, 284),
-        glue::table::EntryRow::new(4, 5),
-        glue::table::EntryRow::new(0, 564),
-        glue::table::EntryRow::new(9, 668),
-        glue::table::EntryRow::new(9, 669),
-        glue::table::EntryRow::new(9, 670),
-        glue::table::EntryRow::new(9, 671),
-        glue::table::EntryRow::new(9, 672),
-        glue::table::EntryRow::new(9, 673),
-        glue::table::EntryRow::new(9, 674),
-        glue::table::EntryRow::new(9, 675),
-        glue::table::EntryRow::new(9, 676),
-        glue::table::EntryRow::new(9, 677),
-        glue::table::EntryRow::new(10, 590),
-        glue::table::EntryRow::new(10, 592),
-        glue::table::EntryRow::new(10, 594),
-        glue::table::EntryRow::new(10, 596),
-        glue::table::EntryRow::new(4, 6),
-        glue::table::EntryRow::new(10, 598),
-        glue::table::EntryRow::new(10, 600),
-        glue::table::EntryRow::new(10, 602),
-        glue::table::EntryRow::new(10, 604),
-        glue::table::EntryRow::new(10, 606),
-        glue::table::EntryRow::new(10, 608),
-        glue::table::EntryRow::new(10, 610),
-        glue::table::EntryRow::new(10, 612),
-        glue::table::EntryRow::new(4, 6),
-        glue::table::EntryRow::new(11, 486),
-        glue::table::EntryRow::new(12, 304),
-        glue::table::EntryRow::new(12, 306),
-        glue::table::EntryRow::new(12, 308),
-        glue::table::EntryRow::new(12, 310),
-        glue::table::EntryRow::new(12, 312),
-        glue::table::EntryRow::new(12, 314),
-        glue::table::EntryRow::new(12, 316),
-        glue::table::EntryRow::new(13, 614),
-        glue::table::EntryRow::new(14, 488),
-        glue::table::EntryRow::new(15, 492),
-        glue::table::EntryRow::new(15, 494),
-        glue::table::EntryRow::new(16, 616),
-        glue::table::EntryRow::new(16, 618),
-        glue::table::EntryRow::new(4, 6),
-        glue::table::EntryRow::new(16, 620),
-        glue::table::EntryRow::new(16, 622),
-        glue::table::EntryRow::new(16, 624),
-        glue::table::EntryRow::new(16, 626),
-        glue::table::EntryRow::new(16, 628),
-        glue::table::EntryRow::new(16, 630),
-        glue::table::EntryRow::new(16, 632),
-        glue::table::EntryRow::new(16, 634),
-        glue::table::EntryRow::new(16, 636),
-        glue::table::EntryRow::new(16, 638),
-        glue::table::EntryRow::new(16, 640),
-        glue::table::EntryRow::new(16, 642),
-        glue::table::EntryRow::new(16, 644),
-        glue::table::EntryRow::new(16, 646),
-        glue::table::EntryRow::new(16, 648),
-        glue::table::EntryRow::new(17, 568),
-        glue::table::EntryRow::new(10, 650),
-        glue::table::EntryRow::new(10, 652),
-        glue::table::EntryRow::new(16, 654),
-        glue::table::EntryRow::new(9, 678),
-        glue::table::EntryRow::new(9, 679),
-        glue::table::EntryRow::new(16, 656),
-        glue::table::EntryRow::new(9, 680),
-        glue::table::EntryRow::new(9, 681),
-        glue::table::EntryRow::new(16, 658),
-        glue::table::EntryRow::new(16, 660),
-        glue::table::EntryRow::new(16, 662),
-        glue::table::EntryRow::new(12, 318),
-        glue::table::EntryRow::new(4, 3),
-        glue::table::EntryRow::new(12, 320),
-        glue::table::EntryRow::new(12, 322),
-        glue::table::EntryRow::new(12, 324),
-        glue::table::EntryRow::new(12, 326),
-        glue::table::EntryRow::new(12, 328),
-        glue::table::EntryRow::new(12, 330),
-        glue::table::EntryRow::new(12, 332),
-        glue::table::EntryRow::new(18, 334),
-        glue::table::EntryRow::new(4, 7),
-        glue::table::EntryRow::new(19, 336),
-        glue::table::EntryRow::new(19, 338),
-        glue::table::EntryRow::new(19, 340),
-        glue::table::EntryRow::new(19, 342),
-        glue::table::EntryRow::new(19, 344),
-        glue::table::EntryRow::new(19, 346),
-        glue::table::EntryRow::new(4, 7),
-        glue::table::EntryRow::new(19, 348),
-        glue::table::EntryRow::new(19, 350),
-        glue::table::EntryRow::new(19, 352),
-        glue::table::EntryRow::new(12, 354),
-        glue::table::EntryRow::new(12, 356),
-        glue::table::EntryRow::new(12, 358),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(12, 360),
-        glue::table::EntryRow::new(12, 362),
-        glue::table::EntryRow::new(12, 364),
-        glue::table::EntryRow::new(4, 9),
-        glue::table::EntryRow::new(19, 366),
-        glue::table::EntryRow::new(19, 368),
-        glue::table::EntryRow::new(19, 370),
-        glue::table::EntryRow::new(19, 372),
-        glue::table::EntryRow::new(19, 374),
-        glue::table::EntryRow::new(19, 376),
-        glue::table::EntryRow::new(12, 378),
-        glue::table::EntryRow::new(12, 380),
-        glue::table::EntryRow::new(12, 382),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(12, 384),
-        glue::table::EntryRow::new(12, 386),
-        glue::table::EntryRow::new(20, 572),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(21, 576),
-        glue::table::EntryRow::new(21, 580),
-        glue::table::EntryRow::new(20, 584),
-        glue::table::EntryRow::new(4, 4),
-        glue::table::EntryRow::new(22, 388),
-        glue::table::EntryRow::new(22, 390),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(23, 392),
-        glue::table::EntryRow::new(23, 394),
-        glue::table::EntryRow::new(23, 396),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(23, 398),
-        glue::table::EntryRow::new(23, 400),
-        glue::table::EntryRow::new(23, 402),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(23, 404),
-        glue::table::EntryRow::new(23, 406),
-        glue::table::EntryRow::new(23, 408),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(23, 410),
-        glue::table::EntryRow::new(23, 412),
-        glue::table::EntryRow::new(23, 414),
-        glue::table::EntryRow::new(4, 10),
-        glue::table::EntryRow::new(23, 416),
-        glue::table::EntryRow::new(23, 418),
-        glue::table::EntryRow::new(23, 420),
-        glue::table::EntryRow::new(12, 422),
-        glue::table::EntryRow::new(12, 424),
-        glue::table::EntryRow::new(12, 426),
-        glue::table::EntryRow::new(12, 428),
-        glue::table::EntryRow::new(4, 10),
-        glue::table::EntryRow::new(23, 430),
-        glue::table::EntryRow::new(23, 432),
-        glue::table::EntryRow::new(23, 434),
-        glue::table::EntryRow::new(12, 436),
-        glue::table::EntryRow::new(12, 438),
-        glue::table::EntryRow::new(12, 440),
-        glue::table::EntryRow::new(12, 442),
-        glue::table::EntryRow::new(4, 10),
-        glue::table::EntryRow::new(23, 444),
-        glue::table::EntryRow::new(23, 446),
-        glue::table::EntryRow::new(23, 448),
-        glue::table::EntryRow::new(12, 450),
-        glue::table::EntryRow::new(12, 452),
-        glue::table::EntryRow::new(12, 454),
-        glue::table::EntryRow::new(12, 456),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(23, 458),
-        glue::table::EntryRow::new(23, 460),
-        glue::table::EntryRow::new(12, 462),
-        glue::table::EntryRow::new(4, 8),
-        glue::table::EntryRow::new(23, 464),
-        glue::table::EntryRow::new(23, 466),
-        glue::table::EntryRow::new(12, 468),
-        glue::table::EntryRow::new(4, 6),
-        glue::table::EntryRow::new(12, 470),
-        glue::table::EntryRow::new(12, 472),
-        glue::table::EntryRow::new(12, 474),
-        glue::table::EntryRow::new(12, 476),
-        glue::table::EntryRow::new(12, 478),
-        glue::table::EntryRow::new(12, 480),
-        glue::table::EntryRow::new(12, 482),
-        glue::table::EntryRow::new(12, 484),
-        glue::table::EntryRow::new(24, 682),
-        glue::table::EntryRow::new(9, 683),
-        glue::table::EntryRow::new(9, 684),
-        glue::table::EntryRow::new(16, 664),
-    ],
-    attributes: &[
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::VisibleString,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Constant,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 3,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(1),
-            place: glue::table::Place::Constant,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Communication,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Communication,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(67),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: 0,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(19),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Remanent,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Remanent,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer32,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: 0,
-            values: 1,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(7),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(17),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned32,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 4,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned16,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Integer16,
-            flags: glue::table::Flags(3),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::Application,
-            page: 0,
-            size: 2,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-        glue::table::Attributes {
-            data_type: glue::DataType::Unsigned8,
-            flags: glue::table::Flags(11),
-            place: glue::table::Place::Image,
-            storage: glue::Storage::No,
-            page: 0,
-            size: 1,
-            limits: glue::table::NONE,
-            values: glue::table::NONE,
-            condition: glue::table::NONE,
-        },
-    ],
+    objects: &OBJECTS,
+    entries: &ENTRIES,
+    attributes: &ATTRIBUTES,
     sparse: &[],
     aliases: &[],
     limits: &[
@@ -8988,6 +7798,689 @@ static TABLE: glue::Table = glue::Table {
     granularity: 8,
     dummies: 0x00,
 };
+
+/// Objects: index and row of the first entry.
+static OBJECTS: [glue::table::ObjectRow; 97] = glue::table::objects([
+    [0x1000, 0],
+    [0x1001, 1],
+    [0x1003, 2],
+    [0x1008, 4],
+    [0x1010, 5],
+    [0x1011, 10],
+    [0x1014, 15],
+    [0x1017, 16],
+    [0x1018, 17],
+    [0x1200, 22],
+    [0x1400, 25],
+    [0x1401, 28],
+    [0x1402, 31],
+    [0x1403, 34],
+    [0x1600, 37],
+    [0x1601, 46],
+    [0x1602, 55],
+    [0x1603, 64],
+    [0x1800, 73],
+    [0x1801, 76],
+    [0x1802, 79],
+    [0x1803, 82],
+    [0x1A00, 85],
+    [0x1A01, 94],
+    [0x1A02, 103],
+    [0x1A03, 112],
+    [0x2030, 121],
+    [0x3000, 123],
+    [0x3001, 124],
+    [0x3002, 125],
+    [0x3003, 126],
+    [0x3004, 127],
+    [0x3005, 128],
+    [0x3006, 129],
+    [0x3007, 130],
+    [0x3008, 131],
+    [0x3009, 132],
+    [0x3010, 133],
+    [0x3011, 134],
+    [0x3012, 135],
+    [0x3013, 136],
+    [0x301F, 137],
+    [0x3020, 146],
+    [0x3040, 155],
+    [0x3050, 156],
+    [0x3051, 157],
+    [0x3052, 158],
+    [0x3053, 159],
+    [0x3060, 160],
+    [0x3061, 161],
+    [0x3062, 170],
+    [0x3063, 171],
+    [0x3064, 172],
+    [0x3065, 173],
+    [0x3066, 174],
+    [0x3067, 175],
+    [0x3068, 176],
+    [0x3070, 177],
+    [0x3073, 178],
+    [0x3074, 179],
+    [0x3075, 180],
+    [0x3080, 181],
+    [0x3081, 182],
+    [0x30A0, 183],
+    [0x30B0, 184],
+    [0x30B1, 185],
+    [0x30B2, 186],
+    [0x30B3, 187],
+    [0x30B4, 188],
+    [0x30C0, 189],
+    [0x30DC, 190],
+    [0x30E0, 195],
+    [0x30E1, 196],
+    [0x30E2, 197],
+    [0x30E3, 198],
+    [0x30F0, 199],
+    [0x30F1, 206],
+    [0x30FA, 213],
+    [0x30FB, 217],
+    [0x30FC, 227],
+    [0x30FD, 230],
+    [0x30FE, 231],
+    [0x30FF, 235],
+    [0x3110, 238],
+    [0x3111, 242],
+    [0x3112, 246],
+    [0x3113, 250],
+    [0x3201, 254],
+    [0x3202, 262],
+    [0x3203, 270],
+    [0x3204, 278],
+    [0x3220, 282],
+    [0x3300, 286],
+    [0x5040, 295],
+    [0x5041, 296],
+    [0x5042, 297],
+    [0x603F, 298],
+]);
+
+/// Entries by row: attributes and place.
+static ENTRIES: [glue::table::EntryRow; 299] = glue::table::entries([
+    [0, 496],
+    [1, 666],
+    [2, 667],
+    [0, 500],
+    [3, 0],
+    [4, 3],
+    [5, 504],
+    [5, 508],
+    [5, 512],
+    [5, 516],
+    [4, 3],
+    [5, 520],
+    [5, 524],
+    [5, 528],
+    [5, 532],
+    [5, 536],
+    [6, 588],
+    [4, 3],
+    [0, 540],
+    [0, 544],
+    [0, 548],
+    [0, 552],
+    [4, 4],
+    [0, 556],
+    [0, 560],
+    [4, 4],
+    [7, 0],
+    [8, 288],
+    [4, 4],
+    [7, 4],
+    [8, 289],
+    [4, 4],
+    [7, 8],
+    [8, 290],
+    [4, 4],
+    [7, 12],
+    [8, 291],
+    [8, 292],
+    [7, 16],
+    [7, 20],
+    [7, 24],
+    [7, 28],
+    [7, 32],
+    [7, 36],
+    [7, 40],
+    [7, 44],
+    [8, 293],
+    [7, 48],
+    [7, 52],
+    [7, 56],
+    [7, 60],
+    [7, 64],
+    [7, 68],
+    [7, 72],
+    [7, 76],
+    [8, 294],
+    [7, 80],
+    [7, 84],
+    [7, 88],
+    [7, 92],
+    [7, 96],
+    [7, 100],
+    [7, 104],
+    [7, 108],
+    [8, 295],
+    [7, 112],
+    [7, 116],
+    [7, 120],
+    [7, 124],
+    [7, 128],
+    [7, 132],
+    [7, 136],
+    [7, 140],
+    [4, 4],
+    [7, 144],
+    [8, 296],
+    [4, 4],
+    [7, 148],
+    [8, 297],
+    [4, 4],
+    [7, 152],
+    [8, 298],
+    [4, 4],
+    [7, 156],
+    [8, 299],
+    [8, 300],
+    [7, 160],
+    [7, 164],
+    [7, 168],
+    [7, 172],
+    [7, 176],
+    [7, 180],
+    [7, 184],
+    [7, 188],
+    [8, 301],
+    [7, 192],
+    [7, 196],
+    [7, 200],
+    [7, 204],
+    [7, 208],
+    [7, 212],
+    [7, 216],
+    [7, 220],
+    [8, 302],
+    [7, 224],
+    [7, 228],
+    [7, 232],
+    [7, 236],
+    [7, 240],
+    [7, 244],
+    [7, 248],
+    [7, 252],
+    [8, 303],
+    [7, 256],
+    [7, 260],
+    [7, 264],
+    [7, 268],
+    [7, 272],
+    [7, 276],
+    [7, 280],
+    [7, 284],
+    [4, 5],
+    [0, 564],
+    [9, 668],
+    [9, 669],
+    [9, 670],
+    [9, 671],
+    [9, 672],
+    [9, 673],
+    [9, 674],
+    [9, 675],
+    [9, 676],
+    [9, 677],
+    [10, 590],
+    [10, 592],
+    [10, 594],
+    [10, 596],
+    [4, 6],
+    [10, 598],
+    [10, 600],
+    [10, 602],
+    [10, 604],
+    [10, 606],
+    [10, 608],
+    [10, 610],
+    [10, 612],
+    [4, 6],
+    [11, 486],
+    [12, 304],
+    [12, 306],
+    [12, 308],
+    [12, 310],
+    [12, 312],
+    [12, 314],
+    [12, 316],
+    [13, 614],
+    [14, 488],
+    [15, 492],
+    [15, 494],
+    [16, 616],
+    [16, 618],
+    [4, 6],
+    [16, 620],
+    [16, 622],
+    [16, 624],
+    [16, 626],
+    [16, 628],
+    [16, 630],
+    [16, 632],
+    [16, 634],
+    [16, 636],
+    [16, 638],
+    [16, 640],
+    [16, 642],
+    [16, 644],
+    [16, 646],
+    [16, 648],
+    [17, 568],
+    [10, 650],
+    [10, 652],
+    [16, 654],
+    [9, 678],
+    [9, 679],
+    [16, 656],
+    [9, 680],
+    [9, 681],
+    [16, 658],
+    [16, 660],
+    [16, 662],
+    [12, 318],
+    [4, 3],
+    [12, 320],
+    [12, 322],
+    [12, 324],
+    [12, 326],
+    [12, 328],
+    [12, 330],
+    [12, 332],
+    [18, 334],
+    [4, 7],
+    [19, 336],
+    [19, 338],
+    [19, 340],
+    [19, 342],
+    [19, 344],
+    [19, 346],
+    [4, 7],
+    [19, 348],
+    [19, 350],
+    [19, 352],
+    [12, 354],
+    [12, 356],
+    [12, 358],
+    [4, 8],
+    [12, 360],
+    [12, 362],
+    [12, 364],
+    [4, 9],
+    [19, 366],
+    [19, 368],
+    [19, 370],
+    [19, 372],
+    [19, 374],
+    [19, 376],
+    [12, 378],
+    [12, 380],
+    [12, 382],
+    [4, 4],
+    [12, 384],
+    [12, 386],
+    [20, 572],
+    [4, 8],
+    [21, 576],
+    [21, 580],
+    [20, 584],
+    [4, 4],
+    [22, 388],
+    [22, 390],
+    [4, 8],
+    [23, 392],
+    [23, 394],
+    [23, 396],
+    [4, 8],
+    [23, 398],
+    [23, 400],
+    [23, 402],
+    [4, 8],
+    [23, 404],
+    [23, 406],
+    [23, 408],
+    [4, 8],
+    [23, 410],
+    [23, 412],
+    [23, 414],
+    [4, 10],
+    [23, 416],
+    [23, 418],
+    [23, 420],
+    [12, 422],
+    [12, 424],
+    [12, 426],
+    [12, 428],
+    [4, 10],
+    [23, 430],
+    [23, 432],
+    [23, 434],
+    [12, 436],
+    [12, 438],
+    [12, 440],
+    [12, 442],
+    [4, 10],
+    [23, 444],
+    [23, 446],
+    [23, 448],
+    [12, 450],
+    [12, 452],
+    [12, 454],
+    [12, 456],
+    [4, 8],
+    [23, 458],
+    [23, 460],
+    [12, 462],
+    [4, 8],
+    [23, 464],
+    [23, 466],
+    [12, 468],
+    [4, 6],
+    [12, 470],
+    [12, 472],
+    [12, 474],
+    [12, 476],
+    [12, 478],
+    [12, 480],
+    [12, 482],
+    [12, 484],
+    [24, 682],
+    [9, 683],
+    [9, 684],
+    [16, 664],
+]);
+
+/// What entries have in common.
+static ATTRIBUTES: [glue::table::Attributes; 25] = [
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::VisibleString,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Constant,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 3,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(1),
+        place: glue::table::Place::Constant,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Communication,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Communication,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(67),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: 0,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(19),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Remanent,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Remanent,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer32,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: 0,
+        values: 1,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(7),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(17),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned32,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 4,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned16,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Integer16,
+        flags: glue::table::Flags(3),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::Application,
+        page: 0,
+        size: 2,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+    glue::table::Attributes {
+        data_type: glue::DataType::Unsigned8,
+        flags: glue::table::Flags(11),
+        place: glue::table::Place::Image,
+        storage: glue::Storage::No,
+        page: 0,
+        size: 1,
+        limits: glue::table::NONE,
+        values: glue::table::NONE,
+        condition: glue::table::NONE,
+    },
+];
 
 /// Values that get the node-ID added to them.
 static NODE_ID_PLACES: [glue::image::NodeIdPlace; 11] = [
@@ -9082,8 +8575,8 @@ static FACTORY: [u8; 688] = *b"\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00";
-/// Entries by row.
-static ENTRIES: [Entry; 299] = [
+/// Entries by row, by name.
+static BY_ROW: [Entry; 299] = [
     Entry::DeviceType,
     Entry::ErrorRegister,
     Entry::PreDefinedErrorFieldNumberOfErrors,

@@ -3,14 +3,23 @@
 //! Every backend is a pure function from the model to bytes, so that the same specification gives the same files on every
 //! machine. Files are written in one place, [`files`]: all of them or none.
 
+#[cfg(feature = "json")]
+mod artifacts;
+#[cfg(feature = "format")]
+mod builder;
 pub mod eds;
+mod expand;
 pub mod files;
 #[cfg(feature = "json")]
 pub mod json;
 pub mod rust;
 pub mod source;
 
-use od_spec::model::{Dictionary, System};
+#[cfg(feature = "json")]
+pub use artifacts::{Selection, artifacts};
+#[cfg(feature = "format")]
+pub use builder::{BuildError, Builder};
+pub use expand::{Expansion, expand};
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,46 +30,4 @@ pub struct Artifact {
     pub bytes: Vec<u8>,
     /// What the file is for, in a few words.
     pub purpose: String,
-}
-
-/// What [`artifacts`] makes.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Selection<'a> {
-    /// Keys of the devices; empty for all.
-    pub devices: &'a [String],
-    /// Also a DCF of each device for this node-ID.
-    pub node: Option<u8>,
-}
-
-/// The files of one specification: an EDS per device, perhaps a DCF, and the JSON dump under the name `stem`.
-pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
-    let wanted =
-        |device: &&Dictionary| selection.devices.is_empty() || selection.devices.contains(&device.key);
-    // The dump is half of the work, and independent of the rest.
-    std::thread::scope(|scope| {
-        let files = scope.spawn(|| {
-            let mut list = Vec::new();
-            for device in system.devices.iter().filter(wanted) {
-                let path = format!("eds/{}.eds", device.key);
-                let bytes = eds::write_eds(system, device);
-                list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
-                if let Some(node) = selection.node {
-                    let commissioning = eds::Commissioning::of_node(device, node);
-                    let file = format!("{}.dcf", device.key);
-                    let bytes = eds::write_dcf(system, device, &commissioning, &file);
-                    let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
-                    list.push(Artifact { path: format!("eds/{file}"), bytes, purpose });
-                }
-            }
-            list
-        });
-        let bytes = json::dump(system, selection.devices);
-        let mut list = files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        list.push(Artifact {
-            path: format!("{stem}.json"),
-            bytes,
-            purpose: "the resolved model, for programs".to_owned(),
-        });
-        list
-    })
 }

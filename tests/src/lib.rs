@@ -1,5 +1,6 @@
 //! What the project's tasks and its cross-crate tests share.
 
+pub mod access_cases;
 pub mod generate;
 
 use std::path::{Path, PathBuf};

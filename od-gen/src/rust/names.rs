@@ -84,8 +84,14 @@ impl Scope {
         Self { taken: names.iter().map(own).collect() }
     }
 
-    /// Gives a name to `what`, or reports why it cannot have it.
-    pub(super) fn claim(&mut self, name: &str, what: &str, span: Span, diagnostics: &mut Diagnostics) {
+    /// Gives a name to `what`, or reports why it cannot have it and returns `false`.
+    pub(super) fn claim(
+        &mut self,
+        name: &str,
+        what: &str,
+        span: Span,
+        diagnostics: &mut Diagnostics,
+    ) -> bool {
         let help = "give one of them `identifier:`, or another name where the language has no such key";
         if name.is_empty() {
             diagnostics.push(
@@ -96,7 +102,7 @@ impl Scope {
                 )
                 .help("write `identifier:`, or a name with letters"),
             );
-            return;
+            return false;
         }
         if let Some(owner) = self.taken.get(name) {
             let diagnostic = Diagnostic::new(
@@ -108,9 +114,10 @@ impl Scope {
                 Some(other) => diagnostic.with(other, "the other one").help(help),
                 None => diagnostic.help(help),
             });
-            return;
+            return false;
         }
         self.taken.insert(name.to_owned(), Owner { what: what.to_owned(), span: Some(span) });
+        true
     }
 }
 

@@ -317,7 +317,10 @@ impl<'a> Plan<'a> {
         for object in device.objects.values() {
             let what = format!("{} ({})", object.index, object.name);
             let name = object.identifier.clone().unwrap_or_else(|| snake(&object.name));
-            methods.claim(&name, &what, object.span, diagnostics);
+            // What follows from a name that is refused is refused with it.
+            if !methods.claim(&name, &what, object.span, diagnostics) {
+                continue;
+            }
             let shape = shape(object, &name);
             match &shape {
                 Shape::Var => {
@@ -385,9 +388,13 @@ impl<'a> Plan<'a> {
         };
         let variant = camel(&name);
         let what = format!("{id} ({})", entry.name);
-        own.claim(&member, &what, entry.span, diagnostics);
-        own.claim(&format!("set_{member}"), &format!("the setter of {what}"), entry.span, diagnostics);
-        variants.claim(&variant, &what, entry.span, diagnostics);
+        let setter = format!("the setter of {what}");
+        let named = own.claim(&member, &what, entry.span, diagnostics)
+            && own.claim(&format!("set_{member}"), &setter, entry.span, diagnostics)
+            && variants.claim(&variant, &what, entry.span, diagnostics);
+        if !named {
+            return;
+        }
         let Some((place, size)) = self.layout.places.get(&id).copied() else { return };
         let attributes = self.attributes(id, object, entry, place, size, diagnostics);
         let kind = self.kind(entry, diagnostics);

@@ -38,16 +38,15 @@ impl Plan<'_> {
                 pub const fn new(node_id: u8) -> Self {
                     Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
                 }
-            }
 
-            #(#objects)*
+                #(#objects)*
+            }
         }
     }
 
-    /// The methods of one object, in an `impl` of its own, so that the compiler's work stays in small pieces.
+    /// The methods of one object.
     fn methods(&self, object: &PlannedObject<'_>) -> TokenStream {
-        let name = format_ident!("{}", self.name);
-        let methods = match &object.shape {
+        match &object.shape {
             Shape::Var => {
                 let Some(entry) = self.entry(object.first_row) else { return quote!() };
                 let (get, set) = (
@@ -76,8 +75,7 @@ impl Plan<'_> {
                     }
                 }
             }
-        };
-        if methods.is_empty() { quote!() } else { quote!(impl #name { #methods }) }
+        }
     }
 
     fn entries_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
@@ -289,7 +287,7 @@ impl Plan<'_> {
         };
         quote! {
             #about
-            #[derive(Debug, Clone, Copy)]
+            #[derive(Debug)]
             pub struct #group<D>(pub(super) D);
 
             impl<D: Borrow<super::#name>> #group<D> {

@@ -77,7 +77,7 @@ impl Plan<'_> {
 
                 #[inline]
                 fn entry(row: u16) -> Option<Entry> {
-                    ENTRIES.get(usize::from(row)).copied()
+                    BY_ROW.get(usize::from(row)).copied()
                 }
 
                 #[inline]
@@ -159,7 +159,7 @@ impl Plan<'_> {
         let objects = self.objects.iter().map(|object| {
             let (index, first) =
                 (hex(object.object.index.0.into(), 4), Literal::u16_unsuffixed(object.first_row));
-            quote!(glue::table::ObjectRow::new(#index, #first))
+            quote!([#index, #first])
         });
         let entries = self.entries.iter().map(|entry| {
             let place = match entry.place {
@@ -172,7 +172,7 @@ impl Plan<'_> {
             };
             let (attributes, place) =
                 (Literal::u16_unsuffixed(entry.attributes), Literal::usize_unsuffixed(place));
-            quote!(glue::table::EntryRow::new(#attributes, #place))
+            quote!([#attributes, #place])
         });
         let attributes = self.attributes.iter().map(attributes);
         let sparse = self.objects.iter().filter_map(|object| {
@@ -215,9 +215,14 @@ impl Plan<'_> {
             quote!(Entry::#variant)
         });
         let (constants, factory) = (byte_string(&self.layout.constants), byte_string(&self.layout.factory));
-        let [count, nodes_count, size] =
-            [self.entries.len(), self.layout.node_ids.len(), self.layout.factory.len()]
-                .map(Literal::usize_unsuffixed);
+        let [count, object_count, attribute_count, nodes_count, size] = [
+            self.entries.len(),
+            self.objects.len(),
+            self.attributes.len(),
+            self.layout.node_ids.len(),
+            self.layout.factory.len(),
+        ]
+        .map(Literal::usize_unsuffixed);
         let granularity = Literal::u8_unsuffixed(self.device.info.granularity);
         let dummies =
             self.device.info.dummies.iter().fold(0u8, |bits, data_type| bits | 1 << (data_type.code() & 7));
@@ -225,9 +230,9 @@ impl Plan<'_> {
         quote! {
             /// What every entry is.
             static TABLE: glue::Table = glue::Table {
-                objects: &[#(#objects),*],
-                entries: &[#(#entries),*],
-                attributes: &[#(#attributes),*],
+                objects: &OBJECTS,
+                entries: &ENTRIES,
+                attributes: &ATTRIBUTES,
                 sparse: &[#(#sparse),*],
                 aliases: &[#(#aliases),*],
                 limits: &[#(#limits),*],
@@ -240,14 +245,23 @@ impl Plan<'_> {
                 dummies: #dummies,
             };
 
+            /// Objects: index and row of the first entry.
+            static OBJECTS: [glue::table::ObjectRow; #object_count] = glue::table::objects([#(#objects),*]);
+
+            /// Entries by row: attributes and place.
+            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries([#(#entries),*]);
+
+            /// What entries have in common.
+            static ATTRIBUTES: [glue::table::Attributes; #attribute_count] = [#(#attributes),*];
+
             /// Values that get the node-ID added to them.
             static NODE_ID_PLACES: [glue::image::NodeIdPlace; #nodes_count] = [#(#nodes),*];
 
             /// The image after a factory reset of node 0.
             static FACTORY: [u8; #size] = *#factory;
 
-            /// Entries by row.
-            static ENTRIES: [Entry; #count] = [#(#variants),*];
+            /// Entries by row, by name.
+            static BY_ROW: [Entry; #count] = [#(#variants),*];
 
             /// Names of the entries, one a line.
             static NAMES: &str = #names;

@@ -191,25 +191,37 @@ impl Values<'_, '_> {
     /// The raw form of the value at an offset of some bytes.
     pub(super) fn load(&self, kind: &ValueKind, size: usize, at: &At, offset: &TokenStream) -> TokenStream {
         let At { root, image, .. } = at;
+        if let Some(name) = self.plain_name(kind) {
+            let get = format_ident!("get_{name}");
+            return quote!(#root glue::#get(#image, #offset));
+        }
         if let Some(carrier) = self.carrier(kind) {
             let bytes = Literal::usize_unsuffixed(carrier.bytes);
-            let name = carrier.name();
-            return match (carrier.is_exact(), carrier.signed) {
-                (true, _) => quote!(#name::from_le_bytes(#root glue::get(#image, #offset))),
-                (false, true) => quote!(#root glue::image::get_signed::<#bytes>(#image, #offset)),
-                (false, false) => quote!(#root glue::image::get_unsigned::<#bytes>(#image, #offset)),
-            };
+            let get = if carrier.signed { quote!(get_signed) } else { quote!(get_unsigned) };
+            return quote!(#root glue::image::#get::<#bytes>(#image, #offset));
         }
         let size = Literal::usize_unsuffixed(size);
-        match kind.data_type {
-            DataType::Boolean => quote!(#root glue::get(#image, #offset) != [0]),
-            DataType::Real32 => quote!(f32::from_le_bytes(#root glue::get(#image, #offset))),
-            DataType::Real64 => quote!(f64::from_le_bytes(#root glue::get(#image, #offset))),
-            DataType::VisibleString => quote!(#root glue::text::visible(#image, #offset, #size)),
-            DataType::OctetString => quote!(#root glue::text::octets(#image, #offset, #size)),
-            DataType::UnicodeString => quote!(#root glue::text::unicode(#image, #offset, #size)),
-            _ => quote!(#root glue::Time::from_bytes(#root glue::get(#image, #offset))),
+        let get = match kind.data_type {
+            DataType::VisibleString => quote!(visible),
+            DataType::OctetString => quote!(octets),
+            _ => quote!(unicode),
+        };
+        quote!(#root glue::text::#get(#image, #offset, #size))
+    }
+
+    /// The name of a type that the run-time half reads and writes whole.
+    fn plain_name(&self, kind: &ValueKind) -> Option<String> {
+        if let Some(carrier) = self.carrier(kind) {
+            return carrier.is_exact().then(|| carrier.name().to_string());
         }
+        let name = match kind.data_type {
+            DataType::Boolean => "bool",
+            DataType::Real32 => "f32",
+            DataType::Real64 => "f64",
+            DataType::TimeOfDay | DataType::TimeDifference => "time",
+            _ => return None,
+        };
+        Some(name.to_owned())
     }
 
     /// Code that puts a raw value at an offset, and the error it may have.
@@ -222,34 +234,25 @@ impl Values<'_, '_> {
         raw: &TokenStream,
     ) -> (TokenStream, Option<TokenStream>) {
         let At { root, image_mut, .. } = at;
+        if let Some(name) = self.plain_name(kind) {
+            let put = format_ident!("put_{name}");
+            return (quote!(#root glue::#put(#image_mut, #offset, #raw)), None);
+        }
         if let Some(carrier) = self.carrier(kind) {
             let bytes = Literal::usize_unsuffixed(carrier.bytes);
             let put = if carrier.signed { quote!(put_signed) } else { quote!(put_unsigned) };
-            return if carrier.is_exact() {
-                (put_bytes(at, offset, raw), None)
-            } else {
-                (
-                    quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)),
-                    Some(quote!(#root glue::OutOfRange)),
-                )
-            };
+            return (
+                quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)),
+                Some(quote!(#root glue::OutOfRange)),
+            );
         }
         let size = Literal::usize_unsuffixed(size);
-        let no_fit = Some(quote!(#root glue::NoFit));
-        match kind.data_type {
-            DataType::Boolean => (quote!(#root glue::put(#image_mut, #offset, [#raw.into()])), None),
-            DataType::Real32 | DataType::Real64 => (put_bytes(at, offset, raw), None),
-            DataType::VisibleString => {
-                (quote!(#root glue::text::put_visible(#image_mut, #offset, #size, #raw)), no_fit)
-            }
-            DataType::OctetString => {
-                (quote!(#root glue::text::put_octets(#image_mut, #offset, #size, #raw)), no_fit)
-            }
-            DataType::UnicodeString => {
-                (quote!(#root glue::text::put_unicode(#image_mut, #offset, #size, #raw)), no_fit)
-            }
-            _ => (quote!(#root glue::put(#image_mut, #offset, #raw.to_bytes())), None),
-        }
+        let put = match kind.data_type {
+            DataType::VisibleString => quote!(put_visible),
+            DataType::OctetString => quote!(put_octets),
+            _ => quote!(put_unicode),
+        };
+        (quote!(#root glue::text::#put(#image_mut, #offset, #size, #raw)), Some(quote!(#root glue::NoFit)))
     }
 
     /// What a setter takes.
@@ -280,21 +283,21 @@ impl Values<'_, '_> {
                 let target = self.number(self.plan.entry(alias.target)?, at)?;
                 let (root, view) = (&at.root, view_name(entry));
                 if alias.outside == od_spec::model::Outside::Abort {
-                    let narrow = quote!(#root glue::image::narrow(number));
+                    let narrow = quote!(#root glue::narrow(number));
                     let value = self.decode(&entry.kind, root, &narrow);
                     return Some((
                         quote!(#root #view.show(#target).ok().map(|number| #value)),
                         quote!(Option<#value_type>),
                     ));
                 }
-                let narrow = quote!(#root glue::image::narrow(#root #view.show_or_zero(#target)));
+                let narrow = quote!(#root glue::narrow(#root #view.show_or_zero(#target)));
                 let value = match self.special_name(&entry.kind) {
                     Some(_) => {
                         let raw = self.raw_type(&entry.kind, root);
                         self.decode(
                             &entry.kind,
                             root,
-                            &quote!(#root glue::image::narrow::<#raw>(#root #view.show_or_zero(#target))),
+                            &quote!(#root glue::narrow::<#raw>(#root #view.show_or_zero(#target))),
                         )
                     }
                     None => self.decode(&entry.kind, root, &narrow),
@@ -383,12 +386,6 @@ impl Values<'_, '_> {
             _ => return None,
         })
     }
-}
-
-fn put_bytes(at: &At, offset: &TokenStream, raw: &TokenStream) -> TokenStream {
-    let At { root, image_mut, .. } = at;
-    let raw = if raw.clone().into_iter().count() > 3 { quote!((#raw)) } else { raw.clone() };
-    quote!(#root glue::put(#image_mut, #offset, #raw.to_le_bytes()))
 }
 
 /// The constant that says how an alias shows its target: `VIEW_5064`.

@@ -1,0 +1,47 @@
+//! The files that a specification becomes for PLC tools and programs.
+
+use od_spec::model::{Dictionary, System};
+
+use crate::{Artifact, eds, json};
+
+/// What [`artifacts`] makes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Selection<'a> {
+    /// Keys of the devices; empty for all.
+    pub devices: &'a [String],
+    /// Also a DCF of each device for this node-ID.
+    pub node: Option<u8>,
+}
+
+/// The files of one specification: an EDS per device, perhaps a DCF, and the JSON dump under the name `stem`.
+pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
+    let wanted =
+        |device: &&Dictionary| selection.devices.is_empty() || selection.devices.contains(&device.key);
+    // The dump is half of the work, and independent of the rest.
+    std::thread::scope(|scope| {
+        let files = scope.spawn(|| {
+            let mut list = Vec::new();
+            for device in system.devices.iter().filter(wanted) {
+                let path = format!("eds/{}.eds", device.key);
+                let bytes = eds::write_eds(system, device);
+                list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
+                if let Some(node) = selection.node {
+                    let commissioning = eds::Commissioning::of_node(device, node);
+                    let file = format!("{}.dcf", device.key);
+                    let bytes = eds::write_dcf(system, device, &commissioning, &file);
+                    let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
+                    list.push(Artifact { path: format!("eds/{file}"), bytes, purpose });
+                }
+            }
+            list
+        });
+        let bytes = json::dump(system, selection.devices);
+        let mut list = files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        list.push(Artifact {
+            path: format!("{stem}.json"),
+            bytes,
+            purpose: "the resolved model, for programs".to_owned(),
+        });
+        list
+    })
+}

@@ -1,0 +1,156 @@
+//! Generation from a build script.
+
+use std::env;
+use std::fmt;
+use std::path::PathBuf;
+
+use od_spec::Compiled;
+use od_spec::diag::render::{Format, render};
+use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
+use od_spec::model::Dictionary;
+use od_spec::source::SourceMap;
+
+use crate::expand::unknown_device;
+use crate::files::write_all;
+use crate::rust::{self, Provenance};
+use crate::source::{FileLoader, compile_file};
+
+/// Makes Rust modules of a specification from a build script:
+///
+/// ```no_run
+/// // build.rs
+/// od_gen::Builder::new("pitch.od.yaml").device("pmc").generate();
+/// ```
+///
+/// and in the crate
+///
+/// ```ignore
+/// mod pmc {
+///     include!(concat!(env!("OUT_DIR"), "/pmc.rs"));
+/// }
+/// ```
+///
+/// Cargo runs the script again when the specification, or a library file that it uses, has changed, and for no other reason.
+#[derive(Debug, Clone)]
+pub struct Builder {
+    specification: PathBuf,
+    devices: Vec<String>,
+    out: Option<PathBuf>,
+}
+
+/// Why nothing was generated: what [`Builder::try_generate`] found.
+#[derive(Debug)]
+pub struct BuildError {
+    diagnostics: Diagnostics,
+    sources: SourceMap,
+}
+
+/// All messages as `odgen check` prints them.
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&render(&self.diagnostics, &self.sources, Format::Human, false))
+    }
+}
+
+impl std::error::Error for BuildError {}
+
+/// What a build script tells cargo.
+struct Outcome {
+    read: Vec<PathBuf>,
+    diagnostics: Diagnostics,
+    sources: SourceMap,
+    written: Vec<PathBuf>,
+}
+
+impl Builder {
+    /// Of a specification; the path is relative to the package that is built.
+    pub fn new(specification: impl Into<PathBuf>) -> Self {
+        Self { specification: specification.into(), devices: Vec::new(), out: None }
+    }
+
+    /// Only this device, by its key; may be called for several. Without it, all.
+    #[must_use]
+    pub fn device(mut self, key: impl Into<String>) -> Self {
+        self.devices.push(key.into());
+        self
+    }
+
+    /// The directory for the modules; cargo's `OUT_DIR` unless given.
+    #[must_use]
+    pub fn out_dir(mut self, directory: impl Into<PathBuf>) -> Self {
+        self.out = Some(directory.into());
+        self
+    }
+
+    /// Writes `KEY.rs` for each device and tells cargo about it. Mistakes in the specification appear as errors of the build,
+    /// with their places and with help, and end the process with exit code 1; warnings appear as warnings.
+    #[expect(clippy::print_stdout, clippy::print_stderr, reason = "cargo reads what a build script prints")]
+    pub fn generate(&self) {
+        let outcome = self.run();
+        for path in &outcome.read {
+            println!("cargo::rerun-if-changed={}", path.display());
+        }
+        for diagnostic in &outcome.diagnostics {
+            let mut one = Diagnostics::new();
+            one.push(diagnostic.clone());
+            let kind = if diagnostic.severity() == Severity::Error { "error" } else { "warning" };
+            for line in render(&one, &outcome.sources, Format::Short, false).lines() {
+                println!("cargo::{kind}={line}");
+            }
+        }
+        if outcome.diagnostics.has_errors() {
+            eprint!("{}", render(&outcome.diagnostics, &outcome.sources, Format::Human, false));
+            std::process::exit(1);
+        }
+    }
+
+    /// Writes `KEY.rs` for each device; returns the files.
+    ///
+    /// # Errors
+    /// All mistakes of the specification, or that a file cannot be written. Nothing was written then.
+    pub fn try_generate(&self) -> Result<Vec<PathBuf>, Box<BuildError>> {
+        let Outcome { diagnostics, sources, written, .. } = self.run();
+        if diagnostics.has_errors() {
+            Err(Box::new(BuildError { diagnostics, sources }))
+        } else {
+            Ok(written)
+        }
+    }
+
+    fn run(&self) -> Outcome {
+        let (mut sources, mut loader) = (SourceMap::new(), FileLoader::default());
+        let Compiled { system, mut diagnostics } =
+            compile_file(&self.specification, &mut sources, &mut loader);
+        let mut read = loader.read;
+        if !read.contains(&self.specification) {
+            read.push(self.specification.clone());
+        }
+        let mut written = Vec::new();
+        if let Some(system) = system {
+            for key in self.devices.iter().filter(|key| system.device(key).is_none()) {
+                diagnostics.push(unknown_device(key, &system.devices));
+            }
+            let wanted = |device: &&Dictionary| self.devices.is_empty() || self.devices.contains(&device.key);
+            let devices = system.devices.iter().filter(wanted);
+            let mut files = rust::artifacts(&system, devices, &Provenance::of(&sources), &mut diagnostics);
+            for file in &mut files {
+                file.path = file.path.replacen("src/", "", 1);
+            }
+            let directory = self.out.clone().or_else(|| env::var_os("OUT_DIR").map(PathBuf::from));
+            match directory {
+                _ if diagnostics.has_errors() => {}
+                Some(directory) => match write_all(&directory, &files) {
+                    Ok(_) => written.extend(files.iter().map(|file| directory.join(&file.path))),
+                    Err(error) => diagnostics.push(not_written(&error.to_string())),
+                },
+                None => diagnostics.push(not_written("there is no `OUT_DIR`, as this is no build script")),
+            }
+        }
+        Outcome { read, diagnostics, sources, written }
+    }
+}
+
+fn not_written(reason: &str) -> Diagnostic {
+    Diagnostic::without_place(Code::WriteFailed, reason)
+        .help("nothing was changed; check the directory, its permissions and the free space")
+}

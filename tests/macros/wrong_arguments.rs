@@ -1,0 +1,9 @@
+mod lamp {
+    od_macros::object_dictionary!(lamp);
+}
+
+mod other {
+    od_macros::object_dictionary!("../../../../tests/ui/ok_minimal.od.yaml", devise = "lamp");
+}
+
+fn main() {}

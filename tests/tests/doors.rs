@@ -1,0 +1,97 @@
+//! Three ways to the same code: macro, build script, file.
+
+use std::process::Command;
+
+use firmware_glue::Dictionary;
+use od_generated::{pmc, pmm};
+use od_tests::root;
+
+mod by_builder {
+    include!(concat!(env!("OUT_DIR"), "/pmc.rs"));
+}
+
+mod pmc_by_macro {
+    od_macros::object_dictionary!("../od-spec/devices/pitch-control-system.od.yaml", device = "pmc");
+}
+
+mod pmm_by_macro {
+    od_macros::object_dictionary!("../od-spec/devices/pitch-control-system.od.yaml", device = "pmm");
+}
+
+const SPECIFICATION: &str = "od-spec/devices/pitch-control-system.od.yaml";
+
+#[test]
+fn the_macro_has_the_tokens_of_the_file() {
+    for key in ["pmc", "pmm"] {
+        // What the macro puts out, apart from the lines that make the compiler watch the files.
+        let expansion = od_gen::expand(&root().join(SPECIFICATION), Some(key));
+        assert!(expansion.errors.is_empty() && expansion.warnings.is_empty());
+        let macros = prettyplease::unparse(&syn::parse2(expansion.tokens.unwrap()).unwrap());
+        let text = std::fs::read_to_string(root().join(format!("generated/src/{key}.rs"))).unwrap();
+        let file = prettyplease::unparse(&syn::parse_file(&text).unwrap());
+        assert_eq!(first_difference(&macros, &file), None);
+    }
+}
+
+fn first_difference(one: &str, other: &str) -> Option<(String, String)> {
+    let (mut one, mut other) = (one.lines(), other.lines());
+    loop {
+        match (one.next(), other.next()) {
+            (None, None) => return None,
+            (left, right) if left == right => {}
+            (left, right) => {
+                return Some((left.unwrap_or("(end)").to_owned(), right.unwrap_or("(end)").to_owned()));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_builder_writes_the_file() {
+    let built = std::fs::read_to_string(concat!(env!("OUT_DIR"), "/pmc.rs")).unwrap();
+    let file = std::fs::read_to_string(root().join("generated/src/pmc.rs")).unwrap();
+    assert_eq!(first_difference(&built, &file), None);
+}
+
+#[test]
+fn the_compiled_tables_are_equal() {
+    fn table<D: Dictionary>() -> String {
+        format!("{:?}", D::TABLE)
+    }
+    assert_eq!(table::<pmc_by_macro::Pmc>(), table::<pmc::Pmc>());
+    assert_eq!(table::<by_builder::Pmc>(), table::<pmc::Pmc>());
+    assert_eq!(table::<pmm_by_macro::Pmm>(), table::<pmm::Pmm>());
+    assert_eq!(pmc_by_macro::Pmc::new(7).image(), pmc::Pmc::new(7).image());
+}
+
+#[test]
+fn a_specification_with_mistakes_is_an_error_of_the_compiler() {
+    let cases = trybuild::TestCases::new();
+    cases.compile_fail("macros/*.rs");
+}
+
+#[test]
+fn a_specification_with_mistakes_is_an_error_of_the_build() {
+    let out = std::env::temp_dir().join(format!("od-builder-{}", std::process::id()));
+    let run = |specification: &str, device: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_build-script"))
+            .current_dir(root().join("tests/ui"))
+            .args([specification, device])
+            .arg(&out)
+            .output()
+            .unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let (code, told, shown) = run("err_od0406_default.od.yaml", "");
+    assert_eq!(code, Some(1));
+    insta::assert_snapshot!("builder_error", format!("{told}---\n{shown}"));
+    assert!(!out.exists(), "nothing is written");
+    let (code, told, _) = run("ok_minimal.od.yaml", "stranger");
+    assert_eq!(code, Some(1));
+    insta::assert_snapshot!("builder_unknown_device", told);
+    let (code, told, _) = run("missing.od.yaml", "");
+    assert_eq!(code, Some(1));
+    insta::assert_snapshot!("builder_missing_file", told);
+    assert!(!out.exists(), "nothing is written");
+}
