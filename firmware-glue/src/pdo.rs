@@ -234,6 +234,9 @@ pub(crate) fn check_mapping(
         return if new == 0 { Ok(true) } else { check_mapped(table, flag, new).map(|_| true) };
     }
     let Ok(count @ 0..=64) = u8::try_from(new) else { return Err(AbortCode::PDO_LENGTH) };
+    if current(table, image, index, count).is_none() {
+        return Err(AbortCode::PDO_LENGTH);
+    }
     let mut bits = 0;
     for sub in 1..=count {
         let parameter = current(table, image, index, sub).ok_or(AbortCode::PDO_LENGTH)?;

@@ -6,10 +6,12 @@ use ::firmware_glue as glue;
 /// Object dictionary of the Pitch Motion Controller: 700 bytes of values, 109 objects, 264 entries.
 ///
 /// Axis controller for DC motors and for synchronous or asynchronous AC motors, with blade adjustment and a blade encoder input.
+#[allow(unreachable_pub)]
 #[derive(Debug, Clone)]
 #[repr(C, align(4))]
 pub struct Pmc([u8; 700]);
 
+#[allow(dead_code, unreachable_pub, clippy::unused_self)]
 impl Pmc {
     /// Bytes of all values.
     pub const SIZE: usize = 700;
@@ -1870,6 +1872,7 @@ impl Pmc {
 }
 
 /// Every entry of the dictionary, by ascending index and sub-index.
+#[allow(dead_code, unreachable_pub)]
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u16)]
 pub enum Entry {
@@ -2403,6 +2406,7 @@ pub enum Entry {
     AeActualPositionDifference,
 }
 
+#[allow(dead_code, unreachable_pub)]
 impl Entry {
     /// The name in the specification. It is looked up in one long text: for people, not for loops.
     pub fn name(self) -> &'static str {
@@ -2421,6 +2425,7 @@ impl core::fmt::Debug for Entry {
 glue::defmt_text!(Entry);
 
 /// Records, and arrays whose elements have names: groups of accessors.
+#[allow(dead_code, unreachable_pub, clippy::unused_self)]
 pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
@@ -3930,6 +3935,7 @@ pub mod records {
 }
 
 /// PDOs with their default mappings.
+#[allow(dead_code, unreachable_pub)]
 pub mod pdos {
     /// RPDO 1: COB-ID 200h + node-ID, transmission type 255; parameters `1400h` and `1600h`.
     ///
@@ -4412,6 +4418,7 @@ pub mod pdos {
 }
 
 /// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+#[allow(dead_code, unreachable_pub)]
 pub mod types {
     /// EMCY COB-ID: CAN-ID of an emergency message. Bits 0 to 29 cannot be changed while the message is valid (bit 31 is 0).
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -6412,6 +6419,7 @@ pub mod types {
 }
 
 /// Raw values with a meaning of their own, beside the ordinary ones.
+#[allow(dead_code, unreachable_pub)]
 pub mod specials {
     /// heartbeat off (0).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -6469,6 +6477,7 @@ pub mod specials {
 }
 
 /// Physical units: newtypes around raw values.
+#[allow(dead_code, unreachable_pub)]
 pub mod units {
     super::glue::unit! {
         #[doc =
@@ -6611,6 +6620,7 @@ pub mod units {
 }
 
 /// Values after a factory reset.
+#[allow(dead_code, unreachable_pub)]
 pub mod defaults {
     /// Of `1000h`.
     pub const DEVICE_TYPE: super::types::DeviceTypeCode = super::types::DeviceTypeCode(
@@ -7034,6 +7044,7 @@ pub mod defaults {
 }
 
 /// Smallest and largest values that can be written over the bus, apart from special values.
+#[allow(dead_code, unreachable_pub)]
 pub mod limits {
     use core::ops::RangeInclusive;
 
@@ -7153,6 +7164,7 @@ impl glue::Constrained for Pmc {
 }
 
 /// Conditions between entries.
+#[allow(dead_code, unreachable_pub)]
 pub mod constraints {
     /// dc link limits of the drive: The lowest DC link voltage must be below the highest.
     ///

@@ -6,10 +6,12 @@ use ::firmware_glue as glue;
 /// Object dictionary of the Pitch Management Module: 688 bytes of values, 97 objects, 299 entries.
 ///
 /// Supplies the PMC with the DC link voltage, manages the battery, boosts its voltage to link level when the mains fail, and contains the brake chopper and temperature controllers.
+#[allow(unreachable_pub)]
 #[derive(Debug, Clone)]
 #[repr(C, align(4))]
 pub struct Pmm([u8; 688]);
 
+#[allow(dead_code, unreachable_pub, clippy::unused_self)]
 impl Pmm {
     /// Bytes of all values.
     pub const SIZE: usize = 688;
@@ -1677,6 +1679,7 @@ impl Pmm {
 }
 
 /// Every entry of the dictionary, by ascending index and sub-index.
+#[allow(dead_code, unreachable_pub)]
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u16)]
 pub enum Entry {
@@ -2280,6 +2283,7 @@ pub enum Entry {
     ErrorCode,
 }
 
+#[allow(dead_code, unreachable_pub)]
 impl Entry {
     /// The name in the specification. It is looked up in one long text: for people, not for loops.
     pub fn name(self) -> &'static str {
@@ -2298,6 +2302,7 @@ impl core::fmt::Debug for Entry {
 glue::defmt_text!(Entry);
 
 /// Records, and arrays whose elements have names: groups of accessors.
+#[allow(dead_code, unreachable_pub, clippy::unused_self)]
 pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
@@ -4157,6 +4162,7 @@ pub mod records {
 }
 
 /// PDOs with their default mappings.
+#[allow(dead_code, unreachable_pub)]
 pub mod pdos {
     /// RPDO 1: COB-ID 200h + node-ID, transmission type 255, off after a factory reset; parameters `1400h` and `1600h`.
     ///
@@ -4504,6 +4510,7 @@ pub mod pdos {
 }
 
 /// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+#[allow(dead_code, unreachable_pub)]
 pub mod types {
     /// 24V supply status: Status of the 24 V feed-in.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -6540,6 +6547,7 @@ pub mod types {
 }
 
 /// Raw values with a meaning of their own, beside the ordinary ones.
+#[allow(dead_code, unreachable_pub)]
 pub mod specials {
     /// heartbeat off (0).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -6600,6 +6608,7 @@ pub mod specials {
 }
 
 /// Physical units: newtypes around raw values.
+#[allow(dead_code, unreachable_pub)]
 pub mod units {
     super::glue::unit! {
         #[doc = " ampere: one raw step is 1 A."] pub struct Ampere = "A", scale 1 / 1,
@@ -6730,6 +6739,7 @@ pub mod units {
 }
 
 /// Values after a factory reset.
+#[allow(dead_code, unreachable_pub)]
 pub mod defaults {
     /// Of `1000h`.
     pub const DEVICE_TYPE: super::types::DeviceTypeCode = super::types::DeviceTypeCode(
@@ -7205,6 +7215,7 @@ pub mod defaults {
 }
 
 /// Smallest and largest values that can be written over the bus, apart from special values.
+#[allow(dead_code, unreachable_pub)]
 pub mod limits {
     use core::ops::RangeInclusive;
 
@@ -7363,6 +7374,7 @@ impl glue::Constrained for Pmm {
 }
 
 /// Conditions between entries.
+#[allow(dead_code, unreachable_pub)]
 pub mod constraints {
     /// dc-link voltage ladder: The thresholds of the DC link have to keep this order, from the under voltage limit of the PMC up to its over voltage limit. Equal values are allowed only where the manual allows them or has them by default.
     ///

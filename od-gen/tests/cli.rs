@@ -105,9 +105,39 @@ fn build_without_a_specification_makes_the_shipped_ones() {
             "generated/eds/pmc.eds",
             "generated/eds/pmm.dcf",
             "generated/eds/pmm.eds",
-            "generated/pitch-control-system.json"
+            "generated/pitch-control-system.json",
+            "generated/src/pmc.rs",
+            "generated/src/pmm.rs"
         ]
     );
+}
+
+#[test]
+fn build_makes_rust_when_asked() {
+    let scratch = Scratch::new("rust");
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "--rust", "lamp.od.yaml"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(
+        files(&scratch.0),
+        ["generated/eds/lamp.eds", "generated/lamp.json", "generated/src/lamp.rs", "lamp.od.yaml"]
+    );
+    let code_of = std::fs::read_to_string(scratch.0.join("generated/src/lamp.rs")).unwrap();
+    assert!(code_of.starts_with("// Object dictionary `lamp` of lamp.od.yaml ("), "{code_of}");
+    assert!(code_of.contains("pub fn brightness(&self) -> units::Percent<u8> {"), "{code_of}");
+}
+
+#[test]
+fn what_cannot_be_rust_writes_nothing_at_all() {
+    let scratch = Scratch::new("no-rust");
+    let label = "objects:\n  0x2001: {name: label, type: visible-string, access: rw}\n";
+    scratch.file("lamp.od.yaml", LAMP.replace("objects:\n", label));
+    let output = odgen(&scratch.0, &["build", "--rust", "lamp.od.yaml"]);
+    assert_eq!(code(&output), 1);
+    assert!(!scratch.0.join("generated").exists());
+    assert_snapshot!(stderr(&output));
+    // An EDS needs no capacity.
+    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml"])), 0);
 }
 
 #[test]

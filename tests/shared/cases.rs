@@ -46,7 +46,9 @@ pub(crate) fn run<D: firmware_glue::Dictionary>(
         let outcome = match kind {
             READ => Ok(()),
             WRITE => dictionary.write(index, sub, data, &mut ()).map(drop),
-            _ => dictionary.write(index, sub, data, &mut Unlocked).map(drop),
+            WRITE_UNLOCKED => dictionary.write(index, sub, data, &mut Unlocked).map(drop),
+            // A kind that nobody made.
+            _ => Err(firmware_glue::AbortCode::INTERNAL),
         };
         let outcome = outcome.and_then(|()| {
             let value = dictionary.read(index, sub);

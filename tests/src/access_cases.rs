@@ -96,7 +96,7 @@ impl<'a> Cases<'a> {
         } else if index == 0x1003 && sub > 0 {
             self.read(index, sub, NO_DATA, None);
         } else {
-            let value = self.default_bytes(entry);
+            let value = default_bytes(entry);
             self.read(index, sub, 0, value.as_deref());
         }
         if matches!(access, "ro" | "const") {
@@ -198,28 +198,6 @@ impl<'a> Cases<'a> {
         Some((Entry::of(index, entry), ratio(&alias["factor"])?))
     }
 
-    fn default_bytes(&self, entry: &Entry<'_>) -> Option<Vec<u8>> {
-        if entry.json.get("alias").is_some() {
-            // The default of the target, as the alias shows it, if the dump has one.
-            let raw = entry.json["default"].get("raw").map(number)?;
-            return Some(raw.to_le_bytes()[..entry.size].to_vec());
-        }
-        let default = &entry.json["default"];
-        if default.is_null() {
-            return is_integer(entry.json).then(|| vec![0; entry.size]);
-        }
-        match (default.get("raw"), entry.range) {
-            (Some(raw), Some(_)) => {
-                let node = if default.get("formula").is_some() { NODE } else { 0 };
-                Some((number(raw) + node).to_le_bytes()[..entry.size].to_vec())
-            }
-            (None, _) if entry.json["type"] == "visible-string" => {
-                default["text"].as_str().map(|text| text.as_bytes().to_vec())
-            }
-            _ => None,
-        }
-    }
-
     fn read(&mut self, index: u16, sub: u8, code: u32, expected: Option<&[u8]>) {
         self.push(READ, index, sub, &[], code, expected);
     }
@@ -309,6 +287,29 @@ fn id(text: &str) -> Option<(u16, u8)> {
 fn ratio(json: &Json) -> Option<(i128, i128)> {
     match json.as_array()?.as_slice() {
         [numerator, denominator] => Some((number(numerator), number(denominator))),
+        _ => None,
+    }
+}
+
+/// What reading an entry gives after a factory reset.
+fn default_bytes(entry: &Entry<'_>) -> Option<Vec<u8>> {
+    if entry.json.get("alias").is_some() {
+        // The default of the target, as the alias shows it, if the dump has one.
+        let raw = entry.json["default"].get("raw").map(number)?;
+        return Some(raw.to_le_bytes()[..entry.size].to_vec());
+    }
+    let default = &entry.json["default"];
+    if default.is_null() {
+        return is_integer(entry.json).then(|| vec![0; entry.size]);
+    }
+    match (default.get("raw"), entry.range) {
+        (Some(raw), Some(_)) => {
+            let node = if default.get("formula").is_some() { NODE } else { 0 };
+            Some((number(raw) + node).to_le_bytes()[..entry.size].to_vec())
+        }
+        (None, _) if entry.json["type"] == "visible-string" => {
+            default["text"].as_str().map(|text| text.as_bytes().to_vec())
+        }
         _ => None,
     }
 }

@@ -3,10 +3,14 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
-use od_spec::diag::Code;
+use od_spec::diag::render::{Format, render};
+use od_spec::diag::{Code, Diagnostics};
+use od_spec::model::System;
+use od_spec::source::SourceMap;
 
-use crate::{Failure, compile_clean, root};
+use crate::{Failure, compile_clean, compile_with_sources, root};
 
 /// The shipped specifications.
 const SPECS: [&str; 1] = ["pitch-control-system"];
@@ -17,16 +21,27 @@ const COMMAND: &str = "cargo xtask generate";
 pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
     let mut files = Vec::new();
     for stem in SPECS {
-        let system = compile_clean(&format!("od-spec/devices/{stem}.od.yaml"))?;
+        let (system, sources) = compile_with_sources(&format!("od-spec/devices/{stem}.od.yaml"))?;
         let set = artifacts(&system, stem, &Selection { devices: &[], node: Some(1) });
-        files
-            .extend(set.into_iter().map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
+        let set = set.into_iter().chain(modules(&system, &sources)?);
+        files.extend(set.map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
     }
     files.push(("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()));
     files.push(("docs/language.md".to_owned(), od_spec::reference().into_bytes()));
     files.push(("docs/messages.md".to_owned(), messages().into_bytes()));
     files.push(("README.md".to_owned(), readme()?.into_bytes()));
     Ok(files)
+}
+
+/// The Rust modules of a specification.
+fn modules(system: &System, sources: &SourceMap) -> Result<Vec<Artifact>, Failure> {
+    let mut diagnostics = Diagnostics::new();
+    let modules = rust::artifacts(system, system.devices.iter(), &Provenance::of(sources), &mut diagnostics);
+    if diagnostics.is_empty() {
+        Ok(modules)
+    } else {
+        Err(render(&diagnostics, sources, Format::Human, false).into())
+    }
 }
 
 /// Writes what changed; tells for each file whether it did.

@@ -20,12 +20,17 @@ pub fn root() -> PathBuf {
 
 /// Compiles a file of the workspace that is expected to be without any message.
 pub fn compile_clean(path: &str) -> Result<System, Failure> {
+    compile_with_sources(path).map(|(system, _)| system)
+}
+
+/// [`compile_clean`], with the texts that were read.
+pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> {
     let text = std::fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
     let mut sources = SourceMap::new();
     let root = sources.add(path, text);
     let Compiled { system, diagnostics } = compile(&mut sources, root, &mut NoFiles);
     match system {
-        Some(system) if diagnostics.is_empty() => Ok(system),
+        Some(system) if diagnostics.is_empty() => Ok((system, sources)),
         _ => Err(render(&diagnostics, &sources, Format::Human, false).into()),
     }
 }

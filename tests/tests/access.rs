@@ -1,5 +1,7 @@
 //! Every access to the generated dictionaries, against the JSON dump.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 #[path = "../shared/cases.rs"]
 mod cases;
 

@@ -1,6 +1,7 @@
 //! What the code of a device will consist of: names, places, tables. Nothing here knows Rust's syntax.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
 use od_spec::model::{
@@ -669,7 +670,9 @@ fn base_name(symbol: &str) -> String {
             '/' => name.push_str("Per"),
             '°' => name.push_str("Degree"),
             '%' => name.push_str("Percent"),
-            c => name.push_str(&format!("U{:X}", u32::from(c))),
+            c => {
+                let _ = write!(name, "U{:X}", u32::from(c));
+            }
         }
         name
     })
@@ -680,10 +683,7 @@ fn shape(object: &Object, name: &str) -> Shape {
     if !object.is_structured() {
         return Shape::Var;
     }
-    let (sub0, elements) = match object.entries.split_first() {
-        Some((sub0, elements)) => (sub0, elements),
-        None => return Shape::Var,
-    };
+    let Some((sub0, elements)) = object.entries.split_first() else { return Shape::Var };
     let pattern = |entry: &Entry| entry.name.replacen(&entry.sub.to_string(), "{n}", 1);
     let alike = elements.split_first().is_some_and(|(first, others)| {
         pattern(first).contains("{n}")
@@ -695,7 +695,7 @@ fn shape(object: &Object, name: &str) -> Shape {
                     && other.special == first.special
                     && other.stored == first.stored
                     && other.access == first.access
-                    && other.size_matches(first)
+                    && other.capacity == first.capacity
             })
     });
     let gapless = elements.iter().zip(1u8..).all(|(entry, sub)| entry.sub == SubIndex(sub));
@@ -707,17 +707,6 @@ fn shape(object: &Object, name: &str) -> Shape {
         Shape::Indexed { count }
     } else {
         Shape::Group { type_name: camel(name) }
-    }
-}
-
-/// Whether two entries take the same room.
-trait SizeMatches {
-    fn size_matches(&self, other: &Self) -> bool;
-}
-
-impl SizeMatches for Entry {
-    fn size_matches(&self, other: &Self) -> bool {
-        self.capacity == other.capacity
     }
 }
 

@@ -12,13 +12,14 @@ use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::{SourceMap, Spanned};
-use od_tests::{Failure, compile_clean, generate, root};
+use od_tests::{Failure, access_cases, compile_clean, generate, root};
 
 const HELP: &str = "\
 cargo xtask TASK
 
   test               run every test; puts what the foreign readers need into target/
   generate [--check] rewrite everything that is generated and checked in, or tell what is not current
+  access-cases DIR   write the cases that the firmware in tests/thumb tries
   bench              measure odgen beside other tools
 ";
 
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
         ["generate"] => write(),
         ["generate", "--check"] => check(),
         ["bench", rest @ ..] => python("tests/bench/run.py", rest),
+        ["access-cases", directory] => access_cases(directory),
         ["help" | "--help"] => {
             print!("{HELP}");
             Ok(())
@@ -63,7 +65,31 @@ fn test() -> Result<(), Failure> {
     write_configured(&system)?;
     let configured = ["--eds-dir", CONFIGURED, "--values", "target/everything/configured/values.txt"];
     python("tests/readers/run.py", &[&configured[..], &everything[2..]].concat())?;
-    python("tests/readers/run.py", &[])
+    python("tests/readers/run.py", &[])?;
+    sdo_client()
+}
+
+/// A client that others wrote, against the generated Rust.
+fn sdo_client() -> Result<(), Failure> {
+    let server = std::env::current_exe()?.with_file_name("sdo-server");
+    let python = root().join("target/readers/venv/bin/python");
+    let arguments =
+        ["--eds-dir", "generated/eds", "--dump", "generated/pitch-control-system.json", "--server"];
+    run(Command::new(python).arg("tests/readers/sdo_client.py").args(arguments).arg(server))
+}
+
+/// What the tests of accesses try, for the emulated Cortex-M.
+fn access_cases(directory: &str) -> Result<(), Failure> {
+    let dump = std::fs::read(root().join("generated/pitch-control-system.json"))?;
+    let dump = serde_json::from_slice(&dump)?;
+    let mut set = Vec::new();
+    for key in ["pmc", "pmm"] {
+        let cases = access_cases::of_device(&dump, key)?;
+        println!("{key}: {} cases", cases.count);
+        set.push(Artifact { path: format!("{key}.cases"), bytes: cases.bytes, purpose: String::new() });
+    }
+    write_all(&root().join(directory), &set)?;
+    Ok(())
 }
 
 /// Where the DCF with [`SETTINGS`] is put.

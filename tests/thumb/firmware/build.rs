@@ -1,9 +1,38 @@
-//! Hands `memory.x` and the linker script of `cortex-m-rt` to the linker.
+//! Hands `memory.x` and the linker script of `cortex-m-rt` to the linker, and has the cases of the test `access` made.
 
-fn main() {
+use std::error::Error;
+use std::path::PathBuf;
+use std::{env, fs};
+
+/// What makes the cases of tests/tests/access.rs.
+#[allow(dead_code)]
+#[path = "../../src/access_cases.rs"]
+mod access_cases;
+
+/// What `access_cases` fails with.
+type Failure = Box<dyn Error + Send + Sync>;
+
+const DUMP: &str = "../../../generated/pitch-control-system.json";
+
+fn main() -> Result<(), Failure> {
     println!("cargo::rerun-if-changed=memory.x");
     println!("cargo::rustc-link-search={}", env!("CARGO_MANIFEST_DIR"));
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     // cortex-m-rt: else the GNU linker may align sections to 64 KiB pages.
     println!("cargo::rustc-link-arg-bins=--nmagic");
+
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=../../src/access_cases.rs");
+    println!("cargo::rerun-if-changed={DUMP}");
+    let dump = serde_json::from_slice(&fs::read(DUMP).map_err(|error| format!("{DUMP}: {error}"))?)?;
+    let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?);
+    for key in ["pmc", "pmm"] {
+        let cases = access_cases::of_device(&dump, key)?;
+        let path = out.join(format!("{key}.cases"));
+        fs::write(&path, &cases.bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+        let name = key.to_uppercase();
+        println!("cargo::rustc-env={name}_CASES={}", path.display());
+        println!("cargo::rustc-env={name}_COUNT={}", cases.count);
+    }
+    Ok(())
 }

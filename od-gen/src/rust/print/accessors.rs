@@ -26,10 +26,12 @@ impl Plan<'_> {
         let objects = self.objects.iter().map(|object| self.methods(object));
         quote! {
             #about
+            #[allow(unreachable_pub)]
             #[derive(Debug, Clone)]
             #[repr(C, align(#align))]
             pub struct #name([u8; #size_literal]);
 
+            #[allow(dead_code, unreachable_pub, clippy::unused_self)]
             impl #name {
                 /// Bytes of all values.
                 pub const SIZE: usize = #size_literal;
@@ -181,7 +183,9 @@ impl Plan<'_> {
         ));
         let (get, set) = (format_ident!("{name}"), format_ident!("set_{name}"));
         let value_type = values.value_type(&first.kind, &at.root);
-        let Place::Image(start) = first.place else { return self.constant_elements(object, &elements, sub0) };
+        let Place::Image(start) = first.place else {
+            return self.constant_elements(object, &elements, sub0.as_ref());
+        };
         let (start, size) = (Literal::usize_unsuffixed(start), Literal::usize_unsuffixed(first.size));
         let offset = quote!(offset);
         let raw = values.load(&first.kind, first.size, &at, &offset);
@@ -216,7 +220,7 @@ impl Plan<'_> {
         &self,
         object: &PlannedObject<'_>,
         elements: &[&PlannedEntry<'_>],
-        sub0: Option<TokenStream>,
+        sub0: Option<&TokenStream>,
     ) -> TokenStream {
         let values = Values { plan: self };
         let at = At::top();
@@ -261,6 +265,7 @@ impl Plan<'_> {
         }
         quote! {
             /// Records, and arrays whose elements have names: groups of accessors.
+            #[allow(dead_code, unreachable_pub, clippy::unused_self)]
             pub mod records {
                 use core::borrow::{Borrow, BorrowMut};
 

@@ -1,5 +1,7 @@
 //! Documentation comments: what the manual says about an object, in a few lines.
 
+use std::fmt::Write as _;
+
 use od_spec::model::{Entry, Object, Outside, Rounding, Storage, Text, Value, format_value};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -38,7 +40,7 @@ impl Plan<'_> {
         text.push_str(if about.is_empty() { "." } else { ": " });
         text.push_str(&about);
         text.push_str("\n\n");
-        text.push_str(&self.facts(planned).join(", "));
+        text.push_str(&facts(planned).join(", "));
         text.push('.');
         for line in [self.related(planned), self.pdos_of(planned), condition(entry)].into_iter().flatten() {
             text.push(' ');
@@ -54,50 +56,6 @@ impl Plan<'_> {
         format!("`{}` {}{end}{about}", object.index, escape(&object.name))
     }
 
-    /// Type, access, mapping, unit, range, default, storage.
-    fn facts(&self, planned: &PlannedEntry<'_>) -> Vec<String> {
-        let entry = planned.entry;
-        let mut facts = vec![entry.data_type.to_string()];
-        facts.push(if entry.locked {
-            format!("{} locked", entry.access.word())
-        } else {
-            entry.access.word().to_owned()
-        });
-        facts.extend(match entry.pdo {
-            od_spec::model::PdoMapping::None => None,
-            od_spec::model::PdoMapping::Receive => Some("RPDO".to_owned()),
-            od_spec::model::PdoMapping::Transmit => Some("TPDO".to_owned()),
-            od_spec::model::PdoMapping::Both => Some("RPDO and TPDO".to_owned()),
-        });
-        facts.extend(entry.unit.as_ref().map(|unit| format!("in {}", escape(&unit.step_text()))));
-        let show = |raw: i128| {
-            escape(&format_value(&Entry { special: Vec::new(), ..entry.clone() }, &Value::Integer(raw)))
-        };
-        facts.extend(match (entry.low, entry.high) {
-            (Some(low), Some(high)) => Some(format!("{} to {}", show(low), show(high))),
-            (Some(low), None) => Some(format!("from {}", show(low))),
-            (None, Some(high)) => Some(format!("up to {}", show(high))),
-            (None, None) => None,
-        });
-        facts.extend(
-            entry.special.iter().map(|special| format!("{}: {}", special.value, escape(&special.name))),
-        );
-        if planned.place != Place::Alias {
-            facts.extend(
-                entry
-                    .default
-                    .as_ref()
-                    .map(|value| format!("default {}", escape(&format_value(entry, value)))),
-            );
-        }
-        facts.extend(match entry.stored {
-            Storage::No => None,
-            Storage::Remanent => Some("kept over power-off".to_owned()),
-            stored => Some(format!("stored with the {} parameters", stored.word())),
-        });
-        facts
-    }
-
     /// What shows the entry, or what it shows.
     fn related(&self, planned: &PlannedEntry<'_>) -> Option<String> {
         let row = self.row(planned.id)?;
@@ -111,17 +69,15 @@ impl Plan<'_> {
                     Rounding::Nearest => "to the nearest step",
                     Rounding::Zero => "towards zero",
                 };
-                text.push_str(&format!(
-                    ", times {}/{}, rounded {rounding}",
-                    alias.numerator, alias.denominator
-                ));
+                let (numerator, denominator) = (alias.numerator, alias.denominator);
+                let _ = write!(text, ", times {numerator}/{denominator}, rounded {rounding}");
             }
             let (low, high) = alias.data_type.range()?;
-            text.push_str(&match alias.outside {
-                Outside::Saturate => format!("; saturates at {low} and {high}."),
-                Outside::Wrap => "; outside its type, its low bits.".to_owned(),
-                Outside::Abort => "; nothing outside its type.".to_owned(),
-            });
+            let _ = match alias.outside {
+                Outside::Saturate => write!(text, "; saturates at {low} and {high}."),
+                Outside::Wrap => write!(text, "; outside its type, its low bits."),
+                Outside::Abort => write!(text, "; nothing outside its type."),
+            };
             return Some(text);
         }
         let mut views = self.aliases.iter().filter(|alias| alias.target == row).filter_map(|alias| {
@@ -164,4 +120,43 @@ impl Plan<'_> {
 fn condition(entry: &Entry) -> Option<String> {
     let condition = entry.writable_when.as_ref()?;
     Some(format!("Writable while `{}`.", condition.text))
+}
+
+/// Type, access, mapping, unit, range, default, storage.
+fn facts(planned: &PlannedEntry<'_>) -> Vec<String> {
+    let entry = planned.entry;
+    let mut facts = vec![entry.data_type.to_string()];
+    facts.push(if entry.locked {
+        format!("{} locked", entry.access.word())
+    } else {
+        entry.access.word().to_owned()
+    });
+    facts.extend(match entry.pdo {
+        od_spec::model::PdoMapping::None => None,
+        od_spec::model::PdoMapping::Receive => Some("RPDO".to_owned()),
+        od_spec::model::PdoMapping::Transmit => Some("TPDO".to_owned()),
+        od_spec::model::PdoMapping::Both => Some("RPDO and TPDO".to_owned()),
+    });
+    facts.extend(entry.unit.as_ref().map(|unit| format!("in {}", escape(&unit.step_text()))));
+    let show = |raw: i128| {
+        escape(&format_value(&Entry { special: Vec::new(), ..entry.clone() }, &Value::Integer(raw)))
+    };
+    facts.extend(match (entry.low, entry.high) {
+        (Some(low), Some(high)) => Some(format!("{} to {}", show(low), show(high))),
+        (Some(low), None) => Some(format!("from {}", show(low))),
+        (None, Some(high)) => Some(format!("up to {}", show(high))),
+        (None, None) => None,
+    });
+    facts.extend(entry.special.iter().map(|special| format!("{}: {}", special.value, escape(&special.name))));
+    if planned.place != Place::Alias {
+        facts.extend(
+            entry.default.as_ref().map(|value| format!("default {}", escape(&format_value(entry, value)))),
+        );
+    }
+    facts.extend(match entry.stored {
+        Storage::No => None,
+        Storage::Remanent => Some("kept over power-off".to_owned()),
+        stored => Some(format!("stored with the {} parameters", stored.word())),
+    });
+    facts
 }

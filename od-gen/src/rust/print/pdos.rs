@@ -17,6 +17,7 @@ impl Plan<'_> {
         let pdos = self.pdos.iter().map(|pdo| self.pdo(pdo));
         quote! {
             /// PDOs with their default mappings.
+            #[allow(dead_code, unreachable_pub)]
             pub mod pdos {
                 #(#pdos)*
             }

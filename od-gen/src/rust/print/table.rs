@@ -1,5 +1,7 @@
 //! The constant table and the traits by which `firmware-glue` finds it.
 
+use std::fmt::Write as _;
+
 use od_spec::expr::{ArithmeticOp, CompareOp};
 use od_spec::model::{DataType, Storage};
 use proc_macro2::{Literal, TokenStream};
@@ -26,12 +28,14 @@ impl Plan<'_> {
         });
         quote! {
             /// Every entry of the dictionary, by ascending index and sub-index.
+            #[allow(dead_code, unreachable_pub)]
             #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
             #[repr(u16)]
             pub enum Entry {
                 #(#variants)*
             }
 
+            #[allow(dead_code, unreachable_pub)]
             impl Entry {
                 /// The name in the specification. It is looked up in one long text: for people, not for loops.
                 pub fn name(self) -> &'static str {
@@ -118,7 +122,7 @@ impl Plan<'_> {
             let about = self.words(constraint.about);
             let mut text = format!("`{}`", constraint.require.text);
             if let Some(when) = &constraint.when {
-                text.push_str(&format!(", while `{}`", when.text));
+                let _ = write!(text, ", while `{}`", when.text);
             }
             text.push('.');
             if constraint.partial {
@@ -148,6 +152,7 @@ impl Plan<'_> {
             }
 
             /// Conditions between entries.
+            #[allow(dead_code, unreachable_pub)]
             pub mod constraints {
                 #(#functions)*
             }
@@ -322,7 +327,6 @@ fn storage(storage: Storage) -> TokenStream {
 
 /// A byte string with 16 bytes a line.
 fn byte_string(bytes: &[u8]) -> TokenStream {
-    use std::fmt::Write as _;
     use std::str::FromStr as _;
     let mut text = String::from("b\"");
     for line in bytes.chunks(LINE) {

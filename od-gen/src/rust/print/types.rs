@@ -1,5 +1,7 @@
 //! Units, enums, bit fields and special values.
 
+use std::fmt::Write as _;
+
 use od_spec::model::{Edge, EnumValue};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -25,6 +27,7 @@ impl Plan<'_> {
         });
         quote! {
             /// Physical units: newtypes around raw values.
+            #[allow(dead_code, unreachable_pub)]
             pub mod units {
                 #(#units)*
 
@@ -59,6 +62,7 @@ impl Plan<'_> {
         let types = self.types.iter().map(|planned| self.named_type(planned));
         quote! {
             /// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+            #[allow(dead_code, unreachable_pub)]
             pub mod types {
                 #(#types)*
             }
@@ -223,11 +227,11 @@ impl Plan<'_> {
             });
         }
         if let Some(clamp) = &field.clamp {
-            text.push_str(&format!(" Clamp {}.", escape(clamp)));
+            let _ = write!(text, " Clamp {}.", escape(clamp));
         }
         if !field.errors.is_empty() {
             let codes: Vec<String> = field.errors.iter().map(|code| format!("{code:04X}h")).collect();
-            text.push_str(&format!(" Error {}.", codes.join(", ")));
+            let _ = write!(text, " Error {}.", codes.join(", "));
         }
         doc(&text)
     }
@@ -240,6 +244,7 @@ impl Plan<'_> {
         let specials = self.specials.iter().map(special);
         quote! {
             /// Raw values with a meaning of their own, beside the ordinary ones.
+            #[allow(dead_code, unreachable_pub)]
             pub mod specials {
                 #(#specials)*
             }
@@ -288,10 +293,7 @@ fn step_text(unit: &od_spec::model::Unit) -> String {
 
 /// The integer of a named type: a bit field is unsigned, whatever its base.
 fn carrier(planned: &PlannedType<'_>) -> TokenStream {
-    let bits = match planned.named.base.bits() {
-        Some(bits @ (8 | 16 | 32 | 64)) => bits,
-        _ => 64,
-    };
+    let bits = planned.named.base.bits().filter(|bits| matches!(bits, 8 | 16 | 32)).unwrap_or(64);
     let signed = planned.named.base.is_signed() && matches!(planned.members, Members::Values(_));
     let name = format_ident!("{}{bits}", if signed { 'i' } else { 'u' });
     quote!(#name)

@@ -402,7 +402,7 @@ pub(super) fn decimal(value: i128) -> Literal {
     }
     let mut text = String::from(if value < 0 { "-" } else { "" });
     for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at) % 3 == 0 {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
             text.push('_');
         }
         text.push(digit);
@@ -418,7 +418,7 @@ pub(super) fn hex(value: u64, digits: usize) -> Literal {
     let mut text = String::from("0x");
     for (at, digit) in plain.chars().enumerate() {
         let rest = plain.len() - at;
-        if at > 0 && plain.len() > 4 && rest % 4 == 0 {
+        if at > 0 && plain.len() > 4 && rest.is_multiple_of(4) {
             text.push('_');
         }
         text.push(digit);

@@ -35,6 +35,7 @@ impl Plan<'_> {
         }
         quote! {
             /// Values after a factory reset.
+            #[allow(dead_code, unreachable_pub)]
             pub mod defaults {
                 #(#constants)*
             }
@@ -68,6 +69,7 @@ impl Plan<'_> {
         }
         quote! {
             /// Smallest and largest values that can be written over the bus, apart from special values.
+            #[allow(dead_code, unreachable_pub)]
             pub mod limits {
                 use core::ops::RangeInclusive;
 

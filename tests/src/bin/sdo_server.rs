@@ -1,0 +1,48 @@
+//! A generated dictionary behind an SDO server, for clients that others wrote: `sdo-server pmc|pmm NODE`.
+//!
+//! Every line of standard input is one request of eight bytes in hexadecimal; every line of standard output, one answer.
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
+
+use std::io::BufRead as _;
+use std::process::ExitCode;
+
+use firmware_glue::Dictionary;
+use od_generated::{pmc::Pmc, pmm::Pmm};
+
+#[path = "../../shared/server.rs"]
+mod server;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let node = arguments.get(1).and_then(|node| node.parse().ok());
+    match (arguments.first().map(String::as_str), node) {
+        (Some("pmc"), Some(node)) => serve(Pmc::new(node)),
+        (Some("pmm"), Some(node)) => serve(Pmm::new(node)),
+        _ => {
+            eprintln!("usage: sdo-server pmc|pmm NODE");
+            return ExitCode::from(2);
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn serve<D: Dictionary>(dictionary: D) {
+    let mut server = server::Server::new(dictionary, ());
+    for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+        let Some(request) = parse(line.trim()) else {
+            eprintln!("not eight bytes: {line}");
+            continue;
+        };
+        let answer = server.answer(request).unwrap_or_default();
+        println!("{}", answer.map(|byte| format!("{byte:02x}")).concat());
+    }
+}
+
+fn parse(line: &str) -> Option<[u8; 8]> {
+    let mut bytes = [0; 8];
+    for (at, byte) in bytes.iter_mut().enumerate() {
+        *byte = u8::from_str_radix(line.get(2 * at..2 * at + 2)?, 16).ok()?;
+    }
+    (line.len() == 16).then_some(bytes)
+}

@@ -1,0 +1,39 @@
+//! Every access to the dictionaries of PMC and PMM, against the JSON dump, as tests/tests/access.rs does on the host.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use cortex_m_semihosting::{debug, hprintln};
+use firmware_glue::Dictionary;
+use od_generated::{pmc::Pmc, pmm::Pmm};
+use panic_semihosting as _;
+
+#[path = "../../../../shared/cases.rs"]
+mod cases;
+
+static PMC: &[u8] = include_bytes!(env!("PMC_CASES"));
+static PMM: &[u8] = include_bytes!(env!("PMM_CASES"));
+
+#[entry]
+fn main() -> ! {
+    static mut PMC_DICTIONARY: Pmc = Pmc::new(cases::NODE);
+    static mut PMM_DICTIONARY: Pmm = Pmm::new(cases::NODE);
+    let pmc = try_device("PMC", PMC_DICTIONARY, PMC, env!("PMC_COUNT"));
+    let pmm = try_device("PMM", PMM_DICTIONARY, PMM, env!("PMM_COUNT"));
+    debug::exit(if pmc && pmm { debug::EXIT_SUCCESS } else { debug::EXIT_FAILURE });
+    unreachable!("QEMU ends at the line before")
+}
+
+/// `made`: how many cases there are, in digits.
+fn try_device<D: Dictionary>(name: &str, dictionary: &mut D, bytes: &[u8], made: &str) -> bool {
+    match cases::run(dictionary, bytes) {
+        Ok(count) => {
+            hprintln!("{}: {} of {} cases", name, count, made);
+            made.parse() == Ok(count) && count > 0
+        }
+        Err((number, (kind, index, sub), code)) => {
+            hprintln!("{}: case {} (kind {}) at {:04X}h.{}: {:08X}h came", name, number, kind, index, sub, code);
+            false
+        }
+    }
+}
