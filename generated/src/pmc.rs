@@ -6476,6 +6476,242 @@ pub mod specials {
     super::glue::defmt_text!(MonitoringOff);
 }
 
+/// States that a status word shows, and commands that a control word gives.
+#[allow(dead_code, unreachable_pub)]
+pub mod machines {
+    /// State of the power drive, as `6041h` shows it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum PowerDriveState {
+        /// Not ready to switch-on: The device starts up and initialises.
+        NotReadyToSwitchOn,
+        /// Switch-on disabled: Initialised; switching on is not enabled (enable input X4.5 is off).
+        SwitchOnDisabled,
+        /// Ready to Switch-on: Enable input on, output stage off, brake engaged.
+        ReadyToSwitchOn,
+        /// Switched-on: Switch on was commanded; output stage on, brake lifted.
+        SwitchedOn,
+        /// Operation enabled: Output stage on, brake lifted; the axis can be moved.
+        OperationEnabled,
+        /// Quick stop active: A quick stop is being carried out.
+        QuickStopActive,
+        /// Fault reaction active: The reaction to an error is being carried out.
+        FaultReactionActive,
+        /// Fault: An error is present, its reaction is over.
+        Fault,
+    }
+
+    impl PowerDriveState {
+        /// The state that the word shows; `None` for a pattern that no state has.
+        pub const fn of(word: super::types::Statusword) -> Option<Self> {
+            let word = word.0;
+            if word & 0x004F == 0x0000 {
+                return Some(Self::NotReadyToSwitchOn);
+            }
+            if word & 0x004F == 0x0040 {
+                return Some(Self::SwitchOnDisabled);
+            }
+            if word & 0x006F == 0x0021 {
+                return Some(Self::ReadyToSwitchOn);
+            }
+            if word & 0x006F == 0x0023 {
+                return Some(Self::SwitchedOn);
+            }
+            if word & 0x006F == 0x0027 {
+                return Some(Self::OperationEnabled);
+            }
+            if word & 0x006F == 0x0007 {
+                return Some(Self::QuickStopActive);
+            }
+            if word & 0x004F == 0x000F {
+                return Some(Self::FaultReactionActive);
+            }
+            if word & 0x004F == 0x0008 {
+                return Some(Self::Fault);
+            }
+            None
+        }
+
+        /// The name in the specification.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::NotReadyToSwitchOn => "Not ready to switch-on",
+                Self::SwitchOnDisabled => "Switch-on disabled",
+                Self::ReadyToSwitchOn => "Ready to Switch-on",
+                Self::SwitchedOn => "Switched-on",
+                Self::OperationEnabled => "Operation enabled",
+                Self::QuickStopActive => "Quick stop active",
+                Self::FaultReactionActive => "Fault reaction active",
+                Self::Fault => "Fault",
+            }
+        }
+    }
+
+    super::glue::defmt_text!(PowerDriveState);
+
+    /// Command to the power drive, as `6040h` takes it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum PowerDriveCommand {
+        /// Shutdown: Output stage off. Transitions 2, 6, 8.
+        Shutdown,
+        /// Switch on: Output stage on. Transitions 3.
+        SwitchOn,
+        /// Switch on + Enable operation: Both steps at once; no intermediate step is needed. Transitions 3, 4.
+        SwitchOnEnableOperation,
+        /// Disable Voltage: Output stage off. Transitions 7, 9, 10, 12.
+        DisableVoltage,
+        /// Quickstop: Stop at the current limit. Transitions 7, 10, 11.
+        Quickstop,
+        /// Disable operation: The axis stops and stays switched on. Transitions 5.
+        DisableOperation,
+        /// Enable operation: The axis may be moved, halt is set. Transitions 4, 16.
+        EnableOperation,
+        /// Fault reset: Resets an error that is no longer present. Transitions 15.
+        FaultReset,
+        /// Start: Ends halt.
+        Start,
+        /// Start, new position: Hands over a new target position; profile position mode (1) only.
+        StartNewPosition,
+        /// Stop: Sets halt.
+        Stop,
+    }
+
+    impl PowerDriveCommand {
+        /// The bits of the word that make the command, and their values; an edge counts as the level after it.
+        pub const fn bits(self) -> (u16, u16) {
+            match self {
+                Self::Shutdown => (0x0097, 0x0006),
+                Self::SwitchOn => (0x009F, 0x0007),
+                Self::SwitchOnEnableOperation => (0x019F, 0x010F),
+                Self::DisableVoltage => (0x0092, 0x0000),
+                Self::Quickstop => (0x009F, 0x000B),
+                Self::DisableOperation => (0x019F, 0x0107),
+                Self::EnableOperation => (0x019F, 0x010F),
+                Self::FaultReset => (0x0090, 0x0080),
+                Self::Start => (0x019F, 0x000F),
+                Self::StartNewPosition => (0x019F, 0x001F),
+                Self::Stop => (0x019F, 0x010F),
+            }
+        }
+
+        /// The word with the command in it; other bits stay.
+        pub const fn apply(
+            self,
+            word: super::types::Controlword,
+        ) -> super::types::Controlword {
+            let (mask, value) = self.bits();
+            let word = word.0;
+            super::types::Controlword(word & !mask | value)
+        }
+
+        /// Whether the word has the bits of the command.
+        pub const fn is_in(self, word: super::types::Controlword) -> bool {
+            let (mask, value) = self.bits();
+            word.0 & mask == value
+        }
+
+        /// The name in the specification.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::Shutdown => "Shutdown",
+                Self::SwitchOn => "Switch on",
+                Self::SwitchOnEnableOperation => "Switch on + Enable operation",
+                Self::DisableVoltage => "Disable Voltage",
+                Self::Quickstop => "Quickstop",
+                Self::DisableOperation => "Disable operation",
+                Self::EnableOperation => "Enable operation",
+                Self::FaultReset => "Fault reset",
+                Self::Start => "Start",
+                Self::StartNewPosition => "Start, new position",
+                Self::Stop => "Stop",
+            }
+        }
+    }
+
+    super::glue::defmt_text!(PowerDriveCommand);
+}
+
+/// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
+#[allow(dead_code, unreachable_pub)]
+pub mod errors {
+    /// No error.
+    pub const NO_ERROR: u16 = 0x0000;
+
+    /// Over current at controller output. The motor is switched off. Priority A.
+    pub const OVER_CURRENT_AT_CONTROLLER_OUTPUT: u16 = 0x2310;
+
+    /// Short circuit, or ground fault, motor side. The motor is switched off. Priority A.
+    pub const SHORT_CIRCUIT_OR_GROUND_FAULT_MOTOR_SIDE: u16 = 0x2320;
+
+    /// Over voltage in the DC link, PMC. The motor is switched off. Priority A.
+    pub const OVER_VOLTAGE_IN_THE_DC_LINK_PMC: u16 = 0x3210;
+
+    /// Under voltage in the DC link. PMC as in Table 6; the PMM too when the link falls below dc-link voltage.minimal value (30FAh.3). The priority is that of the PMC. PMC: the motor is switched off. Priority B.
+    pub const UNDER_VOLTAGE_IN_THE_DC_LINK: u16 = 0x3220;
+
+    /// Unit temperature (heat sink) too high. On the PMM: warning or error limit of 3111h reached. The priority is that of the PMC. PMC: a warning of 30 s, then the motor is switched off. Priority B.
+    pub const UNIT_TEMPERATURE_HEAT_SINK_TOO_HIGH: u16 = 0x4210;
+
+    /// Motor temperature too high. A warning of 30 s, then the motor is switched off. Priority B.
+    pub const MOTOR_TEMPERATURE_TOO_HIGH: u16 = 0x4310;
+
+    /// Hardware error RAM.
+    pub const HARDWARE_ERROR_RAM: u16 = 0x5510;
+
+    /// Error programming the EEPROM.
+    pub const ERROR_PROGRAMMING_THE_EEPROM: u16 = 0x5530;
+
+    /// Watchdog-Reset. The priority is that of the PMC. PMC: the motor is switched off, as a consequence of the reset. Priority A.
+    pub const WATCHDOG_RESET: u16 = 0x6010;
+
+    /// Software trap, Firmware error. The motor is switched off. Priority A.
+    pub const SOFTWARE_TRAP_FIRMWARE_ERROR: u16 = 0x6080;
+
+    /// Wrong parameter. The axis takes no command. Priority B.
+    pub const WRONG_PARAMETER: u16 = 0x6320;
+
+    /// No power stage identifier. The axis takes no command. Priority B.
+    pub const NO_POWER_STAGE_IDENTIFIER: u16 = 0x6380;
+
+    /// Encoder error (general).
+    pub const ENCODER_ERROR_GENERAL: u16 = 0x7300;
+
+    /// Encoder error (motor), sine/cosine. As chosen by fault reaction option code (605Eh). Priority B.
+    pub const ENCODER_ERROR_MOTOR_SINE_COSINE: u16 = 0x7305;
+
+    /// Encoder error (motor), data channel. As chosen by fault reaction option code (605Eh). Priority B.
+    pub const ENCODER_ERROR_MOTOR_DATA_CHANNEL: u16 = 0x7320;
+
+    /// 2nd Encoder error (blade encoder). As chosen by fault reaction option code (605Eh). Priority B.
+    pub const N2ND_ENCODER_ERROR_BLADE_ENCODER: u16 = 0x7321;
+
+    /// CAN communication, general.
+    pub const CAN_COMMUNICATION_GENERAL: u16 = 0x8100;
+
+    /// CAN overflow, telegrams lost.
+    pub const CAN_OVERFLOW_TELEGRAMS_LOST: u16 = 0x8110;
+
+    /// CAN in error passive.
+    pub const CAN_IN_ERROR_PASSIVE: u16 = 0x8120;
+
+    /// Heartbeat or Node guarding failed.
+    pub const HEARTBEAT_OR_NODE_GUARDING_FAILED: u16 = 0x8130;
+
+    /// CAN was bus off.
+    pub const CAN_WAS_BUS_OFF: u16 = 0x8140;
+
+    /// MPDO target object not found.
+    pub const MPDO_TARGET_OBJECT_NOT_FOUND: u16 = 0x8230;
+
+    /// Velocity controller, maximum speed frequency exceeded. The motor is switched off. Priority B.
+    pub const VELOCITY_CONTROLLER_MAXIMUM_SPEED_FREQUENCY_EXCEEDED: u16 = 0x8400;
+
+    /// following error too large. As chosen by fault reaction option code (605Eh). Priority B.
+    pub const FOLLOWING_ERROR_TOO_LARGE: u16 = 0x8611;
+
+    /// Difference motor encoder – blade encoder too large.
+    pub const DIFFERENCE_MOTOR_ENCODER_BLADE_ENCODER_TOO_LARGE: u16 = 0x8620;
+}
+
 /// Physical units: newtypes around raw values.
 #[allow(dead_code, unreachable_pub)]
 pub mod units {

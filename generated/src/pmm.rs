@@ -6607,6 +6607,163 @@ pub mod specials {
     super::glue::defmt_text!(AutomaticTestOff);
 }
 
+/// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
+#[allow(dead_code, unreachable_pub)]
+pub mod errors {
+    /// No error.
+    pub const NO_ERROR: u16 = 0x0000;
+
+    /// Over current 24V feed-in.
+    pub const OVER_CURRENT_24V_FEED_IN: u16 = 0x2210;
+
+    /// Short circuit charger (fault output of the power stage).
+    pub const SHORT_CIRCUIT_CHARGER_FAULT_OUTPUT_OF_THE_POWER_STAGE: u16 = 0x2250;
+
+    /// Short circuit booster (fault output of the power stage).
+    pub const SHORT_CIRCUIT_BOOSTER_FAULT_OUTPUT_OF_THE_POWER_STAGE: u16 = 0x2260;
+
+    /// Grid over voltage.
+    pub const GRID_OVER_VOLTAGE: u16 = 0x3110;
+
+    /// Grid under voltage.
+    pub const GRID_UNDER_VOLTAGE: u16 = 0x3120;
+
+    /// Phase error.
+    pub const PHASE_ERROR: u16 = 0x3130;
+
+    /// Over voltage in the DC link, PMM, booster. The DC link is above dc-link voltage.maximal value (30FAh.2).
+    pub const OVER_VOLTAGE_IN_THE_DC_LINK_PMM_BOOSTER: u16 = 0x3211;
+
+    /// Under voltage in the DC link. PMC as in Table 6; the PMM too when the link falls below dc-link voltage.minimal value (30FAh.3). The priority is that of the PMC. PMC: the motor is switched off. Priority B.
+    pub const UNDER_VOLTAGE_IN_THE_DC_LINK: u16 = 0x3220;
+
+    /// DC link PMM-PMC interrupted.
+    pub const DC_LINK_PMM_PMC_INTERRUPTED: u16 = 0x3221;
+
+    /// Battery voltage too low.
+    pub const BATTERY_VOLTAGE_TOO_LOW: u16 = 0x3280;
+
+    /// Voltage at battery bloc 1 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_1_TOO_LOW: u16 = 0x3281;
+
+    /// Voltage at battery bloc 2 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_2_TOO_LOW: u16 = 0x3282;
+
+    /// Voltage at battery bloc 3 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_3_TOO_LOW: u16 = 0x3283;
+
+    /// Voltage at battery bloc 4 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_4_TOO_LOW: u16 = 0x3284;
+
+    /// Voltage at battery bloc 5 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_5_TOO_LOW: u16 = 0x3285;
+
+    /// Voltage at battery bloc 6 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_6_TOO_LOW: u16 = 0x3286;
+
+    /// Voltage at battery bloc 7 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_7_TOO_LOW: u16 = 0x3287;
+
+    /// Voltage at battery bloc 8 too low.
+    pub const VOLTAGE_AT_BATTERY_BLOC_8_TOO_LOW: u16 = 0x3288;
+
+    /// Temperature Sensor 1 too high. Warning or error limit of 3112h reached.
+    pub const TEMPERATURE_SENSOR_1_TOO_HIGH: u16 = 0x4110;
+
+    /// Temperature Sensor 2 too high. Warning or error limit of 3113h reached.
+    pub const TEMPERATURE_SENSOR_2_TOO_HIGH: u16 = 0x4111;
+
+    /// Temperature Sensor 1 too low. Below the lower limit of 3112h.
+    pub const TEMPERATURE_SENSOR_1_TOO_LOW: u16 = 0x4120;
+
+    /// Temperature Sensor 2 too low. Below the lower limit of 3113h.
+    pub const TEMPERATURE_SENSOR_2_TOO_LOW: u16 = 0x4121;
+
+    /// Unit temperature (heat sink) too high. On the PMM: warning or error limit of 3111h reached. The priority is that of the PMC. PMC: a warning of 30 s, then the motor is switched off. Priority B.
+    pub const UNIT_TEMPERATURE_HEAT_SINK_TOO_HIGH: u16 = 0x4210;
+
+    /// Unit temperature (heat sink) too low. Below the lower limit of 3111h.
+    pub const UNIT_TEMPERATURE_HEAT_SINK_TOO_LOW: u16 = 0x4220;
+
+    /// Battery temperature too high. Warning or error limit of 3110h reached.
+    pub const BATTERY_TEMPERATURE_TOO_HIGH: u16 = 0x4410;
+
+    /// Battery temperature too low. Below the lower limit of 3110h.
+    pub const BATTERY_TEMPERATURE_TOO_LOW: u16 = 0x4420;
+
+    /// Over voltage 24V feed-in.
+    pub const OVER_VOLTAGE_24V_FEED_IN: u16 = 0x5100;
+
+    /// Under voltage 24V feed-in.
+    pub const UNDER_VOLTAGE_24V_FEED_IN: u16 = 0x5112;
+
+    /// Error in power stage of supply controller.
+    pub const ERROR_IN_POWER_STAGE_OF_SUPPLY_CONTROLLER: u16 = 0x5120;
+
+    /// Chopper error (fault output power stage).
+    pub const CHOPPER_ERROR_FAULT_OUTPUT_POWER_STAGE: u16 = 0x5420;
+
+    /// Hardware error RAM.
+    pub const HARDWARE_ERROR_RAM: u16 = 0x5510;
+
+    /// Error programming the EEPROM.
+    pub const ERROR_PROGRAMMING_THE_EEPROM: u16 = 0x5530;
+
+    /// Watchdog-Reset. The priority is that of the PMC. PMC: the motor is switched off, as a consequence of the reset. Priority A.
+    pub const WATCHDOG_RESET: u16 = 0x6010;
+
+    /// Analogue-Digital-Converter error.
+    pub const ANALOGUE_DIGITAL_CONVERTER_ERROR: u16 = 0x6181;
+
+    /// Communication error RS485 interface.
+    pub const COMMUNICATION_ERROR_RS485_INTERFACE: u16 = 0x7510;
+
+    /// Communication error battery interface.
+    pub const COMMUNICATION_ERROR_BATTERY_INTERFACE: u16 = 0x7520;
+
+    /// CAN communication, general.
+    pub const CAN_COMMUNICATION_GENERAL: u16 = 0x8100;
+
+    /// CAN overflow, telegrams lost.
+    pub const CAN_OVERFLOW_TELEGRAMS_LOST: u16 = 0x8110;
+
+    /// CAN in error passive.
+    pub const CAN_IN_ERROR_PASSIVE: u16 = 0x8120;
+
+    /// Heartbeat or Node guarding failed.
+    pub const HEARTBEAT_OR_NODE_GUARDING_FAILED: u16 = 0x8130;
+
+    /// CAN was bus off.
+    pub const CAN_WAS_BUS_OFF: u16 = 0x8140;
+
+    /// MPDO target object not found.
+    pub const MPDO_TARGET_OBJECT_NOT_FOUND: u16 = 0x8230;
+
+    /// Fault input 1 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_1_ACTIVATED: u16 = 0xFFF1;
+
+    /// Fault input 2 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_2_ACTIVATED: u16 = 0xFFF2;
+
+    /// Fault input 3 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_3_ACTIVATED: u16 = 0xFFF3;
+
+    /// Fault input 4 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_4_ACTIVATED: u16 = 0xFFF4;
+
+    /// Fault input 5 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_5_ACTIVATED: u16 = 0xFFF5;
+
+    /// Fault input 6 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_6_ACTIVATED: u16 = 0xFFF6;
+
+    /// Fault input 7 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_7_ACTIVATED: u16 = 0xFFF7;
+
+    /// Fault input 8 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    pub const FAULT_INPUT_8_ACTIVATED: u16 = 0xFFF8;
+}
+
 /// Physical units: newtypes around raw values.
 #[allow(dead_code, unreachable_pub)]
 pub mod units {

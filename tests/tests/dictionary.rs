@@ -430,6 +430,39 @@ fn every_data_type_is_read_and_written() {
 }
 
 #[test]
+fn state_machines_are_read_and_commanded() {
+    use pmc::machines::{PowerDriveCommand, PowerDriveState};
+    // Status words and control words as every CiA 402 drive has them.
+    for (word, state) in [
+        (0x0000, PowerDriveState::NotReadyToSwitchOn),
+        (0x0250, PowerDriveState::SwitchOnDisabled),
+        (0x0231, PowerDriveState::ReadyToSwitchOn),
+        (0x0233, PowerDriveState::SwitchedOn),
+        (0x0237, PowerDriveState::OperationEnabled),
+        (0x0217, PowerDriveState::QuickStopActive),
+        (0x021F, PowerDriveState::FaultReactionActive),
+        (0x0218, PowerDriveState::Fault),
+    ] {
+        assert_eq!(PowerDriveState::of(types::Statusword(word)), Some(state), "{word:#06x}");
+    }
+    assert_eq!(PowerDriveState::of(types::Statusword(0x0002)), None);
+    for (command, mask, bits) in [
+        (PowerDriveCommand::Shutdown, 0x87, 0x06),
+        (PowerDriveCommand::EnableOperation, 0x8F, 0x0F),
+        (PowerDriveCommand::DisableVoltage, 0x82, 0x00),
+    ] {
+        for word in [0x0000, 0xFFFF] {
+            let word = command.apply(types::Controlword(word));
+            assert_eq!(word.0 & mask, bits, "{command:?}");
+            assert!(command.is_in(word));
+        }
+        // Bits that are not the command's stay.
+        assert_eq!(command.apply(types::Controlword(0xFF00)).0 & 0xFE00, 0xFE00);
+    }
+    assert_eq!(pmc::errors::NO_ERROR, 0);
+}
+
+#[test]
 fn names_and_ids_of_entries() {
     assert_eq!(Pmc::find(0x6064, 0), Ok(pmc::Entry::PositionActualValue));
     assert_eq!(Pmc::find(0x6510, 4).unwrap().name(), "drive data.min DC link voltage");

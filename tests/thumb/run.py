@@ -1,10 +1,23 @@
 #!/usr/bin/env python3
 """Build firmware for thumbv7em-none-eabi, print how large it is, run it in QEMU.
 
-    run.py sizes [NAME ...]                  Markdown table of sections, of all programs in firmware/src/size
+    run.py sizes [NAME ...]                  Markdown tables of all programs in firmware/src/size
     run.py test [--timeout 30] [NAME ...]    run all programs in firmware/src/test
 
 A NAME picks a program from either folder. Nothing is skipped: what is missing on the machine is named.
+
+`sizes` has the sections of every program and what it links of the parts of core that make firmware
+large, with their callers. All programs but `baseline` are one server of lookups, reads and checked
+writes (firmware/src/shared), over the PMC and over the model of tests/bench/runtime/scaled.py with
+10 (the fewest that it has), 150 and 2,000 objects, which the crate `scaled` generates when it is
+built. From these three come the bytes that one more entry costs, and of what they are made. An
+entry is what has a sub-index of its own, sub-index 0 of an array or record too.
+
+`test` runs on an emulated Cortex-M4:
+
+    hello     a firmware starts and reports
+    access    every case of tests/tests/access.rs; firmware/build.rs makes them from the JSON dump
+    alias     16-bit aliases of the PMC at the ends of their range
 
 The target's core library is taken from the first that there is of
 
@@ -16,14 +29,17 @@ The linker is the toolchain's rust-lld, or arm-none-eabi-ld where there is none.
 these, so compare numbers of one toolchain only; `sizes` says which it was.
 
 The exit code is 0 when all went well, 1 when a build or a program failed or did not end in time,
-3 when a tool is missing.
+when a measured program can panic, or when an entry takes more flash than its target, 3 when a tool
+is missing.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -40,6 +56,24 @@ BOARD = ["-machine", "mps2-an386", "-nographic", "-monitor", "none", "-serial", 
 SEMIHOSTING = ["-semihosting-config", "enable=on,target=native"]
 SYSTEM = Path("/usr/bin")  # where a distribution has its Rust
 SECTIONS = [".vector_table", ".text", ".rodata", ".data", ".bss"]
+FLASH = [".text", ".rodata", ".data"]  # .data is kept in flash and copied to RAM
+RAM = [".data", ".bss"]
+
+# The scaled model: programs by their number of objects, the first is where the others are counted from.
+SCALED = {10: "scaled10", 150: "scaled150", 2000: "scaled2000"}
+MODEL = ROOT / "tests" / "bench" / "runtime" / "scaled.py"
+FLASH_PER_ENTRY = 12  # target
+PEER = "the best of the peers at 150 objects, in an earlier study", 69, 26  # flash per object, per entry
+
+# What no firmware should get with a dictionary, by a part of the symbol's name.
+HEAVY = {
+    "panics": re.compile(r"core::panicking"),
+    "core::fmt": re.compile(r"core::fmt"),
+    "64-bit division": re.compile(r"^__aeabi_u?ldivmod$"),
+    "128-bit arithmetic": re.compile(r"^__\w+ti\d?$"),
+    "soft-float": re.compile(r"^__aeabi_[df]|^__\w+[ds]f\d?$"),
+}
+PANICS = "panics"
 
 INSTALL_RUST = f"""no Rust toolchain here can build for {TARGET}; install one of
   rustup target add {TARGET}                         (in this folder)
@@ -87,8 +121,16 @@ def main() -> int:
         toolchain = find_toolchain()
         programs = pick(build(toolchain), "size" if options.command == "sizes" else "test", options.names)
         if options.command == "sizes":
-            print(f"{toolchain.describe()}\n\n{table(programs)}")
-            return 0
+            elves = {name: Elf(program) for name, program in programs.items()}
+            print(f"{toolchain.describe()}\n\n{table(elves)}\n\n{heavy(elves)}")
+            faults = [f"{name} can panic" for name, elf in elves.items() if elf.named(HEAVY[PANICS])]
+            if set(SCALED.values()) <= set(elves):
+                text, fault = slopes({objects: elves[name] for objects, name in SCALED.items()})
+                print(f"\n{text}")
+                faults += fault
+            for fault in faults:
+                print(f"error: {fault}", file=sys.stderr)
+            return 1 if faults else 0
         failed = [name for name, program in programs.items() if not passes(name, program, options.timeout)]
         print(f"{len(programs)} run, {len(failed)} failed")
         return 1 if failed else 0
@@ -104,6 +146,7 @@ def find_toolchain() -> Toolchain:
     # Panic messages hold paths, and a size must not depend on where the sources lie. Replaces RUSTFLAGS, for the same reason.
     home = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
     short = [f"--remap-path-prefix={ROOT}=.", f"--remap-path-prefix={home / 'registry' / 'src'}=registry"]
+    found.environment["PYTHON"] = sys.executable  # for scaled/build.rs
     found.environment["CARGO_ENCODED_RUSTFLAGS"] = "\x1f".join(short)
     if not has_lld(found.sysroot):
         if not shutil.which(LINKER):
@@ -176,33 +219,154 @@ def pick(programs: dict[str, tuple[str, Path]], folder: str, names: list[str]) -
     return {name: programs[name][1] for name in picked}
 
 
-def table(programs: dict[str, Path]) -> str:
-    lines = [f"| bytes | {' | '.join(SECTIONS)} |", "|---|" + "--:|" * len(SECTIONS)]
-    for name, program in programs.items():
-        sizes = section_sizes(program)
-        if other := set(sizes) - set(SECTIONS):
+class Elf:
+    """What a 32-bit little-endian ELF file has on the device: sections by name, and symbols."""
+
+    def __init__(self, program: Path) -> None:
+        self.program, self.data = program, program.read_bytes()
+        if self.data[:6] != b"\x7fELF\x01\x01":
+            raise Failed(f"{program} is not a 32-bit little-endian ELF file")
+        (offset,) = struct.unpack_from("<I", self.data, 0x20)
+        entry_size, count, names_index = struct.unpack_from("<3H", self.data, 0x2E)
+        # name, type, flags, address, offset, size, link
+        headers = [struct.unpack_from("<7I", self.data, offset + entry_size * index) for index in range(count)]
+        self.sizes: dict[str, int] = {}
+        self.text: list[tuple[int, int, int]] = []  # address, offset, size
+        self.symbols: list[tuple[str, int, int]] = []  # readable name, address, size
+        allocated, executable, symbol_table = 2, 4, 2  # SHF_ALLOC, SHF_EXECINSTR, SHT_SYMTAB
+        for name, kind, flags, address, place, size, link in headers:
+            if flags & allocated and size:
+                text = self.string(headers[names_index][4] + name)
+                self.sizes[text] = self.sizes.get(text, 0) + size
+            if flags & allocated and flags & executable:
+                self.text.append((address, place, size))
+            if kind == symbol_table:
+                for at in range(place, place + size, 16):
+                    its_name, value, its_size = struct.unpack_from("<3I", self.data, at)
+                    self.symbols.append((readable(self.string(headers[link][4] + its_name)), value, its_size))
+        if not self.symbols:
+            raise Failed(f"{program} has no symbols")
+
+    def string(self, start: int) -> str:
+        return self.data[start : self.data.index(0, start)].decode("utf-8", "replace")
+
+    def total(self, sections: list[str]) -> int:
+        return sum(self.sizes.get(section, 0) for section in sections)
+
+    def static(self, name: str) -> int:
+        """Bytes of the statics of this name."""
+        return sum(size for its_name, _, size in self.symbols if its_name.rpartition("::")[2] == name)
+
+    def named(self, pattern: re.Pattern[str]) -> dict[str, int]:
+        return {name: address for name, address, _ in self.symbols if pattern.search(name)}
+
+    def callers(self, function: int) -> set[str]:
+        """Functions with a BL or B.W to an address. A constant in the code that looks like one counts, too."""
+        found = set()
+        for address, offset, size in self.text:
+            for at in range(0, size - 3, 2):
+                high, low = struct.unpack_from("<2H", self.data, offset + at)
+                if high >> 11 == 0b11110 and low >> 14 in (0b10, 0b11) and low & 0x1000:
+                    sign, first, second = high >> 10 & 1, low >> 13 & 1, low >> 11 & 1
+                    distance = (high & 0x3FF) << 12 | (low & 0x7FF) << 1
+                    distance |= (1 ^ first ^ sign) << 23 | (1 ^ second ^ sign) << 22
+                    if address + at + 4 + distance - (sign << 24) == function & ~1:
+                        found.add(self.at(address + at))
+        return found
+
+    def at(self, address: int) -> str:
+        inside = (name for name, start, size in self.symbols if start & ~1 <= address < (start & ~1) + size)
+        return next(inside, f"{address:#x}")
+
+
+def readable(symbol: str) -> str:
+    """The identifiers in a mangled name, without what stands between them."""
+    prefix = re.match(r"_R|_ZN", symbol)
+    if not prefix:
+        return symbol
+    names, at = [], prefix.end()
+    while at < len(symbol):
+        if length := re.compile(r"(\d+)_?").match(symbol, at):
+            at = length.end() + int(length[1])
+            names.append(symbol[length.end() : at])
+        elif skipped := re.compile(r"[sB][0-9A-Za-z]*_").match(symbol, at):  # disambiguator, back reference
+            at = skipped.end()
+        else:
+            at += 1
+    return "::".join(name for name in names if not re.fullmatch(r"h[0-9a-f]{16}", name)) or symbol
+
+
+def row(cells: list[str]) -> str:
+    return f"| {' | '.join(cells)} |"
+
+
+def table(elves: dict[str, Elf]) -> str:
+    lines = [row(["bytes", *SECTIONS]), "|---|" + "--:|" * len(SECTIONS)]
+    for name, elf in elves.items():
+        if other := set(elf.sizes) - set(SECTIONS):
             raise Failed(f"{name} has sections that the table does not show: {', '.join(sorted(other))}")
-        lines.append(f"| {name} | {' | '.join(str(sizes.get(section, 0)) for section in SECTIONS)} |")
+        lines.append(row([name, *(str(elf.sizes.get(section, 0)) for section in SECTIONS)]))
     return "\n".join(lines)
 
 
-def section_sizes(program: Path) -> dict[str, int]:
-    """The sections of a 32-bit little-endian ELF file that take up memory on the device."""
-    elf = program.read_bytes()
-    if elf[:6] != b"\x7fELF\x01\x01":
-        raise Failed(f"{program} is not a 32-bit little-endian ELF file")
-    (offset,) = struct.unpack_from("<I", elf, 0x20)
-    entry_size, count, names_index = struct.unpack_from("<3H", elf, 0x2E)
-    # name, type, flags, address, offset, size
-    headers = [struct.unpack_from("<6I", elf, offset + entry_size * index) for index in range(count)]
-    names = headers[names_index][4]
-    sizes: dict[str, int] = {}
-    allocated = 2  # SHF_ALLOC
-    for name, _, flags, _, _, size in headers:
-        if flags & allocated and size:
-            text = elf[names + name : elf.index(0, names + name)].decode("ascii")
-            sizes[text] = sizes.get(text, 0) + size
-    return sizes
+def heavy(elves: dict[str, Elf]) -> str:
+    lines = [row(["links", *HEAVY]), "|---|" + "---|" * len(HEAVY)]
+    for name, elf in elves.items():
+        cells = []
+        for pattern in HEAVY.values():
+            found = elf.named(pattern)
+            callers = {caller for address in found.values() for caller in elf.callers(address)} - set(found)
+            cells.append(f"{', '.join(sorted(found))} from {', '.join(sorted(callers)) or '?'}" if found else "-")
+        lines.append(row([name, *cells]))
+    return "\n".join(lines)
+
+
+def model(objects: int) -> tuple[int, int]:
+    """Entries and bytes of values that a number of objects of the scaled model has."""
+    specification = importlib.util.spec_from_file_location("scaled", MODEL)
+    if not specification or not specification.loader:
+        raise Failed(f"{MODEL} cannot be loaded")
+    scaled = sys.modules["scaled"] = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(scaled)
+    entries = values = 0
+    for one in scaled.objects(objects):
+        times = scaled.ARRAY_LENGTH if one.kind == "array" else 1
+        entries += times * len(one.entries) + (one.kind != "var")
+        values += times * sum(entry.type.size for entry in one.entries)
+    return entries, values
+
+
+def parts(elf: Elf) -> dict[str, int]:
+    """What the flash is made of."""
+    found = {
+        "rows": elf.static("ENTRIES") + elf.static("OBJECTS"),
+        "`Entry` by row": elf.static("BY_ROW"),
+        "attributes": elf.static("ATTRIBUTES"),
+        "factory image": elf.static("FACTORY") + elf.total([".data"]),
+    }
+    found["other constants"] = elf.total([".rodata", ".data"]) - sum(found.values())
+    return {**found, "code": elf.total([".text"])}
+
+
+def slopes(scaled: dict[int, Elf]) -> tuple[str, list[str]]:
+    (first, base), *others = scaled.items()
+    columns = ["flash/object", "flash/entry", "RAM/object", "values/object", *parts(base)]
+    lines = [row([f"bytes from {first} objects on", *columns]), "|---|" + "--:|" * len(columns)]
+    faults = []
+    for objects, elf in others:
+        count = objects - first
+        entries, values = (now - before for now, before in zip(model(objects), model(first), strict=True))
+        flash, ram = elf.total(FLASH) - base.total(FLASH), elf.total(RAM) - base.total(RAM)
+        numbers = [flash / count, flash / entries, ram / count, values / count]
+        numbers += [(size - parts(base)[part]) / entries for part, size in parts(elf).items()]
+        lines.append(row([f"to {objects}", *(f"{number:.2f}" for number in numbers)]))
+        if flash > FLASH_PER_ENTRY * entries:
+            faults.append(f"up to {objects} objects, an entry takes {flash / entries:.1f} bytes of flash")
+    empty = [""] * len(parts(base))
+    lines.append(row(["target", "", str(FLASH_PER_ENTRY), "values", "", *empty]))
+    name, per_object, per_entry = PEER
+    lines.append(row([name, str(per_object), str(per_entry), "", "", *empty]))
+    return "\n".join(lines) + f"\n\nThe columns from \"{next(iter(parts(base)))}\" on: flash per entry.", faults
 
 
 def passes(name: str, program: Path, timeout: float) -> bool:

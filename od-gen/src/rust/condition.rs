@@ -215,3 +215,124 @@ fn sum(left: Fraction, op: ArithmeticOp, right: Fraction) -> Option<Fraction> {
         scale,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use od_spec::expr::{Outcome, Values};
+    use od_spec::model::{Index, SubIndex, System};
+    use od_spec::source::SourceMap;
+    use od_spec::{NoFiles, compile};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const SPECIFICATION: &str = "
+od-spec: 1
+title: Random
+uses: [cia301]
+devices: {d: {name: D, bit-rates: [125]}}
+units:
+  millivolt: {symbol: mV, base: 1/1000 V}
+  third: {symbol: V, scale: 1/3}
+  volt: {symbol: V}
+objects:
+  0x2000: {name: a, type: unsigned16, unit: millivolt, access: rw}
+  0x2001: {name: b, type: integer16, unit: volt, access: rw}
+  0x2002: {name: c, type: integer32, unit: third, access: rw}
+  0x2003: {name: d, type: integer8, access: rw}
+";
+
+    const CONDITIONS: [&str; 12] = [
+        "0x2000 < 0x2001",
+        "0x2000 <= 0x2001 < 0x2002",
+        "0x2001 == 0x2002 and 0x2000 >= 0",
+        "0x2000 + 0x2001 > 0x2002 - 0.5",
+        "0x2001 * 0x2003 != 0x2002",
+        "0x2000 / 0x2003 < 0x2001",
+        "0x2001 > 0x2000 / 0x2003 - 1",
+        "0x2000 / 0x2003 <= 0x2001 / 0x2003",
+        "bit(0x2003, 1) == 1",
+        "-0x2001 < 2.5 and 0x2003 / 3 >= -10",
+        "(0x2000 + 1) * (0x2001 - 2) / 4 > 0x2002",
+        "0x2001 / (0x2003 + 1) > 0",
+    ];
+
+    struct Raw<'a> {
+        system: &'a System,
+        values: BTreeMap<u16, i128>,
+    }
+
+    impl Values for Raw<'_> {
+        fn value(&self, entry: &EntryRef) -> Option<Ratio> {
+            let unit = self.system.devices[0].entry(entry.id)?.unit.as_ref();
+            Ratio::whole(self.raw(entry)?).checked_mul(unit.map_or(Some(Ratio::ONE), |unit| unit.step())?)
+        }
+        fn raw(&self, entry: &EntryRef) -> Option<i128> {
+            self.values.get(&entry.id.index.0).copied()
+        }
+    }
+
+    fn number(sum: &Sum, values: &BTreeMap<u16, i128>, most: &mut i128) -> i128 {
+        let value = match sum {
+            Sum::Number(number) => *number,
+            Sum::Entry(id) => values[&id.index.0],
+            Sum::Bit(id, bit) => values[&id.index.0] >> bit & 1,
+            Sum::Binary(left, op, right) => {
+                let (left, right) = (number(left, values, most), number(right, values, most));
+                match op {
+                    ArithmeticOp::Add => left + right,
+                    ArithmeticOp::Subtract => left - right,
+                    ArithmeticOp::Multiply => left * right,
+                    ArithmeticOp::Divide => panic!("quotients are multiplied out"),
+                }
+            }
+        };
+        *most = (*most).max(value.abs());
+        value
+    }
+
+    proptest! {
+        #[test]
+        fn code_decides_as_the_specification_does(
+            a in prop_oneof![Just(0), Just(65_535), 0..=65_535i128, 0..20i128],
+            b in prop_oneof![Just(-32_768), Just(32_767), -32_768..=32_767i128, -20..20i128],
+            c in prop_oneof![Just(-2_147_483_648i128), Just(2_147_483_647), -100..100i128],
+            d in prop_oneof![Just(-128), Just(127), -5..5i128],
+        ) {
+            let mut sources = SourceMap::new();
+            let root = sources.add("random.od.yaml", SPECIFICATION);
+            let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+            let values = BTreeMap::from([(0x2000, a), (0x2001, b), (0x2002, c), (0x2003, d)]);
+            for text in CONDITIONS {
+                let expr = Expr::parse(text).unwrap();
+                let planned = plan(&expr, &system.devices[0]).unwrap();
+                let mut most = 0;
+                let holds = planned.comparisons.iter().all(|compare| {
+                    let mut value = |sum: &Sum| number(sum, &values, &mut most);
+                    let (left, right) = (value(&compare.left), value(&compare.right));
+                    compare.divisors.iter().any(|divisor| value(divisor) == 0) || compare.op.accepts(left.cmp(&right))
+                });
+                let expected = expr.evaluate(&Raw { system: &system, values: values.clone() });
+                prop_assert_eq!(holds, !matches!(expected, Outcome::Fails { .. }), "{} with {:?}", text, values);
+                prop_assert!(!planned.narrow || most <= i128::from(i64::MAX), "{}: {}", text, most);
+            }
+        }
+    }
+
+    #[test]
+    fn what_others_have_or_what_is_too_large_is_told() {
+        let mut sources = SourceMap::new();
+        let root = sources.add("random.od.yaml", SPECIFICATION);
+        let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+        let planned = |text: &str| plan(&Expr::parse(text).unwrap(), &system.devices[0]);
+        assert_eq!(planned("other:0x2000 < 0x2001"), Err(Unusable::Elsewhere));
+        assert_eq!(planned("other:0x2000 < 0x2001 < 0x2002").unwrap().comparisons.len(), 1);
+        let product = ["0x2002"; 5].join(" * ");
+        assert_eq!(planned(&format!("{product} > 0")), Err(Unusable::TooLarge));
+        // Reached only by the fifth power; the entry's own index counts.
+        let id = EntryId { index: Index(0x2003), sub: SubIndex(0) };
+        assert_eq!(planned("0x2003 > 0").unwrap().comparisons[0].left, Sum::Entry(id));
+    }
+}

@@ -186,3 +186,103 @@ impl Fnv {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use od_spec::source::SourceMap;
+    use od_spec::{NoFiles, compile};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const TYPES: [&str; 12] = [
+        "boolean",
+        "integer8",
+        "unsigned16",
+        "integer24",
+        "unsigned32",
+        "integer40",
+        "unsigned48",
+        "integer64",
+        "real32",
+        "visible-string, capacity: 5",
+        "octet-string, capacity: 7",
+        "time-of-day",
+    ];
+    const STORED: [&str; 5] = ["no", "communication", "application", "manufacturer", "remanent"];
+
+    /// A device with objects of these types, groups and numbers of elements (0: a VAR).
+    fn device(objects: &[(usize, usize, u8)]) -> Dictionary {
+        let mut text = String::from(
+            "od-spec: 1\ntitle: Random\nuses: [cia301]\ndevices: {d: {name: D, bit-rates: [125]}}\nobjects:\n",
+        );
+        for (number, (data_type, stored, count)) in objects.iter().enumerate() {
+            let entry = format!("type: {}, access: rw, stored: {}", TYPES[*data_type], STORED[*stored]);
+            let _ = match count {
+                0 => writeln!(text, "  0x{:X}: {{name: v {number}, {entry}}}", 0x2000 + number),
+                n => writeln!(
+                    text,
+                    "  0x{:X}: {{name: a {number}, array: {{count: {n}, name: \"e {{n}}\", {entry}}}}}",
+                    0x2000 + number
+                ),
+            };
+        }
+        let mut sources = SourceMap::new();
+        let root = sources.add("random.od.yaml", text);
+        compile(&mut sources, root, &mut NoFiles).system.unwrap().devices.remove(0)
+    }
+
+    proptest! {
+        #[test]
+        fn values_lie_apart_aligned_and_in_their_groups(
+            objects in prop::collection::vec((0..TYPES.len(), 0..STORED.len(), 0..4u8), 1..40),
+        ) {
+            let device = device(&objects);
+            let mut diagnostics = Diagnostics::new();
+            let layout = lay_out(&device, &mut diagnostics);
+            prop_assert!(diagnostics.is_empty());
+            let mut used = vec![false; layout.factory.len()];
+            for (id, _, entry) in device.entries() {
+                let (place, size) = layout.places[&id];
+                let Place::Image(at) = place else { continue };
+                prop_assert_eq!(at % align(entry.data_type), 0, "{} is not aligned", id);
+                let end = at + size + prefix(entry.data_type);
+                for byte in &mut used[at..end] {
+                    prop_assert!(!*byte, "{} overlaps", id);
+                    *byte = true;
+                }
+                for region in &layout.regions {
+                    let inside = at >= region.start && end <= region.end;
+                    let apart = end <= region.start || at >= region.end;
+                    prop_assert!(if entry.stored == region.storage { inside } else { apart }, "{} in {:?}", id, region);
+                }
+                if entry.stored != Storage::No {
+                    prop_assert!(layout.regions.iter().any(|region| region.storage == entry.stored));
+                }
+            }
+            // Nothing is lost but what aligns the groups and the end.
+            let unused = used.iter().filter(|byte| !**byte).count();
+            prop_assert!(unused < 8 * (layout.regions.len() + 2), "{} bytes of {}", unused, used.len());
+        }
+    }
+
+    #[test]
+    fn the_number_of_a_group_tells_its_layout() {
+        let layout = |objects: &[(usize, usize, u8)]| {
+            let layout = lay_out(&device(objects), &mut Diagnostics::new());
+            layout
+                .regions
+                .iter()
+                .find(|region| region.storage == Storage::Application)
+                .map(|region| region.layout)
+        };
+        let first = layout(&[(2, 2, 0), (4, 0, 0)]);
+        assert_eq!(first, layout(&[(2, 2, 0), (1, 0, 0)]), "what is not stored does not count");
+        for other in [&[(1, 2, 0)][..], &[(2, 2, 1)], &[(2, 2, 0), (2, 2, 0)], &[(2, 1, 0), (2, 2, 0)]] {
+            assert_ne!(first, layout(other), "{other:?}");
+        }
+        assert_eq!(layout(&[(2, 1, 0)]), None);
+    }
+}

@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
 use od_spec::model::{
-    BitUsage, DataType, Dictionary, Direction, Entry, EntryId, EnumValue, NamedType, Object, ObjectKind,
-    Outside, Pdo, PdoTarget, Ratio, Rounding, Storage, SubIndex, System, TypeKind, Unit, Value,
+    BitUsage, DataType, Dictionary, Direction, Entry, EntryId, EnumValue, ErrorCode, NamedType, Object,
+    ObjectKind, Outside, Pdo, PdoTarget, Ratio, Rounding, StateMachine, Storage, SubIndex, System, TypeKind,
+    Unit, Value,
 };
 use od_spec::source::Span;
 
@@ -38,6 +39,9 @@ pub(super) struct Plan<'a> {
     /// By the number in the attributes.
     pub conditions: Vec<Condition>,
     pub constraints: Vec<PlannedConstraint<'a>>,
+    pub machines: Vec<PlannedMachine<'a>>,
+    /// Error codes of the device, with the names of their constants.
+    pub errors: Vec<(String, &'a ErrorCode)>,
     rows: BTreeMap<EntryId, u16>,
 }
 
@@ -206,6 +210,19 @@ pub(super) struct PlannedConstraint<'a> {
     pub partial: bool,
 }
 
+/// A state machine.
+pub(super) struct PlannedMachine<'a> {
+    pub machine: &'a StateMachine,
+    /// Begins the names of its types.
+    pub name: String,
+    /// Rows of the words.
+    pub status: u16,
+    pub command: u16,
+    /// Names of the states and of the commands.
+    pub states: Vec<String>,
+    pub commands: Vec<String>,
+}
+
 /// Names that the dictionary's own methods have.
 const METHODS: [&str; 1] = ["new"];
 
@@ -251,12 +268,16 @@ pub(super) fn plan<'a>(
         pdos: Vec::new(),
         conditions: Vec::new(),
         constraints: Vec::new(),
+        machines: Vec::new(),
+        errors: Vec::new(),
         rows,
     };
     plan.vocabulary(diagnostics);
     plan.objects(diagnostics);
     plan.pdos(diagnostics);
     plan.plan_constraints(diagnostics);
+    plan.machines(diagnostics);
+    plan.errors(diagnostics);
     plan
 }
 
@@ -571,6 +592,49 @@ impl<'a> Plan<'a> {
                 first_bit += u32::from(mapped.bits);
             }
             self.pdos.push(PlannedPdo { pdo, name, fields, bits: first_bit });
+        }
+    }
+
+    fn machines(&mut self, diagnostics: &mut Diagnostics) {
+        let (system, device) = (self.system, self.device);
+        let here = |devices: &[String]| devices.is_empty() || devices.contains(&device.key);
+        let mut scope = Scope::default();
+        for machine in system.machines.values().filter(|machine| here(&machine.devices)) {
+            let (Some(status), Some(command)) = (self.row(machine.status), self.row(machine.command)) else {
+                continue;
+            };
+            let name = camel(&machine.name);
+            scope.claim(&name, &format!("state machine `{}`", machine.name), device.span, diagnostics);
+            let mut named = |names: Vec<&str>, what: &str| -> Vec<String> {
+                let mut own = Scope::default();
+                let names = names.into_iter().map(|text| {
+                    let name = camel(text);
+                    own.claim(
+                        &name,
+                        &format!("{what} `{text}` of `{}`", machine.name),
+                        device.span,
+                        diagnostics,
+                    );
+                    name
+                });
+                names.collect()
+            };
+            let states = named(machine.states.iter().map(|state| state.name.as_str()).collect(), "state");
+            let commands =
+                named(machine.commands.iter().map(|command| command.name.as_str()).collect(), "command");
+            self.machines.push(PlannedMachine { machine, name, status, command, states, commands });
+        }
+    }
+
+    fn errors(&mut self, diagnostics: &mut Diagnostics) {
+        let (system, device) = (self.system, self.device);
+        let mut scope = Scope::default();
+        for error in &system.errors {
+            if error.devices.is_empty() || error.devices.contains(&device.key) {
+                let name = screaming(&error.name);
+                scope.claim(&name, &format!("error {:04X}h", error.code), device.span, diagnostics);
+                self.errors.push((name, error));
+            }
         }
     }
 

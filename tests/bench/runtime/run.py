@@ -31,6 +31,7 @@ OPERATIONS = (
     "find, missing sub-index",
     "typed read",
     "PDO pack",
+    "PDO pack, default mapping",
     "PDO unpack",
 )
 FLOOR = "floor"

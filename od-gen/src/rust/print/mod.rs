@@ -2,6 +2,7 @@
 
 mod accessors;
 mod docs;
+mod machines;
 mod pdos;
 mod table;
 mod types;
@@ -22,6 +23,8 @@ pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
         plan.pdos_module(),
         plan.types_module(),
         plan.specials_module(),
+        plan.machines_module(),
+        plan.errors_module(),
         plan.units_module(),
         plan.defaults_module(),
         plan.limits_module(),

@@ -125,7 +125,7 @@ impl Values<'_, '_> {
     }
 
     /// Wraps a number, apart from special values.
-    fn wrap(kind: &ValueKind, root: &TokenStream, raw: &TokenStream) -> TokenStream {
+    pub(super) fn wrap(kind: &ValueKind, root: &TokenStream, raw: &TokenStream) -> TokenStream {
         match (&kind.named, &kind.unit) {
             (Some(named), _) => {
                 let named = format_ident!("{named}");

@@ -50,8 +50,13 @@ trait Dictionary {
     /// Reads the first setpoint by its name.
     fn setpoint(&self) -> Option<u16>;
 
-    /// Gathers the mapped entries of TPDO 1, a u16 and an i32; gives their length.
+    /// Gathers the mapped entries of TPDO 1, a u16 and an i32, by its present mapping; gives their length.
     fn pack(&mut self, frame: &mut [u8; 8]) -> Option<usize>;
+
+    /// Gathers them by the mapping after a factory reset, which the generator knew.
+    fn pack_default(&self) -> Option<[u8; model::PDO_SIZE]> {
+        None
+    }
 
     /// Scatters a frame into the mapped entries of RPDO 1.
     fn unpack(&mut self, frame: &[u8]) -> Option<()>;
@@ -96,6 +101,7 @@ fn assert_works(dictionary: &mut impl Dictionary, objects: u16, keys: &[u16]) {
     if let Some(length) = dictionary.pack(&mut frame) {
         assert_eq!(frame[..length], [0xCD, 0xAB, 0, 0, 0, 0]);
     }
+    assert!(dictionary.pack_default().is_none_or(|frame| frame == [0xCD, 0xAB, 0, 0, 0, 0]));
 }
 
 /// All operations of one contender at one size.
@@ -139,6 +145,13 @@ fn measure<D: Dictionary>(criterion: &mut Criterion, objects: u16, dictionary: &
                 let mut frame = [0; 8];
                 black_box(black_box(&mut *dictionary).pack(&mut frame));
                 black_box(frame);
+            }
+        });
+    }
+    if dictionary.pack_default().is_some() {
+        bench("PDO pack, default mapping", &mut || {
+            for _ in &keys {
+                black_box(black_box(&*dictionary).pack_default());
             }
         });
     }

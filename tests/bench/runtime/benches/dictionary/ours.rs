@@ -1,4 +1,4 @@
-//! Ours: a byte image and a constant table. TODO(ours): written beside the library and never compiled; adapt.
+//! Ours: a byte image and a constant table.
 
 use std::hint::black_box;
 
@@ -12,7 +12,7 @@ macro_rules! sizes {
         #[cfg(feature = $feature)]
         pub mod $size {
             use super::*;
-            use bench_ours::$size::Controller;
+            use bench_ours::$size::{Controller, pdos::Tpdo1};
 
             pub struct Ours(Controller);
 
@@ -44,6 +44,10 @@ macro_rules! sizes {
                     let packed = pack(&mut self.0, 1, &mut ()).ok()?;
                     frame[..packed.len()].copy_from_slice(&packed);
                     Some(packed.len())
+                }
+
+                fn pack_default(&self) -> Option<[u8; crate::model::PDO_SIZE]> {
+                    Some(Tpdo1::of(&self.0).pack())
                 }
 
                 fn unpack(&mut self, frame: &[u8]) -> Option<()> {

@@ -1,0 +1,197 @@
+//! State machines and error codes.
+
+use od_spec::model::{BitPattern, Command, ErrorCode};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::super::plan::{Plan, PlannedEntry, PlannedMachine};
+use super::docs::{doc, escape};
+use super::value::{Values, hex};
+
+impl Plan<'_> {
+    /// `mod machines`.
+    pub(super) fn machines_module(&self) -> TokenStream {
+        if self.machines.is_empty() {
+            return quote!();
+        }
+        let machines = self.machines.iter().map(|machine| self.machine(machine));
+        quote! {
+            /// States that a status word shows, and commands that a control word gives.
+            #[allow(dead_code, unreachable_pub)]
+            pub mod machines {
+                #(#machines)*
+            }
+        }
+    }
+
+    fn machine(&self, planned: &PlannedMachine<'_>) -> TokenStream {
+        let (Some(status), Some(command)) = (self.entry(planned.status), self.entry(planned.command)) else {
+            return quote!();
+        };
+        let (states, commands) = (self.states(planned, status), self.commands(planned, command));
+        quote!(#states #commands)
+    }
+
+    fn states(&self, planned: &PlannedMachine<'_>, status: &PlannedEntry<'_>) -> TokenStream {
+        let machine = planned.machine;
+        let name = format_ident!("{}State", planned.name);
+        let about = doc(&format!("State of the {}, as `{}` shows it.", escape(&machine.name), status.id));
+        let (mut variants, mut arms, mut names) = (Vec::new(), Vec::new(), Vec::new());
+        for (variant, state) in planned.states.iter().zip(&machine.states) {
+            let variant = format_ident!("{variant}");
+            let about = self.words(&state.about);
+            let about =
+                doc(&format!("{}{}{about}", escape(&state.name), if about.is_empty() { "." } else { ": " }));
+            let (mask, value) = pattern(&state.pattern);
+            let text = &state.name;
+            variants.push(quote!(#about #variant,));
+            arms.push(quote!(if word & #mask == #value { return Some(Self::#variant); }));
+            names.push(quote!(Self::#variant => #text,));
+        }
+        let (word_type, word) = self.word(status);
+        quote! {
+            #about
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            pub enum #name {
+                #(#variants)*
+            }
+
+            impl #name {
+                /// The state that the word shows; `None` for a pattern that no state has.
+                pub const fn of(word: #word_type) -> Option<Self> {
+                    let word = #word;
+                    #(#arms)*
+                    None
+                }
+
+                /// The name in the specification.
+                pub const fn name(self) -> &'static str {
+                    match self {
+                        #(#names)*
+                    }
+                }
+            }
+
+            super::glue::defmt_text!(#name);
+        }
+    }
+
+    fn commands(&self, planned: &PlannedMachine<'_>, command: &PlannedEntry<'_>) -> TokenStream {
+        let machine = planned.machine;
+        if machine.commands.is_empty() {
+            return quote!();
+        }
+        let name = format_ident!("{}Command", planned.name);
+        let about = doc(&format!("Command to the {}, as `{}` takes it.", escape(&machine.name), command.id));
+        let (mut variants, mut parts, mut names) = (Vec::new(), Vec::new(), Vec::new());
+        for (variant, one) in planned.commands.iter().zip(&machine.commands) {
+            let variant = format_ident!("{variant}");
+            let about = doc(&self.command_doc(one));
+            let (mask, value) = pattern(&one.pattern);
+            let text = &one.name;
+            variants.push(quote!(#about #variant,));
+            parts.push(quote!(Self::#variant => (#mask, #value),));
+            names.push(quote!(Self::#variant => #text,));
+        }
+        let (word_type, word) = self.word(command);
+        let made = Values::wrap(&command.kind, &quote!(super::), &quote!(word & !mask | value));
+        let raw = Values { plan: self }.raw_type(&command.kind, &quote!(super::));
+        quote! {
+            #about
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            pub enum #name {
+                #(#variants)*
+            }
+
+            impl #name {
+                /// The bits of the word that make the command, and their values; an edge counts as the level after it.
+                pub const fn bits(self) -> (#raw, #raw) {
+                    match self {
+                        #(#parts)*
+                    }
+                }
+
+                /// The word with the command in it; other bits stay.
+                pub const fn apply(self, word: #word_type) -> #word_type {
+                    let (mask, value) = self.bits();
+                    let word = #word;
+                    #made
+                }
+
+                /// Whether the word has the bits of the command.
+                pub const fn is_in(self, word: #word_type) -> bool {
+                    let (mask, value) = self.bits();
+                    #word & mask == value
+                }
+
+                /// The name in the specification.
+                pub const fn name(self) -> &'static str {
+                    match self {
+                        #(#names)*
+                    }
+                }
+            }
+
+            super::glue::defmt_text!(#name);
+        }
+    }
+
+    /// The type of a word, and its raw number.
+    fn word(&self, entry: &PlannedEntry<'_>) -> (TokenStream, TokenStream) {
+        let values = Values { plan: self };
+        let wrapped = entry.kind.named.is_some() || entry.kind.unit.is_some();
+        let raw = if wrapped { quote!(word.0) } else { quote!(word) };
+        (values.value_type(&entry.kind, &quote!(super::)), raw)
+    }
+
+    fn command_doc(&self, command: &Command) -> String {
+        let about = self.words(&command.about);
+        let mut text =
+            format!("{}{}{about}", escape(&command.name), if about.is_empty() { "." } else { ": " });
+        if !command.transitions.is_empty() {
+            let numbers: Vec<String> = command.transitions.iter().map(ToString::to_string).collect();
+            text.push_str(" Transitions ");
+            text.push_str(&numbers.join(", "));
+            text.push('.');
+        }
+        text
+    }
+
+    /// `mod errors`.
+    pub(super) fn errors_module(&self) -> TokenStream {
+        if self.errors.is_empty() {
+            return quote!();
+        }
+        let constants = self.errors.iter().map(|(name, error)| {
+            let (about, name) = (doc(&self.error_doc(error)), format_ident!("{name}"));
+            let code = hex(error.code.into(), 4);
+            quote!(#about pub const #name: u16 = #code;)
+        });
+        quote! {
+            /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
+            #[allow(dead_code, unreachable_pub)]
+            pub mod errors {
+                #(#constants)*
+            }
+        }
+    }
+
+    fn error_doc(&self, error: &ErrorCode) -> String {
+        let mut rest = String::new();
+        for text in [self.words(&error.about), self.words(&error.reaction)] {
+            if !text.is_empty() {
+                rest.push(' ');
+                rest.push_str(&text);
+            }
+        }
+        let priority = error.priority.as_ref().map(|priority| format!(" Priority {}.", escape(priority)));
+        format!("{}.{rest}{}", escape(error.name.trim_end_matches('.')), priority.unwrap_or_default())
+    }
+}
+
+/// Mask and value of a pattern.
+fn pattern(pattern: &BitPattern) -> (proc_macro2::Literal, proc_macro2::Literal) {
+    let (mask, value) = pattern.mask_and_value();
+    let digits = pattern.0.len().div_ceil(4);
+    (hex(mask, digits), hex(value, digits))
+}
