@@ -10,7 +10,7 @@ use od_spec::diag::{Code, Diagnostics};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 
-use crate::{Failure, compile_clean, compile_with_sources, root};
+use crate::{Failure, compile_with_sources, root};
 
 /// The shipped specifications.
 const SPECS: [&str; 1] = ["pitch-control-system"];
@@ -95,7 +95,7 @@ fn messages() -> String {
 fn readme() -> Result<String, Failure> {
     let path = "tests/readme/valve.od.yaml";
     let spec = fs::read_to_string(root().join(path))?;
-    let system = compile_clean(path)?;
+    let (system, sources) = compile_with_sources(path)?;
     let device = system.devices.first().ok_or("the example has no device")?;
     let eds = String::from_utf8(od_gen::eds::write_eds(&system, device))?.replace("\r\n", "\n");
     let sections = ["2000", "2001", "1600sub1", "1800sub1"];
@@ -104,9 +104,28 @@ fn readme() -> Result<String, Failure> {
         .filter(|part| sections.iter().any(|name| part.lines().any(|line| line == format!("[{name}]"))))
         .map(str::trim_end)
         .collect();
+    let firmware = fs::read_to_string(root().join("tests/readme/firmware.rs"))?.replace("readme/", "");
+    let mut diagnostics = Diagnostics::new();
+    let module = rust::file(&system, device, &Provenance::of(&sources), &mut diagnostics)
+        .ok_or("the example has no Rust module")?;
+    let api: Vec<&str> = ["set_pressure", "actual_pressure"]
+        .into_iter()
+        .map(|name| function(&module, name).ok_or("the example lacks an accessor"))
+        .collect::<Result<_, _>>()?;
     let text = fs::read_to_string(root().join("README.md"))?;
     let text = block(&text, "spec", &format!("```yaml\n{spec}```"))?;
-    block(&text, "eds", &format!("```ini\n{}\n```", excerpt.join("\n\n")))
+    let text = block(&text, "eds", &format!("```ini\n{}\n```", excerpt.join("\n\n")))?;
+    let text =
+        block(&text, "api", &format!("```rust\nimpl Valve {{\n{}\n    // …\n}}\n```", api.join("\n\n")))?;
+    block(&text, "firmware", &format!("```rust\n{firmware}```"))
+}
+
+/// A method with its documentation.
+fn function<'a>(module: &'a str, name: &str) -> Option<&'a str> {
+    let at = module.find(&format!("    pub fn {name}("))?;
+    let start = module[..at].rfind("\n\n")? + 2;
+    let end = at + module[at..].find("\n    }\n")? + "\n    }".len();
+    Some(&module[start..end])
 }
 
 /// Replaces what stands between `<!-- name -->` and `<!-- /name -->`.
