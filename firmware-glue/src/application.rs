@@ -12,7 +12,7 @@ pub trait Application<D: Dictionary> {
     }
 
     /// Called before an entry is read by [`Dictionary::upload`] or packed into a PDO: the moment to bring values up to date
-    /// that are not kept current all the time.
+    /// that are not kept current all the time. Of an alias, the entry is its target.
     fn refresh(&mut self, dictionary: &mut D, entry: D::Entry) {
         let _ = (dictionary, entry);
     }
@@ -26,7 +26,8 @@ pub trait Application<D: Dictionary> {
         Ok(())
     }
 
-    /// Called after an entry got a value over the bus. Of an alias, the entry is its target.
+    /// Called after an entry got a value over the bus. Of an alias, the entry is its target. Commands (1010h, 1011h) are no
+    /// values; they come to [`accept`](Self::accept) only.
     fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {
         let _ = (dictionary, entry);
     }

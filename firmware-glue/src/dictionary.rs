@@ -85,7 +85,7 @@ pub trait Dictionary: Sized {
     /// of the communication objects, the write condition, the application's veto. A refused write changes nothing.
     ///
     /// Returns the entry that has a new value: of an alias, its target. A signature written to 1010h or 1011h is a command
-    /// and no value; nothing is stored, and the entry is returned.
+    /// and no value: the application carries it out in [`Application::accept`], and nothing is stored.
     ///
     /// # Errors
     /// The abort code for the client.
@@ -135,7 +135,9 @@ pub trait Dictionary: Sized {
         application: &mut A,
     ) -> Result<(), AbortCode> {
         let entry = domain::<Self>(index, sub, Flags::WRITE, AbortCode::READ_ONLY)?;
-        permitted(self, Self::TABLE.attributes(Self::row(entry)), application)?;
+        let shared = Self::TABLE.attributes(Self::row(entry));
+        check_lock::<Self, A>(shared, application)?;
+        check_condition(self, shared)?;
         application.write_domain(self, entry, offset, data, last)
     }
 
@@ -199,7 +201,7 @@ fn reset_region<D: Dictionary>(dictionary: &mut D, region: &Region, node_id: u8)
 }
 
 /// The row that holds the value: of an alias, its target's.
-fn holder(table: &Table, row: Row) -> Row {
+pub(crate) fn holder(table: &Table, row: Row) -> Row {
     match table.attributes(row).place {
         Place::Alias => table.alias(row).map_or(row, |alias| alias.target),
         _ => row,
@@ -242,15 +244,19 @@ fn domain<D: Dictionary>(index: u16, sub: u8, flag: u8, refusal: AbortCode) -> R
     }
 }
 
-/// Lock and write condition.
-fn permitted<D: Dictionary, A: Application<D>>(
-    dictionary: &D,
+/// The service lock; an alias of a locked entry is locked, too.
+fn check_lock<D: Dictionary, A: Application<D>>(
     shared: &Attributes,
     application: &A,
 ) -> Result<(), AbortCode> {
     let locked = shared.flags.has(Flags::LOCKED) && !application.is_unlocked();
+    if locked { Err(AbortCode::DEVICE_STATE) } else { Ok(()) }
+}
+
+/// The write condition.
+fn check_condition<D: Dictionary>(dictionary: &D, shared: &Attributes) -> Result<(), AbortCode> {
     let open = shared.condition == NONE || dictionary.condition(shared.condition);
-    if !locked && open { Ok(()) } else { Err(AbortCode::DEVICE_STATE) }
+    if open { Ok(()) } else { Err(AbortCode::DEVICE_STATE) }
 }
 
 /// Checks and writes the value of a row whose access is settled; `id` is its index and sub-index.
@@ -262,24 +268,22 @@ pub(crate) fn write_row<D: Dictionary, A: Application<D>>(
     application: &mut A,
 ) -> Result<D::Entry, AbortCode> {
     let shared = D::TABLE.attributes(row);
-    if shared.flags.has(Flags::LOCKED) && !application.is_unlocked() {
-        return Err(AbortCode::DEVICE_STATE);
-    }
+    check_lock::<D, A>(shared, application)?;
     let mut buffer = [0; 8];
     let (holder, data) = checked(D::TABLE, row, data, &mut buffer)?;
     let (index, sub) = if holder == row { id } else { D::TABLE.id(holder) };
     let store = !(0x1000..0x2000).contains(&index)
         || communication::check(D::TABLE, dictionary.image(), index, sub, data)?;
-    permitted(dictionary, shared, application)?;
+    check_condition(dictionary, shared)?;
     if holder != row {
-        permitted(dictionary, D::TABLE.attributes(holder), application)?;
+        check_condition(dictionary, D::TABLE.attributes(holder))?;
     }
     let entry = D::entry(holder).ok_or(AbortCode::INTERNAL)?;
     application.accept(dictionary, entry, data)?;
     if store {
         put(D::TABLE, dictionary.image_mut(), holder, data)?;
+        application.changed(dictionary, entry);
     }
-    application.changed(dictionary, entry);
     Ok(entry)
 }
 
@@ -351,14 +355,19 @@ fn check_value(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), Ab
     }
 }
 
-/// A VISIBLE_STRING holds 20h to 7Eh (and 00h, which ends it), a UNICODE_STRING whole units.
+/// A VISIBLE_STRING holds 20h to 7Eh, a UNICODE_STRING whole units; zeros may pad both, but stand between no characters, as
+/// what is behind them would be lost.
 fn check_text(data_type: DataType, data: &[u8]) -> Result<(), AbortCode> {
-    let printable = |byte: &u8| *byte == 0 || (0x20..=0x7E).contains(byte);
-    match data_type {
-        DataType::VisibleString if !data.iter().all(printable) => Err(AbortCode::INVALID_VALUE),
-        DataType::UnicodeString if data.len() % 2 == 1 => Err(AbortCode::LENGTH),
-        _ => Ok(()),
+    if data_type == DataType::OctetString {
+        return Ok(());
     }
+    if data_type == DataType::UnicodeString && data.len() % 2 == 1 {
+        return Err(AbortCode::LENGTH);
+    }
+    let (text, padding) = data.split_at(trimmed(data_type, data).len());
+    let printable = |byte: &u8| data_type != DataType::VisibleString || (0x20..=0x7E).contains(byte);
+    let fine = text.iter().all(printable) && padding.iter().all(|byte| *byte == 0);
+    if fine { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
 }
 
 fn put(table: &Table, image: &mut [u8], row: Row, data: &[u8]) -> Result<(), AbortCode> {

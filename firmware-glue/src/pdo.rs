@@ -8,7 +8,7 @@ use core::ops::Deref;
 use crate::abort::AbortCode;
 use crate::application::Application;
 use crate::communication::{NOT_VALID, check_cob_id, current};
-use crate::dictionary::{Dictionary, value, write_row};
+use crate::dictionary::{Dictionary, holder, value, write_row};
 use crate::image::unsigned;
 use crate::table::{DataType, Flags, Table};
 
@@ -77,7 +77,7 @@ pub fn pack<D: Dictionary, A: Application<D>>(
         let parameter = current(D::TABLE, dictionary.image(), object, sub).ok_or(PdoError::NotMapped)?;
         let (index, entry_sub, bits) = parts(parameter);
         let row = D::TABLE.find(index, entry_sub).map_err(|_| PdoError::NotMapped)?;
-        if let Some(entry) = D::entry(row) {
+        if let Some(entry) = D::entry(holder(D::TABLE, row)) {
             application.refresh(dictionary, entry);
         }
         let bytes = value(D::TABLE, dictionary.image(), row).map_err(PdoError::NoValue)?;

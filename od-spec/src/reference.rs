@@ -202,7 +202,7 @@ const INTRODUCTION: &str = r#"# The specification language
 
 A specification is one YAML file, `NAME.od.yaml`, that describes the CANopen object dictionaries of one device or of several that
 belong together: their objects with types, units, limits and defaults, their PDOs and error codes, the state machines behind control
-and status words, and, if wanted, the printed manual's tables. The compiler reads it, checks it, and makes EDS, DCF and JSON files
+and status words, and, if wanted, the printed manual's tables. The compiler reads it, checks it, and makes EDS, DCF, JSON and Rust files
 from it.
 
 This is a complete specification of a small I/O module:

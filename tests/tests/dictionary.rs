@@ -119,12 +119,25 @@ fn writing_a_view_writes_its_target_and_tells_of_it() {
 }
 
 #[test]
-fn a_view_keeps_the_length_of_its_own_type() {
+fn a_view_keeps_its_own_rules_and_those_of_its_target() {
     let mut od = Everything::new(1);
     // 2004h has all 32 bits; its view reaches every value of 16.
     assert_eq!(od.write(0x201E, 0, &(-5i16).to_le_bytes(), &mut ()), Ok(everything::Entry::AnInteger32));
     assert_eq!(od.an_integer32(), -5);
     assert_eq!(od.write(0x201E, 0, &[1, 2, 3], &mut ()), Err(AbortCode::TOO_LONG));
+    // 2020h has limits and a condition, its view another condition: all of them count.
+    let view = |od: &mut Everything, value: i16| od.write(0x2021, 0, &value.to_le_bytes(), &mut ());
+    assert_eq!(view(&mut od, 1000), Ok(everything::Entry::Limited));
+    assert_eq!(view(&mut od, 1001), Err(AbortCode::TOO_HIGH));
+    assert_eq!(view(&mut od, -101), Err(AbortCode::TOO_LOW));
+    assert_eq!(od.limited(), 1000);
+    od.set_an_unsigned8(7);
+    assert_eq!(view(&mut od, 1), Err(AbortCode::DEVICE_STATE));
+    od.set_an_unsigned8(8);
+    od.set_a_boolean(false);
+    assert_eq!(view(&mut od, 1), Err(AbortCode::DEVICE_STATE));
+    assert_eq!(od.write(0x2020, 0, &1i32.to_le_bytes(), &mut ()), Ok(everything::Entry::Limited));
+    assert_eq!(od.limited_view(), 1);
 }
 
 // ------------------------------------------------------------------------------------------------ conditions, constraints
@@ -309,6 +322,19 @@ fn communication_objects_keep_their_own_rules() {
     assert_eq!(write(0x1010, 1, u64::from(u32::from_le_bytes(*b"load")), 4), Err(AbortCode::NOT_STORED));
     assert_eq!(write(0x1011, 1, u64::from(u32::from_le_bytes(*b"load")), 4), Ok(()));
     assert_eq!(write(0x1011, 1, 0, 4), Err(AbortCode::NOT_STORED));
+    let mut told = log();
+    assert!(od.write(0x1010, 1, b"save", &mut told).is_ok());
+    assert_eq!(told.changed, [], "a command is no value");
+    told.veto = Some(AbortCode::HARDWARE);
+    assert_eq!(
+        od.write(0x1010, 1, b"save", &mut told),
+        Err(AbortCode::HARDWARE),
+        "and is carried out before the answer"
+    );
+    assert_eq!(read(&od, 0x1010, 1), Ok(0));
+    let mut write = |index, sub, value: u64, size: usize| {
+        od.write(index, sub, &value.to_le_bytes()[..size], &mut ()).map(drop)
+    };
     // 1014h: off before it changes.
     assert_eq!(write(0x1014, 0, 0x88, 4), Err(AbortCode::INVALID_VALUE));
     assert_eq!(write(0x1014, 0, 0x8000_0087, 4), Ok(()));
@@ -377,6 +403,10 @@ fn every_data_type_is_read_and_written() {
     assert_eq!(od.a_visible_string(), "exactly twenty bytes");
     assert_eq!(od.write(0x2013, 0, b"exactly twenty bytes!", &mut ()), Err(AbortCode::TOO_LONG));
     assert_eq!(od.write(0x2013, 0, b"no\ncontrol", &mut ()), Err(AbortCode::INVALID_VALUE));
+    // Zeros may pad a text, not stand in it.
+    assert_eq!(od.write(0x2013, 0, b"one\0two", &mut ()), Err(AbortCode::INVALID_VALUE));
+    assert!(od.write(0x2013, 0, b"one\0\0", &mut ()).is_ok());
+    assert_eq!(od.a_visible_string(), "one");
     od.write(0x2013, 0, b"", &mut ()).unwrap();
     assert_eq!(od.a_visible_string(), "");
     assert_eq!(*od.read(0x2014, 0).unwrap(), [1, 0xA1, 5, 0x3C]);
@@ -386,6 +416,7 @@ fn every_data_type_is_read_and_written() {
     od.set_a_unicode_string("Größe").unwrap();
     assert_eq!(od.a_unicode_string().chars().collect::<String>(), "Größe");
     assert_eq!(od.read(0x2015, 0).unwrap().len(), 10);
+    assert_eq!(od.write(0x2015, 0, &[65, 0, 0, 0, 66, 0], &mut ()), Err(AbortCode::INVALID_VALUE));
     assert_eq!(od.write(0x2015, 0, &[65, 0, 66], &mut ()), Err(AbortCode::LENGTH));
     let time = Time { days: 15_000, milliseconds: 1 };
     od.set_a_time_of_day(time);
@@ -524,6 +555,11 @@ fn a_domain_is_the_applications() {
     assert_eq!(od.upload_domain(0x2018, 0, 9, &mut buffer, &mut store), Ok(0));
     assert_eq!(od.upload_domain(0x2000, 0, 0, &mut buffer, &mut store), Err(AbortCode::UNSUPPORTED_ACCESS));
     assert_eq!(od.download_domain(0x2018, 0, 0, b"", true, &mut ()), Err(AbortCode::NOT_STORED));
+    assert_eq!(
+        od.download_domain(0x201D, 0xFE, 0, b"", true, &mut store),
+        Err(AbortCode::DEVICE_STATE),
+        "locked"
+    );
 }
 
 // --------------------------------------------------------------------------------------------------------- storage, units

@@ -1,6 +1,6 @@
 //! The Rust backend: a dictionary as a module that firmware compiles.
 //!
-//! The work has two steps. [`plan`] decides everything: names, the place of every value, the tables. [`print`] writes the plan
+//! The work has two steps. `plan` decides everything: names, the place of every value, the tables. `print` writes the plan
 //! down as Rust. Nothing in a plan is Rust, so that another language could be printed from it.
 
 mod condition;

@@ -2,13 +2,15 @@
 """Measure what generated dictionaries cost to compile: ours beside those of two other projects.
 
     compile.py [--sizes 150 2000] [--contenders ours zencan canopen-rs] [--limit 300]
+    compile.py --generators
 
 Prints Markdown; what cargo prints goes to standard error. Measured is the one rustc that compiles a
 crate of generated code and nothing else (`dictionaries/`), its dependencies built before: this script
 puts itself between cargo and rustc (`RUSTC_WORKSPACE_WRAPPER`) and asks the system what that process
 used. A rustc that runs longer than the limit is ended. `generate` is the time of the generator itself
-in an unoptimised build script, as cargo builds it. The exit code is 1 when something could not be
-built; nothing is judged. Needs a POSIX system.
+in an unoptimised build script, as cargo builds it. With `--generators`: what it takes to build the
+generators themselves, everything they depend on included, from nothing. The exit code is 1 when
+something could not be built; nothing is judged. Needs a POSIX system.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ import argparse
 import json
 import os
 import platform
+import resource
 import subprocess
 import sys
 import tempfile
@@ -29,6 +32,14 @@ HERE = Path(__file__).resolve().parent
 TARGET = HERE.parents[2] / "target" / "bench-runtime" / "compile"
 SIZES = (150, 2000, 10000)
 CONTENDERS = ("ours", "zencan", "canopen-rs")
+# What a crate that uses a generator has in its Cargo.toml. The only zencan-macro there is belongs to zencan 0.0.1.
+GENERATORS = {
+    "od-macros": 'od-macros = {{ path = "{root}/od-macros" }}',
+    "od-gen (build script)": 'od-gen = {{ path = "{root}/od-gen", default-features = false, features = ["format"] }}',
+    "zencan-macro 0.0.1": 'zencan-macro = "=0.0.1"',
+    "zencan-build 0.0.5": 'zencan-build = "=0.0.5"',
+    "canopen-host 0.6.1": 'canopen-host = "=0.6.1"',
+}
 MISSING = {("canopen-rs", 10000): "left out: hours"}
 # What the wrapper is told by the script, which is itself.
 CRATE, LIMIT, RESULT = "BENCH_COMPILE_CRATE", "BENCH_COMPILE_LIMIT", "BENCH_COMPILE_RESULT"
@@ -53,9 +64,12 @@ def main() -> int:
     parser.add_argument("--sizes", type=int, nargs="+", choices=SIZES, default=[150, 2000])
     parser.add_argument("--contenders", nargs="+", choices=CONTENDERS, default=list(CONTENDERS))
     parser.add_argument("--limit", type=float, default=300, help="seconds for one rustc")
+    parser.add_argument("--generators", action="store_true", help="build the generators themselves, from nothing")
     options = parser.parse_args()
     rustc = subprocess.run(["rustc", "--version"], check=False, cwd=HERE, text=True, stdout=subprocess.PIPE).stdout
     print(f"{rustc.strip()}, {platform.system()} {platform.machine()}, {os.cpu_count()} cores\n")
+    if options.generators:
+        return generators()
     print("| objects | contender | generate s | check: user s | wall s | peak MB | release: user s | wall s | peak MB |")
     print("|--:|---|--:|--:|--:|--:|--:|--:|--:|", flush=True)
     failed = False
@@ -69,6 +83,35 @@ def main() -> int:
             except Failed as error:
                 failed = True
                 print(f"error: {error}", file=sys.stderr)
+    return int(failed)
+
+
+def generators() -> int:
+    print("| generator | crates | user s | wall s |")
+    print("|---|--:|--:|--:|", flush=True)
+    cargo, failed = os.environ.get("CARGO", "cargo"), False
+    TARGET.mkdir(parents=True, exist_ok=True)  # below the project, so that its version of Rust is used
+    for name, dependency in GENERATORS.items():
+        with tempfile.TemporaryDirectory(prefix="generator-", dir=TARGET) as folder:
+            crate = Path(folder)
+            (crate / "src").mkdir()
+            (crate / "src" / "lib.rs").touch()
+            manifest = '[package]\nname = "user"\nversion = "0.0.0"\nedition = "2024"\n[workspace]\n[dependencies]\n'
+            manifest += dependency.format(root=HERE.parents[2]) + "\n"
+            (crate / "Cargo.toml").write_text(manifest, encoding="utf-8")
+            subprocess.run([cargo, "fetch"], check=False, cwd=crate, stdout=sys.stderr)
+            before, start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, os.times().elapsed
+            words = [cargo, "build", "--offline", "--target-dir", str(crate / "target"), "--message-format", "json-render-diagnostics"]
+            done = subprocess.run(words, check=False, cwd=crate, text=True, stdout=subprocess.PIPE)
+            wall = os.times().elapsed - start
+            user = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+            if done.returncode != 0:
+                failed = True
+                print(f"error: {name} does not compile", file=sys.stderr)
+                continue
+            messages = map(json.loads, done.stdout.splitlines())
+            built = {message["package_id"] for message in messages if message["reason"] == "compiler-artifact"}
+            print(f"| {name} | {len(built) - 1} | {user:.1f} | {wall:.1f} |", flush=True)
     return int(failed)
 
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
 
-/// Checks specifications of CANopen object dictionaries and makes EDS, DCF and JSON files from them.
+/// Checks specifications of CANopen object dictionaries and makes EDS, DCF, JSON and Rust files from them.
 #[derive(Debug, Parser)]
 #[command(
     name = "odgen",

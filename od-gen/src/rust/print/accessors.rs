@@ -88,7 +88,7 @@ impl Plan<'_> {
     fn getter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
         let values = Values { plan: self };
         let Some((value, value_type)) = values.get(entry, at) else { return quote!() };
-        let (about, name) = (doc(&self.entry_doc(entry)), format_ident!("{name}"));
+        let (about, name) = (doc(&self.entry_doc(entry, &at.link_root())), format_ident!("{name}"));
         quote! {
             #about
             #[inline]
@@ -174,7 +174,7 @@ impl Plan<'_> {
         let Some(first) = elements.first() else { return quote!(#sub0) };
         let highest = Literal::usize_unsuffixed(elements.len());
         let name = &object.name;
-        let facts = self.entry_doc(first);
+        let facts = self.entry_doc(first, "");
         let facts = facts.split_once("\n\n").map_or("", |(_, facts)| facts);
         let about = doc(&format!(
             "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{facts}",

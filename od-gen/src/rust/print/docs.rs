@@ -32,8 +32,8 @@ impl Plan<'_> {
         text.get(self.system.language()).map(escape).unwrap_or_default()
     }
 
-    /// Heading, meaning and facts of an entry.
-    pub(super) fn entry_doc(&self, planned: &PlannedEntry<'_>) -> String {
+    /// Heading, meaning and facts of an entry; `root` begins the paths of links.
+    pub(super) fn entry_doc(&self, planned: &PlannedEntry<'_>, root: &str) -> String {
         let entry = planned.entry;
         let mut text = format!("`{}` {}", planned.id, escape(&entry.name));
         let about = self.words(&entry.about);
@@ -42,7 +42,9 @@ impl Plan<'_> {
         text.push_str("\n\n");
         text.push_str(&facts(planned).join(", "));
         text.push('.');
-        for line in [self.related(planned), self.pdos_of(planned), condition(entry)].into_iter().flatten() {
+        for line in
+            [self.related(planned, root), self.pdos_of(planned, root), condition(entry)].into_iter().flatten()
+        {
             text.push(' ');
             text.push_str(&line);
         }
@@ -57,11 +59,11 @@ impl Plan<'_> {
     }
 
     /// What shows the entry, or what it shows.
-    fn related(&self, planned: &PlannedEntry<'_>) -> Option<String> {
+    fn related(&self, planned: &PlannedEntry<'_>, root: &str) -> Option<String> {
         let row = self.row(planned.id)?;
         if let Some(alias) = self.aliases.iter().find(|alias| alias.row == row) {
             let target = self.entry(alias.target)?;
-            let mut text = format!("A view of {} (`{}`)", self.link(alias.target)?, target.id);
+            let mut text = format!("A view of {} (`{}`)", self.link(alias.target, root)?, target.id);
             if alias.numerator != 1 || alias.denominator != 1 {
                 let rounding = match alias.rounding {
                     Rounding::Down => "down",
@@ -82,35 +84,36 @@ impl Plan<'_> {
         }
         let mut views = self.aliases.iter().filter(|alias| alias.target == row).filter_map(|alias| {
             let bits = alias.data_type.bits()?;
-            Some(format!("{bits}-bit view: {} (`{}`).", self.link(alias.row)?, self.entry(alias.row)?.id))
+            Some(format!(
+                "{bits}-bit view: {} (`{}`).",
+                self.link(alias.row, root)?,
+                self.entry(alias.row)?.id
+            ))
         });
         views.next().map(|first| views.fold(first, |text, view| format!("{text} {view}")))
     }
 
     /// A link to the accessor of an entry.
-    fn link(&self, row: u16) -> Option<String> {
+    fn link(&self, row: u16, root: &str) -> Option<String> {
         let planned = self.entry(row)?;
         let object = self.objects.get(planned.object)?;
         Some(match &object.shape {
             Shape::Group { type_name } => {
-                format!("[`{}`]({}::{type_name}::{})", planned.member, "records", planned.member)
+                format!("[`{0}`]({root}records::{type_name}::{0})", planned.member)
             }
-            Shape::Var | Shape::Indexed { .. } => format!("[`{0}`]({1}::{0})", object.name, self.name),
+            Shape::Var | Shape::Indexed { .. } => format!("[`{0}`]({root}{1}::{0})", object.name, self.name),
         })
     }
 
     /// The PDOs that carry the entry by default.
-    fn pdos_of(&self, planned: &PlannedEntry<'_>) -> Option<String> {
+    fn pdos_of(&self, planned: &PlannedEntry<'_>, root: &str) -> Option<String> {
         let row = self.row(planned.id)?;
         let carriers = self.pdos.iter().filter(|pdo| pdo.fields.iter().any(|field| field.row == row));
         let names: Vec<String> = carriers
             .map(|pdo| {
                 let off = if pdo.pdo.valid { "" } else { ", off by default" };
-                format!("{} {} ([`{1}`](pdos::{1}){off})", pdo.pdo.direction.pdo(), pdo.name).replacen(
-                    &format!(" {} (", pdo.name),
-                    &format!(" {} (", pdo.pdo.number),
-                    1,
-                )
+                let (direction, number, name) = (pdo.pdo.direction.pdo(), pdo.pdo.number, &pdo.name);
+                format!("{direction} {number} ([`{name}`]({root}pdos::{name}){off})")
             })
             .collect();
         (!names.is_empty()).then(|| format!("In {}.", names.join(", ")))

@@ -61,6 +61,11 @@ impl At {
         }
     }
 
+    /// How links begin: as module paths do.
+    pub(super) fn link_root(&self) -> String {
+        self.root.to_string().replace(' ', "")
+    }
+
     /// Where `dictionary` is a reference, in a module.
     pub(super) fn reference() -> Self {
         Self { root: quote!(super::), image: quote!(&dictionary.0), image_mut: quote!(&mut dictionary.0) }
