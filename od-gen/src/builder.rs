@@ -24,7 +24,7 @@ use crate::source::{FileLoader, compile_file};
 ///
 /// and in the crate
 ///
-/// ```ignore
+/// ```text
 /// mod pmc {
 ///     include!(concat!(env!("OUT_DIR"), "/pmc.rs"));
 /// }

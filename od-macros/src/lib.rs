@@ -1,6 +1,6 @@
 //! `object_dictionary!`: the object dictionary of a device from its specification.
 //!
-//! ```ignore
+//! ```text
 //! mod pmc {
 //!     od_macros::object_dictionary!("../pitch.od.yaml", device = "pmc");
 //! }

@@ -120,11 +120,20 @@ fn writing_a_view_writes_its_target_and_tells_of_it() {
 
 #[test]
 fn a_view_keeps_its_own_rules_and_those_of_its_target() {
+    use everything::units::{Millivolt, Volt};
     let mut od = Everything::new(1);
     // 2004h has all 32 bits; its view reaches every value of 16.
     assert_eq!(od.write(0x201E, 0, &(-5i16).to_le_bytes(), &mut ()), Ok(everything::Entry::AnInteger32));
     assert_eq!(od.an_integer32(), -5);
     assert_eq!(od.write(0x201E, 0, &[1, 2, 3], &mut ()), Err(AbortCode::TOO_LONG));
+    // 70 V are more millivolts than the target has.
+    assert_eq!((od.a_voltage(), od.a_voltage_in_volts()), (Millivolt(1999), Volt(1)));
+    assert_eq!(od.write(0x2023, 0, &65u16.to_le_bytes(), &mut ()), Ok(everything::Entry::AVoltage));
+    assert_eq!(od.write(0x2023, 0, &66u16.to_le_bytes(), &mut ()), Err(AbortCode::INVALID_VALUE));
+    assert_eq!(od.a_voltage(), Millivolt(65_000));
+    assert_eq!(od.set_a_voltage_in_volts(Volt(2)), Ok(()));
+    assert_eq!(od.set_a_voltage_in_volts(Volt(66)), Err(firmware_glue::OutOfRange));
+    assert_eq!(od.a_voltage(), Millivolt(2000));
     // 2020h has limits and a condition, its view another condition: all of them count.
     let view = |od: &mut Everything, value: i16| od.write(0x2021, 0, &value.to_le_bytes(), &mut ());
     assert_eq!(view(&mut od, 1000), Ok(everything::Entry::Limited));
