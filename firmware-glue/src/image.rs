@@ -211,6 +211,13 @@ mod tests {
     }
 
     #[test]
+    fn the_node_id_carries_over_within_its_value_only() {
+        let places = [NodeIdPlace { offset: 0, size: 2 }, NodeIdPlace { offset: 2, size: 1 }];
+        assert_eq!(with_node_id([0xFF, 0x00, 0xFE, 0x55], &places, 5), [0x04, 0x01, 0x03, 0x55]);
+        assert_eq!(with_node_id([0, 0], &[NodeIdPlace { offset: 1, size: 4 }], 5), [0, 5]);
+    }
+
+    #[test]
     fn outside_the_image_nothing_happens() {
         let mut image = [1, 2, 3];
         assert_eq!(get::<2>(&image, 1), [2, 3]);
