@@ -266,7 +266,7 @@ impl Pmm {
 
     /// `1600h` RPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn rpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 16, 4)?;
@@ -298,7 +298,7 @@ impl Pmm {
 
     /// `1601h` RPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
@@ -330,7 +330,7 @@ impl Pmm {
 
     /// `1602h` RPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn rpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 80, 4)?;
@@ -362,7 +362,7 @@ impl Pmm {
 
     /// `1603h` RPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
@@ -458,7 +458,7 @@ impl Pmm {
 
     /// `1A00h` TPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn tpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 160, 4)?;
@@ -490,7 +490,7 @@ impl Pmm {
 
     /// `1A01h` TPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
@@ -522,7 +522,7 @@ impl Pmm {
 
     /// `1A02h` TPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn tpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 224, 4)?;
@@ -554,7 +554,7 @@ impl Pmm {
 
     /// `1A03h` TPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0, stored with the communication parameters.
+    /// UNSIGNED32, rw, default 0x00000000, stored with the communication parameters.
     #[inline]
     pub fn tpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 256, 4)?;

@@ -128,9 +128,14 @@ fn a_view_keeps_its_own_rules_and_those_of_its_target() {
     assert_eq!(od.write(0x201E, 0, &[1, 2, 3], &mut ()), Err(AbortCode::TOO_LONG));
     // 70 V are more millivolts than the target has.
     assert_eq!((od.a_voltage(), od.a_voltage_in_volts()), (Millivolt(1999), Volt(1)));
-    assert_eq!(od.write(0x2023, 0, &65u16.to_le_bytes(), &mut ()), Ok(everything::Entry::AVoltage));
+    assert_eq!(od.write(0x2023, 0, &60u16.to_le_bytes(), &mut ()), Ok(everything::Entry::AVoltage));
+    assert_eq!(
+        od.write(0x2023, 0, &61u16.to_le_bytes(), &mut ()),
+        Err(AbortCode::TOO_HIGH),
+        "the target's limit"
+    );
     assert_eq!(od.write(0x2023, 0, &66u16.to_le_bytes(), &mut ()), Err(AbortCode::INVALID_VALUE));
-    assert_eq!(od.a_voltage(), Millivolt(65_000));
+    assert_eq!(od.a_voltage(), Millivolt(60_000));
     assert_eq!(od.set_a_voltage_in_volts(Volt(2)), Ok(()));
     assert_eq!(od.set_a_voltage_in_volts(Volt(66)), Err(firmware_glue::OutOfRange));
     assert_eq!(od.a_voltage(), Millivolt(2000));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Entry, Object, Outside, Rounding, Storage, Text, Value, format_value};
+use od_spec::model::{Entry, EntryId, Object, Outside, Rounding, Storage, Text, Value, format_value};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -153,7 +153,7 @@ fn facts(planned: &PlannedEntry<'_>) -> Vec<String> {
     facts.extend(entry.special.iter().map(|special| format!("{}: {}", special.value, escape(&special.name))));
     if planned.place != Place::Alias {
         facts.extend(
-            entry.default.as_ref().map(|value| format!("default {}", escape(&format_value(entry, value)))),
+            entry.default.as_ref().map(|value| format!("default {}", default_text(planned.id, entry, value))),
         );
     }
     facts.extend(match entry.stored {
@@ -162,4 +162,13 @@ fn facts(planned: &PlannedEntry<'_>) -> Vec<String> {
         stored => Some(format!("stored with the {} parameters", stored.word())),
     });
     facts
+}
+
+/// A default as the manual writes it; a mapping parameter, which nobody reads in decimal, in hexadecimal.
+fn default_text(id: EntryId, entry: &Entry, value: &Value) -> String {
+    let mapping = matches!(id.index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && id.sub.0 > 0;
+    match value.integer().filter(|_| mapping) {
+        Some(parameter) => format!("0x{parameter:08X}"),
+        None => escape(&format_value(entry, value)),
+    }
 }
