@@ -16,17 +16,15 @@ pub struct Alias {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct View {
     /// Positive.
-    pub numerator: i64,
+    pub numerator: u32,
     /// Positive.
-    pub denominator: i64,
+    pub denominator: u32,
+    /// The type of the view.
+    pub data_type: DataType,
     /// What a value between two steps becomes.
     pub rounding: Rounding,
     /// What a value outside the type becomes.
     pub outside: Outside,
-    /// Smallest value of the type.
-    pub low: i64,
-    /// Largest value of the type.
-    pub high: i64,
 }
 
 /// What a value between two steps becomes on reading.
@@ -63,27 +61,31 @@ impl View {
     pub const fn scaled(
         data_type: DataType,
         outside: Outside,
-        numerator: i64,
-        denominator: i64,
+        numerator: u32,
+        denominator: u32,
         rounding: Rounding,
     ) -> Self {
-        let (low, high) = range(data_type);
-        Self { numerator, denominator, rounding, outside, low, high }
+        Self { numerator, denominator, data_type, rounding, outside }
     }
 
     /// What the alias shows of a value of its target; [`AbortCode::NOT_STORED`] for one that it cannot show and may
     /// neither saturate nor wrap.
     pub const fn show(&self, target: i64) -> Result<i64, AbortCode> {
         let value = self.rounded(target);
-        if value >= self.low && value <= self.high {
+        // Bits of 64 that the type leaves unused.
+        let unused = 64 - width(self.data_type);
+        let (low, high) = if self.data_type.is_signed() {
+            (i64::MIN >> unused, i64::MAX >> unused)
+        } else {
+            (0, i64::MAX >> (unused - 1))
+        };
+        if value >= low && value <= high {
             return Ok(value);
         }
         match self.outside {
-            Outside::Saturate => Ok(if value < self.low { self.low } else { self.high }),
-            Outside::Wrap => {
-                let span = self.high - self.low + 1;
-                Ok((value - self.low).rem_euclid(span) + self.low)
-            }
+            Outside::Saturate => Ok(if value < low { low } else { high }),
+            Outside::Wrap if self.data_type.is_signed() => Ok(value << unused >> unused),
+            Outside::Wrap => Ok(value & high),
             Outside::Abort => Err(AbortCode::NOT_STORED),
         }
     }
@@ -100,16 +102,18 @@ impl View {
         if self.numerator == 1 && self.denominator == 1 {
             return target;
         }
-        let product = target * self.numerator;
-        let floor = product.div_euclid(self.denominator);
-        let rest = product.rem_euclid(self.denominator);
+        let product = target * self.numerator as i64;
+        let denominator = self.denominator as i64;
+        // A denominator of 0 would be a mistake of the generator, which a view then shows unscaled.
+        let Some(floor) = product.checked_div_euclid(denominator) else { return product };
+        let rest = product - floor * denominator;
         let up = match self.rounding {
             Rounding::Down => false,
             Rounding::Up => rest != 0,
             Rounding::Zero => rest != 0 && product < 0,
             Rounding::Nearest => {
                 let twice = rest * 2;
-                twice > self.denominator || twice == self.denominator && product >= 0
+                twice > denominator || twice == denominator && product >= 0
             }
         };
         if up { floor + 1 } else { floor }
@@ -118,17 +122,18 @@ impl View {
     /// The value that the target gets when the alias is written; [`AbortCode::INVALID_VALUE`] for one that falls between
     /// two steps of the target.
     pub const fn target(&self, value: i64) -> Result<i64, AbortCode> {
-        let Some(product) = value.checked_mul(self.denominator) else { return Err(AbortCode::INVALID_VALUE) };
-        if product % self.numerator == 0 {
-            Ok(product / self.numerator)
-        } else {
-            Err(AbortCode::INVALID_VALUE)
+        let (numerator, denominator) = (self.numerator as i64, self.denominator as i64);
+        let Some(product) = value.checked_mul(denominator) else { return Err(AbortCode::INVALID_VALUE) };
+        match product.checked_div(numerator) {
+            Some(target) if target * numerator == product => Ok(target),
+            _ => Err(AbortCode::INVALID_VALUE),
         }
     }
 }
 
-const fn range(data_type: DataType) -> (i64, i64) {
-    let bits: u32 = match data_type {
+/// Bits of an integer type that a view can have.
+const fn width(data_type: DataType) -> u32 {
+    match data_type {
         DataType::Integer8 | DataType::Unsigned8 => 8,
         DataType::Integer16 | DataType::Unsigned16 => 16,
         DataType::Integer24 | DataType::Unsigned24 => 24,
@@ -136,8 +141,7 @@ const fn range(data_type: DataType) -> (i64, i64) {
         DataType::Integer40 | DataType::Unsigned40 => 40,
         DataType::Integer48 | DataType::Unsigned48 => 48,
         _ => 56,
-    };
-    if data_type.is_signed() { (-(1 << (bits - 1)), (1 << (bits - 1)) - 1) } else { (0, (1 << bits) - 1) }
+    }
 }
 
 #[cfg(test)]

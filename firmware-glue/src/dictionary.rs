@@ -364,7 +364,9 @@ fn check_text(data_type: DataType, data: &[u8]) -> Result<(), AbortCode> {
     if data_type == DataType::UnicodeString && data.len() % 2 == 1 {
         return Err(AbortCode::LENGTH);
     }
-    let (text, padding) = data.split_at(trimmed(data_type, data).len());
+    let Some((text, padding)) = data.split_at_checked(trimmed(data_type, data).len()) else {
+        return Err(AbortCode::INTERNAL);
+    };
     let printable = |byte: &u8| data_type != DataType::VisibleString || (0x20..=0x7E).contains(byte);
     let fine = text.iter().all(printable) && padding.iter().all(|byte| *byte == 0);
     if fine { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }

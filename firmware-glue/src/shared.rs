@@ -34,3 +34,30 @@ impl<D> Shared<D> {
         self.with(|dictionary| dictionary.clone())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::*;
+
+    #[test]
+    fn several_values_change_at_once() {
+        static PAIR: Shared<(u32, u32)> = Shared::new((0, 0));
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..1000 {
+                        PAIR.with(|pair| {
+                            pair.0 += 1;
+                            pair.1 += 1;
+                        });
+                        let (left, right) = PAIR.snapshot();
+                        assert_eq!(left, right);
+                    }
+                });
+            }
+        });
+        assert_eq!(PAIR.snapshot(), (4000, 4000));
+    }
+}

@@ -134,8 +134,8 @@ pub(super) struct PlannedAlias {
     /// Row of what it shows.
     pub target: u16,
     pub data_type: DataType,
-    pub numerator: i64,
-    pub denominator: i64,
+    pub numerator: u32,
+    pub denominator: u32,
     pub rounding: Rounding,
     pub outside: Outside,
 }
@@ -484,21 +484,21 @@ impl<'a> Plan<'a> {
     ) {
         let target = self.device.entry(alias.target);
         let range = target.and_then(|target| target.data_type.range());
-        let number = |value: i128| i64::try_from(value).ok();
-        let (numerator, denominator) = (number(alias.factor.numerator()), number(alias.factor.denominator()));
-        let fits =
-            range.zip(numerator).zip(denominator).is_some_and(|(((low, high), numerator), denominator)| {
-                let all = [low, high].map(|end| end.checked_mul(numerator.into()).and_then(number));
-                all.iter().all(Option::is_some) && denominator < i64::MAX / 2
-            });
-        let (Some(row), Some(target), Some(numerator), Some(denominator)) =
-            (self.row(id), self.row(alias.target), numerator, denominator)
+        let small = |value: i128| u32::try_from(value).ok();
+        let (numerator, denominator) = (small(alias.factor.numerator()), small(alias.factor.denominator()));
+        // Twice the product, for rounding to the nearest, stays within 64 bits.
+        let fits = range.zip(numerator).is_some_and(|((low, high), numerator)| {
+            let fits =
+                |end: i128| end.checked_mul(numerator.into()).is_some_and(|end| i64::try_from(end).is_ok());
+            fits(low) && fits(high)
+        });
+        let (Some(row), Some(target)) = (self.row(id), self.row(alias.target)) else { return };
+        let (Some(numerator), Some(denominator), true, false) =
+            (numerator, denominator, fits, entry.data_type.bits() == Some(64))
         else {
+            diagnostics.push(too_large(entry.span, &format!("alias {id}")));
             return;
         };
-        if !fits || entry.data_type.bits() == Some(64) {
-            diagnostics.push(too_large(entry.span, &format!("alias {id}")));
-        }
         self.aliases.push(PlannedAlias {
             row,
             target,

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use super::super::layout::Place;
 use super::super::plan::{Plan, PlannedEntry, PlannedObject, Shape};
 use super::docs::{doc, escape};
-use super::value::{At, Values, view_name};
+use super::value::{At, Values, decimal, view_name};
 
 impl Plan<'_> {
     /// The type of the dictionary with the methods of its objects.
@@ -319,7 +319,7 @@ impl Plan<'_> {
                 quote!(glue::View::plain(glue::DataType::#data_type, #outside))
             } else {
                 let rounding = format_ident!("{}", format!("{:?}", alias.rounding));
-                let (n, d) = (Literal::i64_unsuffixed(alias.numerator), Literal::i64_unsuffixed(alias.denominator));
+                let (n, d) = (decimal(alias.numerator.into()), decimal(alias.denominator.into()));
                 quote!(glue::View::scaled(glue::DataType::#data_type, #outside, #n, #d, glue::Rounding::#rounding))
             };
             Some(quote!(#about const #name: glue::View = #view;))

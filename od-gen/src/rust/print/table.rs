@@ -74,6 +74,10 @@ impl Plan<'_> {
             quote!(match number { #(#conditions)* _ => true, })
         };
         let constraints = self.constraints();
+        let rows = self.entries.iter().enumerate().map(|(row, entry)| {
+            let (row, variant) = (Literal::usize_unsuffixed(row), format_ident!("{}", entry.variant));
+            quote!(#row => Some(Entry::#variant),)
+        });
         quote! {
             impl glue::Dictionary for #name {
                 type Entry = Entry;
@@ -81,7 +85,11 @@ impl Plan<'_> {
 
                 #[inline]
                 fn entry(row: u16) -> Option<Entry> {
-                    BY_ROW.get(usize::from(row)).copied()
+                    // The compiler sees that row and entry are the same number.
+                    match row {
+                        #(#rows)*
+                        _ => None,
+                    }
                 }
 
                 #[inline]
@@ -215,10 +223,6 @@ impl Plan<'_> {
             .iter()
             .map(|entry| self.full_name(entry).replace(['\n', '\r'], " ") + "\n")
             .collect();
-        let variants = self.entries.iter().map(|entry| {
-            let variant = format_ident!("{}", entry.variant);
-            quote!(Entry::#variant)
-        });
         let (constants, factory) = (byte_string(&self.layout.constants), byte_string(&self.layout.factory));
         let [count, object_count, attribute_count, nodes_count, size] = [
             self.entries.len(),
@@ -264,9 +268,6 @@ impl Plan<'_> {
 
             /// The image after a factory reset of node 0.
             static FACTORY: [u8; #size] = *#factory;
-
-            /// Entries by row, by name.
-            static BY_ROW: [Entry; #count] = [#(#variants),*];
 
             /// Names of the entries, one a line.
             static NAMES: &str = #names;
