@@ -1,10 +1,10 @@
 //! Rules of single communication objects (CiA 301 9.6.3), beyond type and limits.
 
 use crate::abort::AbortCode;
-use crate::dictionary::value;
+use crate::dictionary::value_of;
 use crate::image::unsigned;
 use crate::pdo;
-use crate::table::Table;
+use crate::table::{Found, Place, Row, Table};
 
 /// Bit 31 of COB-ID entries: the message does not exist.
 pub(crate) const NOT_VALID: u32 = 1 << 31;
@@ -19,6 +19,18 @@ const FRAME: u32 = 0x3FFF_FFFF;
 const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// "load", the signature of 1011h.
 const LOAD: u32 = u32::from_le_bytes(*b"load");
+
+/// [`check`] for a row of the communication area.
+#[inline(never)]
+pub(crate) fn check_row(
+    table: &'static Table,
+    image: &[u8],
+    row: Row,
+    data: &[u8],
+) -> Result<bool, AbortCode> {
+    let (index, sub) = table.id(row);
+    check(table, image, index, sub, data)
+}
 
 /// Checks a value of the right type and within its limits for a communication object; `false` when it is a command that is
 /// not stored.
@@ -73,8 +85,30 @@ pub(crate) fn check(
 
 /// The present number of an entry, where it exists.
 pub(crate) fn current(table: &'static Table, image: &[u8], index: u16, sub: u8) -> Option<u32> {
-    let row = table.find(index, sub).ok()?;
-    u32::try_from(unsigned(&value(table, image, row).ok()?)).ok()
+    at_row(table, image, table.lookup(index, sub).ok()?)
+}
+
+/// The present number of an entry.
+#[expect(clippy::inline_always, reason = "see `pdo`")]
+#[inline(always)]
+pub(crate) fn at_row(table: &'static Table, image: &[u8], found: Found) -> Option<u32> {
+    let bytes = match found.shared.place {
+        Place::Image => image,
+        Place::Constant => table.constants,
+        _ => return slow_row(table, image, found),
+    };
+    let bytes = bytes.get(found.offset()..)?;
+    match found.shared.size {
+        4 => bytes.first_chunk().map(|bytes| u32::from_le_bytes(*bytes)),
+        2 => bytes.first_chunk().map(|bytes| u16::from_le_bytes(*bytes).into()),
+        1 => bytes.first().copied().map(u32::from),
+        _ => slow_row(table, image, found),
+    }
+}
+
+#[inline(never)]
+fn slow_row(table: &'static Table, image: &[u8], found: Found) -> Option<u32> {
+    u32::try_from(unsigned(&value_of(table, image, found).ok()?)).ok()
 }
 
 /// Refuses to read an entry of the error history that holds no error.

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use crate::abort::AbortCode;
 use crate::application::Application;
 use crate::communication;
-use crate::table::{Attributes, DataType, Flags, NONE, Place, Region, Row, Storage, Table};
+use crate::table::{Attributes, DataType, Flags, Found, NONE, Place, Region, Row, Storage, Table};
 use crate::value::{Value, number, prefix, trimmed};
 
 /// A dictionary: values in a byte image, everything else in a constant table. The generator implements the required part;
@@ -56,14 +56,14 @@ pub trait Dictionary: Sized {
     /// ([`upload_domain`](Self::upload_domain)); what an alias says about a value that it cannot show.
     #[inline]
     fn read(&self, index: u16, sub: u8) -> Result<Value<'_>, AbortCode> {
-        let row = Self::TABLE.find(index, sub)?;
-        if !Self::TABLE.attributes(row).flags.has(Flags::READ) {
+        let found = Self::TABLE.lookup(index, sub)?;
+        if !found.shared.flags.has(Flags::READ) {
             return Err(AbortCode::WRITE_ONLY);
         }
         if index == 0x1003 && sub > 0 {
             communication::history_has(Self::TABLE, self.image(), sub)?;
         }
-        value(Self::TABLE, self.image(), row)
+        value_of(Self::TABLE, self.image(), found)
     }
 
     /// [`read`](Self::read), after the application had the chance to bring the value up to date.
@@ -96,12 +96,11 @@ pub trait Dictionary: Sized {
         data: &[u8],
         application: &mut A,
     ) -> Result<Self::Entry, AbortCode> {
-        let row = Self::TABLE.find(index, sub)?;
-        let shared = Self::TABLE.attributes(row);
-        if !shared.flags.has(Flags::WRITE) {
+        let found = Self::TABLE.lookup(index, sub)?;
+        if !found.shared.flags.has(Flags::WRITE) {
             return Err(AbortCode::READ_ONLY);
         }
-        write_row(self, row, (index, sub), data, application)
+        write_row(self, found, data, application)
     }
 
     /// Reads a DOMAIN from an offset on, from the application; returns the number of bytes, 0 at its end.
@@ -211,20 +210,39 @@ pub(crate) fn holder(table: &Table, row: Row) -> Row {
 /// The value of a row, whatever its access.
 #[inline]
 pub(crate) fn value<'a>(table: &'static Table, image: &'a [u8], row: Row) -> Result<Value<'a>, AbortCode> {
-    let shared = table.attributes(row);
+    value_of(table, image, table.found(row))
+}
+
+/// The value of an entry, whatever its access.
+#[inline]
+pub(crate) fn value_of<'a>(
+    table: &'static Table,
+    image: &'a [u8],
+    found: Found,
+) -> Result<Value<'a>, AbortCode> {
+    let shared = found.shared;
     let bytes = match shared.place {
         Place::Image => image,
         Place::Constant => table.constants,
-        Place::Alias => return alias_value(table, image, row),
+        Place::Alias => return alias_value(table, image, found.row),
         Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
     };
-    let at = table.offset(row);
-    let variable = shared.data_type.is_string() && shared.place == Place::Image;
-    let size = usize::from(shared.size) + if variable { prefix(shared.data_type) } else { 0 };
-    let bytes = bytes.get(at..at + size).ok_or(AbortCode::INTERNAL)?;
-    Ok(Value::of(if variable { trimmed(shared.data_type, bytes) } else { bytes }))
+    let at = found.offset();
+    if shared.data_type.is_string() && shared.place == Place::Image {
+        return string_value(bytes, at, shared);
+    }
+    let bytes = bytes.get(at..at + usize::from(shared.size)).ok_or(AbortCode::INTERNAL)?;
+    Ok(Value::of(bytes))
 }
 
+#[inline(never)]
+fn string_value<'a>(bytes: &'a [u8], at: usize, shared: &Attributes) -> Result<Value<'a>, AbortCode> {
+    let size = usize::from(shared.size) + prefix(shared.data_type);
+    let bytes = bytes.get(at..at + size).ok_or(AbortCode::INTERNAL)?;
+    Ok(Value::of(trimmed(shared.data_type, bytes)))
+}
+
+#[inline(never)]
 fn alias_value(table: &'static Table, image: &[u8], row: Row) -> Result<Value<'static>, AbortCode> {
     let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
     let target = value(table, image, alias.target)?;
@@ -259,64 +277,57 @@ fn check_condition<D: Dictionary>(dictionary: &D, shared: &Attributes) -> Result
     if open { Ok(()) } else { Err(AbortCode::DEVICE_STATE) }
 }
 
-/// Checks and writes the value of a row whose access is settled; `id` is its index and sub-index.
+/// Checks and writes the value of an entry whose access is settled.
 pub(crate) fn write_row<D: Dictionary, A: Application<D>>(
     dictionary: &mut D,
-    row: Row,
-    id: (u16, u8),
+    found: Found,
     data: &[u8],
     application: &mut A,
 ) -> Result<D::Entry, AbortCode> {
-    let shared = D::TABLE.attributes(row);
-    check_lock::<D, A>(shared, application)?;
+    check_lock::<D, A>(found.shared, application)?;
+    check_value(D::TABLE, found.shared, data)?;
     let mut buffer = [0; 8];
-    let (holder, data) = checked(D::TABLE, row, data, &mut buffer)?;
-    let (index, sub) = if holder == row { id } else { D::TABLE.id(holder) };
-    let store = !(0x1000..0x2000).contains(&index)
-        || communication::check(D::TABLE, dictionary.image(), index, sub, data)?;
-    check_condition(dictionary, shared)?;
-    if holder != row {
-        check_condition(dictionary, D::TABLE.attributes(holder))?;
+    let (holder, data) = match found.shared.place {
+        Place::Image => (found, data),
+        Place::Constant => return Err(AbortCode::READ_ONLY),
+        Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
+        Place::Alias => aliased(D::TABLE, found, data, &mut buffer)?,
+    };
+    let store = holder.row >= D::TABLE.first_application_row
+        || communication::check_row(D::TABLE, dictionary.image(), holder.row, data)?;
+    check_condition(dictionary, found.shared)?;
+    if holder.row != found.row {
+        check_condition(dictionary, holder.shared)?;
     }
-    let entry = D::entry(holder).ok_or(AbortCode::INTERNAL)?;
+    let entry = D::entry(holder.row).ok_or(AbortCode::INTERNAL)?;
     application.accept(dictionary, entry, data)?;
     if store {
-        put(D::TABLE, dictionary.image_mut(), holder, data)?;
+        put(dictionary.image_mut(), holder, data)?;
         application.changed(dictionary, entry);
     }
     Ok(entry)
 }
 
-/// Checks length and value; returns the row that gets it and, of an alias, what its target gets.
-fn checked<'a>(
+/// What the target of an alias gets.
+#[inline(never)]
+fn aliased<'a>(
     table: &'static Table,
-    row: Row,
-    data: &'a [u8],
+    found: Found,
+    data: &[u8],
     buffer: &'a mut [u8; 8],
-) -> Result<(Row, &'a [u8]), AbortCode> {
-    let shared = table.attributes(row);
-    check_value(table, shared, data)?;
-    match shared.place {
-        Place::Image => Ok((row, data)),
-        Place::Constant => Err(AbortCode::READ_ONLY),
-        Place::Application => Err(AbortCode::UNSUPPORTED_ACCESS),
-        Place::Alias => {
-            let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
-            let target = table.attributes(alias.target);
-            *buffer = alias.view.target(number(shared.data_type, data))?.to_le_bytes();
-            let (value, rest) = buffer.split_at(usize::from(target.size).min(8));
-            let sign = if target.data_type.is_signed() && value.last().is_some_and(|last| last & 0x80 != 0) {
-                0xFF
-            } else {
-                0
-            };
-            if rest.iter().any(|byte| *byte != sign) {
-                return Err(AbortCode::INVALID_VALUE);
-            }
-            check_value(table, target, value)?;
-            Ok((alias.target, value))
-        }
+) -> Result<(Found, &'a [u8]), AbortCode> {
+    let alias = table.alias(found.row).ok_or(AbortCode::INTERNAL)?;
+    let holder = table.found(alias.target);
+    let target = holder.shared;
+    *buffer = alias.view.target(number(found.shared.data_type, data))?.to_le_bytes();
+    let (value, rest) = buffer.split_at(usize::from(target.size).min(8));
+    let negative = target.data_type.is_signed() && value.last().is_some_and(|last| last & 0x80 != 0);
+    let sign = if negative { 0xFF } else { 0 };
+    if rest.iter().any(|byte| *byte != sign) {
+        return Err(AbortCode::INVALID_VALUE);
     }
+    check_value(table, target, value)?;
+    Ok((holder, value))
 }
 
 fn check_value(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), AbortCode> {
@@ -339,6 +350,10 @@ fn check_value(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), Ab
     if shared.limits == NONE && shared.values == NONE {
         return Ok(());
     }
+    check_number(table, shared, data)
+}
+
+fn check_number(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), AbortCode> {
     let number = number(shared.data_type, data);
     let listed =
         table.values.get(usize::from(shared.values)).is_some_and(|list| list.binary_search(&number).is_ok());
@@ -372,17 +387,44 @@ fn check_text(data_type: DataType, data: &[u8]) -> Result<(), AbortCode> {
     if fine { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
 }
 
-fn put(table: &Table, image: &mut [u8], row: Row, data: &[u8]) -> Result<(), AbortCode> {
-    let shared = table.attributes(row);
-    let at = table.offset(row);
-    let size = usize::from(shared.size) + prefix(shared.data_type);
-    let place = image.get_mut(at..at + size).ok_or(AbortCode::INTERNAL)?;
-    store(place, shared.data_type, data);
+#[inline]
+fn put(image: &mut [u8], holder: Found, data: &[u8]) -> Result<(), AbortCode> {
+    let at = holder.offset();
+    if holder.shared.data_type.is_string() {
+        let size = usize::from(holder.shared.size) + prefix(holder.shared.data_type);
+        let place = image.get_mut(at..at + size).ok_or(AbortCode::INTERNAL)?;
+        store_string(place, holder.shared.data_type, data);
+        return Ok(());
+    }
+    let place = image.get_mut(at..at + data.len()).ok_or(AbortCode::INTERNAL)?;
+    copy(place, data);
     Ok(())
 }
 
-/// Puts a value that fits into its place; a string is padded with zeros.
-pub(crate) fn store(place: &mut [u8], data_type: DataType, data: &[u8]) {
+/// Copies bytes of the same number: a call of `memcpy` takes longer than the copy of a small number.
+#[inline]
+fn copy(place: &mut [u8], data: &[u8]) {
+    let done =
+        copy_exactly::<4>(place, data) || copy_exactly::<2>(place, data) || copy_exactly::<1>(place, data);
+    if !done {
+        place.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
+    }
+}
+
+#[inline]
+fn copy_exactly<const N: usize>(place: &mut [u8], data: &[u8]) -> bool {
+    match (<&mut [u8; N]>::try_from(place), <&[u8; N]>::try_from(data)) {
+        (Ok(place), Ok(data)) => {
+            *place = *data;
+            true
+        }
+        _ => false,
+    }
+}
+
+/// Puts a string that fits into its place, padded with zeros.
+#[inline(never)]
+pub(crate) fn store_string(place: &mut [u8], data_type: DataType, data: &[u8]) {
     let length = u16::try_from(data.len()).unwrap_or_default().to_le_bytes();
     let (head, rest) = place.split_at_mut(prefix(data_type).min(place.len()));
     head.iter_mut().zip(length).for_each(|(byte, new)| *byte = new);

@@ -3,14 +3,19 @@
 //! The mapping parameters in the dictionary are the only description of a PDO, so that a mapping changed over the bus works
 //! like the default one. For the default mappings, the generator also prints structures with straight-line code.
 
+#![expect(
+    clippy::inline_always,
+    reason = "not inlined, packing takes four times as long: it waits for its own stores"
+)]
+
 use core::ops::Deref;
 
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::communication::{NOT_VALID, check_cob_id, current};
-use crate::dictionary::{Dictionary, holder, value, write_row};
+use crate::communication::{NOT_VALID, at_row, check_cob_id, current};
+use crate::dictionary::{Dictionary, holder, value_of, write_row};
 use crate::image::unsigned;
-use crate::table::{DataType, Flags, Table};
+use crate::table::{Attributes, DataType, Flags, Found, Place, Row, Table};
 
 /// The mapping object of a PDO is this far behind its communication object.
 const MAPPING: u16 = 0x200;
@@ -71,16 +76,15 @@ pub fn pack<D: Dictionary, A: Application<D>>(
     number: u16,
     application: &mut A,
 ) -> Result<Frame, PdoError> {
-    let (object, count) = mapping(dictionary, TRANSMIT, number)?;
+    let mapping = Mapping::of(dictionary, TRANSMIT, number)?;
     let (mut data, mut length) = (0u64, 0u32);
-    for sub in 1..=count {
-        let parameter = current(D::TABLE, dictionary.image(), object, sub).ok_or(PdoError::NotMapped)?;
-        let (index, entry_sub, bits) = parts(parameter);
-        let row = D::TABLE.find(index, entry_sub).map_err(|_| PdoError::NotMapped)?;
-        if let Some(entry) = D::entry(holder(D::TABLE, row)) {
+    for at in 0..mapping.count {
+        let (found, bits) = mapping.mapped(dictionary, at)?;
+        let Some(found) = found else { return Err(PdoError::NotMapped) };
+        if let Some(entry) = D::entry(holder(D::TABLE, found.row)) {
             application.refresh(dictionary, entry);
         }
-        let bytes = value(D::TABLE, dictionary.image(), row).map_err(PdoError::NoValue)?;
+        let bytes = value_of(D::TABLE, dictionary.image(), found).map_err(PdoError::NoValue)?;
         if length + bits > FRAME_BITS {
             return Err(PdoError::NotMapped);
         }
@@ -102,12 +106,10 @@ pub fn unpack<D: Dictionary, A: Application<D>>(
     data: &[u8],
     application: &mut A,
 ) -> Result<Received<D::Entry>, PdoError> {
-    let (object, count) = mapping(dictionary, RECEIVE, number)?;
-    let parameter =
-        |dictionary: &D, sub| current(D::TABLE, dictionary.image(), object, sub).ok_or(PdoError::NotMapped);
+    let mapping = Mapping::of(dictionary, RECEIVE, number)?;
     let mut length = 0;
-    for sub in 1..=count {
-        length += parts(parameter(dictionary, sub)?).2;
+    for at in 0..mapping.count {
+        length += mapping.mapped_bits(dictionary, at)?;
     }
     let bytes = usize::try_from(length.div_ceil(8)).unwrap_or(usize::MAX);
     if length > FRAME_BITS {
@@ -118,18 +120,15 @@ pub fn unpack<D: Dictionary, A: Application<D>>(
     }
     let mut received = Received { too_long: data.len() > bytes, refused: None };
     let mut rest = unsigned(data.get(..bytes).unwrap_or(data));
-    for sub in 1..=count {
-        let (index, entry_sub, bits) = parts(parameter(dictionary, sub)?);
+    for at in 0..mapping.count {
+        let (found, bits) = mapping.mapped(dictionary, at)?;
         let number = (rest & mask(bits)).to_le_bytes();
         rest = rest.checked_shr(bits).unwrap_or_default();
-        if is_dummy(index, entry_sub) {
-            continue;
-        }
-        let row = D::TABLE.find(index, entry_sub).map_err(|_| PdoError::NotMapped)?;
-        let size = usize::from(D::TABLE.attributes(row).size).min(8);
+        let Some(found) = found else { continue };
+        let size = usize::from(found.shared.size).min(8);
         let value = number.get(..size).unwrap_or(&number);
-        if let Err(code) = write_row(dictionary, row, (index, entry_sub), value, application)
-            && let (None, Some(entry)) = (received.refused, D::entry(row))
+        if let Err(code) = write_row(dictionary, found, value, application)
+            && let (None, Some(entry)) = (received.refused, D::entry(found.row))
         {
             received.refused = Some((entry, code));
         }
@@ -160,21 +159,90 @@ pub fn put_bits<const N: usize>(data: &mut [u8; N], first: u32, bits: u32, value
     data.iter_mut().zip(all).for_each(|(byte, new)| *byte |= new);
 }
 
-/// The mapping object of a PDO and the number of its entries.
-fn mapping<D: Dictionary>(dictionary: &D, first: u16, number: u16) -> Result<(u16, u8), PdoError> {
-    if !(1..=512).contains(&number) {
-        return Err(PdoError::NoPdo);
+/// The mapping of a PDO now.
+#[derive(Clone, Copy)]
+struct Mapping {
+    /// Row of the number of entries; their parameters follow.
+    number: Row,
+    count: u8,
+    /// The rows that are mapped, as long as the mapping is the default one: then nothing has to be searched.
+    rows: Option<&'static [Row]>,
+}
+
+impl Mapping {
+    /// The mapping of a PDO that exists now.
+    #[inline(always)]
+    fn of<D: Dictionary>(dictionary: &D, first: u16, number: u16) -> Result<Self, PdoError> {
+        if !(1..=512).contains(&number) {
+            return Err(PdoError::NoPdo);
+        }
+        let (table, image) = (D::TABLE, dictionary.image());
+        let index = first + number - 1;
+        let at = table.pdos.binary_search_by_key(&index, |pdo| pdo.index).map_err(|_| PdoError::NoPdo)?;
+        let pdo = table.pdos.get(at).ok_or(PdoError::NoPdo)?;
+        let cob_id = at_row(table, image, table.found(pdo.cob_id)).ok_or(PdoError::NoPdo)?;
+        if cob_id & NOT_VALID != 0 {
+            return Err(PdoError::NotValid);
+        }
+        let count = at_row(table, image, table.found(pdo.mapping)).and_then(|count| u8::try_from(count).ok());
+        let Some(count @ 1..=64) = count else { return Err(PdoError::NotMapped) };
+        let rows = Some(pdo.rows).filter(|rows| {
+            rows.len() == usize::from(count) && is_default(table, image, table.found(pdo.mapping + 1), count)
+        });
+        Ok(Self { number: pdo.mapping, count, rows })
     }
-    let object = first + number - 1;
-    let cob_id = current(D::TABLE, dictionary.image(), object, 1).ok_or(PdoError::NoPdo)?;
-    if cob_id & NOT_VALID != 0 {
-        return Err(PdoError::NotValid);
+
+    /// A mapping parameter.
+    #[inline(always)]
+    fn parameter<D: Dictionary>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
+        let row = self.number + 1 + Row::from(at);
+        at_row(D::TABLE, dictionary.image(), D::TABLE.found(row)).ok_or(PdoError::NotMapped)
     }
-    let count = current(D::TABLE, dictionary.image(), object + MAPPING, 0).ok_or(PdoError::NotMapped)?;
-    match u8::try_from(count) {
-        Ok(count @ 1..=64) => Ok((object + MAPPING, count)),
-        _ => Err(PdoError::NotMapped),
+
+    /// What is mapped at a position, and its bits; no entry for a placeholder.
+    #[inline(always)]
+    fn mapped<D: Dictionary>(self, dictionary: &D, at: u8) -> Result<(Option<Found>, u32), PdoError> {
+        if let Some(rows) = self.rows {
+            let found = D::TABLE.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX));
+            return Ok((Some(found), width(found.shared)));
+        }
+        let (index, sub, bits) = parts(self.parameter(dictionary, at)?);
+        if is_dummy(index, sub) {
+            return Ok((None, bits));
+        }
+        let found = D::TABLE.lookup(index, sub).map_err(|_| PdoError::NotMapped)?;
+        Ok((Some(found), bits))
     }
+
+    /// The bits of what is mapped at a position.
+    #[inline(always)]
+    fn mapped_bits<D: Dictionary>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
+        if let Some(rows) = self.rows {
+            let found = D::TABLE.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX));
+            return Ok(width(found.shared));
+        }
+        Ok(parts(self.parameter(dictionary, at)?).2)
+    }
+}
+
+/// Whether mapping parameters are those of the factory; constant ones are.
+#[inline]
+fn is_default(table: &Table, image: &[u8], first: Found, count: u8) -> bool {
+    if first.shared.place == Place::Constant {
+        return true;
+    }
+    let part = first.offset()..first.offset() + 4 * usize::from(count);
+    match (image.get(part.clone()), table.factory.get(part)) {
+        // Word by word: for a few, a call of `memcmp` takes longer.
+        (Some(now), Some(factory)) => now.as_chunks::<4>().0.iter().eq(factory.as_chunks::<4>().0),
+        _ => false,
+    }
+}
+
+/// Bits of a value in a PDO.
+#[inline]
+fn width(shared: &Attributes) -> u32 {
+    if shared.data_type == DataType::Boolean { 1 } else { u32::from(shared.size) * 8 }
 }
 
 /// Index, sub-index and bits of a mapping parameter.

@@ -13,8 +13,15 @@ pub const NONE: u16 = u16::MAX;
 /// Everything about a dictionary but the values in RAM.
 #[derive(Debug)]
 pub struct Table {
-    /// Objects by ascending index.
-    pub objects: &'static [ObjectRow],
+    /// Objects whose indices follow each other without a gap, by ascending index, and one that ends them: index FFFFh and
+    /// the number of objects.
+    pub runs: &'static [Run],
+    /// PDOs by ascending index.
+    pub pdos: &'static [Pdo],
+    /// The first row at or above index 2000h: the rows before are communication objects.
+    pub first_application_row: Row,
+    /// The row of the first entry of each object, by ascending index, and the number of entries.
+    pub objects: &'static [Row],
     /// Entries in the order of their objects.
     pub entries: &'static [EntryRow],
     /// What entries have in common; each combination once.
@@ -41,13 +48,45 @@ pub struct Table {
     pub dummies: u8,
 }
 
-/// An object: where its entries begin.
+/// Objects with consecutive indices.
 #[derive(Debug, Clone, Copy)]
-pub struct ObjectRow {
-    /// Index.
+pub struct Run {
+    /// Index of the first.
     pub index: u16,
-    /// Row of its first entry; the others follow.
-    pub first: Row,
+    /// Its position in [`Table::objects`].
+    pub object: u16,
+}
+
+/// A PDO and its default mapping.
+#[derive(Debug, Clone, Copy)]
+pub struct Pdo {
+    /// Index of its communication object.
+    pub index: u16,
+    /// Row of its COB-ID.
+    pub cob_id: Row,
+    /// Row of the number of mapped entries.
+    pub mapping: Row,
+    /// Rows that are mapped after a factory reset.
+    pub rows: &'static [Row],
+}
+
+/// An entry, found.
+#[derive(Debug, Clone, Copy)]
+pub struct Found {
+    /// Its row.
+    pub row: Row,
+    /// Low half of its offset.
+    pub(crate) place: u16,
+    /// What it is.
+    pub shared: &'static Attributes,
+}
+
+impl Found {
+    /// Its offset in the image or in the constants.
+    #[inline]
+    pub(crate) fn offset(self) -> usize {
+        usize::from(self.shared.page) << 16 | usize::from(self.place)
+    }
 }
 
 /// An entry.
@@ -57,18 +96,6 @@ pub struct EntryRow {
     pub attributes: u16,
     /// Low half of the offset in the image or in the constants; position in [`Table::aliases`].
     pub place: u16,
-}
-
-/// Objects from pairs of index and first row.
-pub const fn objects<const N: usize>(pairs: [[u16; 2]; N]) -> [ObjectRow; N] {
-    let mut rows = [ObjectRow { index: 0, first: 0 }; N];
-    let mut at = 0;
-    while at < N {
-        let [index, first] = pairs[at];
-        rows[at] = ObjectRow { index, first };
-        at += 1;
-    }
-    rows
 }
 
 /// Entries from pairs of attributes and place.
@@ -270,46 +297,83 @@ impl Table {
     /// The row of an entry.
     #[inline]
     pub fn find(&self, index: u16, sub: u8) -> Result<Row, AbortCode> {
-        let after = self.objects.partition_point(|object| object.index <= index);
-        let object = match after.checked_sub(1).and_then(|at| self.objects.get(at)) {
-            Some(object) if object.index == index => object,
-            _ => return Err(AbortCode::NO_OBJECT),
+        self.lookup(index, sub).map(|found| found.row)
+    }
+
+    /// The rows of an object: the first, and the one after the last.
+    #[inline]
+    pub(crate) fn object(&self, index: u16) -> Result<(Row, Row), AbortCode> {
+        let after = self.runs.partition_point(|run| run.index <= index);
+        let (Some(run), Some(next)) =
+            (after.checked_sub(1).and_then(|at| self.runs.get(at)), self.runs.get(after))
+        else {
+            return Err(AbortCode::NO_OBJECT);
         };
-        let end = self.objects.get(after).map_or(self.entries.len(), |next| usize::from(next.first));
-        let row = usize::from(object.first) + usize::from(sub);
-        // The last entry of the object stands for sub-indices beyond it, only to ask whether there are gaps.
-        let Some(entry) = self.entries.get(row.min(end.wrapping_sub(1))) else {
-            return Err(AbortCode::NO_SUB_INDEX);
-        };
-        if self.shared(*entry).flags.has(Flags::SPARSE) {
-            return self.find_sparse(object.first, sub);
+        let object = usize::from(run.object) + usize::from(index - run.index);
+        if object >= usize::from(next.object) {
+            return Err(AbortCode::NO_OBJECT);
         }
-        if row < end { Ok(object.first + u16::from(sub)) } else { Err(AbortCode::NO_SUB_INDEX) }
+        match self.objects.get(object..).and_then(<[Row]>::first_chunk::<2>) {
+            Some([first, end]) => Ok((*first, *end)),
+            None => Err(AbortCode::NO_OBJECT),
+        }
+    }
+
+    /// An entry.
+    #[inline]
+    pub fn lookup(&self, index: u16, sub: u8) -> Result<Found, AbortCode> {
+        let (first, end) = self.object(index)?;
+        let row = first.saturating_add(u16::from(sub));
+        if row < end {
+            let found = self.found(row);
+            if !found.shared.flags.has(Flags::SPARSE) {
+                return Ok(found);
+            }
+        }
+        self.find_sparse(first, sub)
+    }
+
+    /// What is in a row.
+    #[inline]
+    pub(crate) fn found(&self, row: Row) -> Found {
+        let EntryRow { attributes, place } = self.row(row);
+        Found { row, place, shared: self.attributes.get(usize::from(attributes)).unwrap_or(&NOTHING) }
     }
 
     #[cold]
-    fn find_sparse(&self, first: Row, sub: u8) -> Result<Row, AbortCode> {
+    fn find_sparse(&self, first: Row, sub: u8) -> Result<Found, AbortCode> {
         let object = self.sparse.binary_search_by_key(&first, |object| object.first);
         let subs = object.ok().and_then(|at| self.sparse.get(at)).map_or(&[][..], |object| object.subs);
         match subs.binary_search(&sub) {
-            Ok(at) => Ok(first + u16::try_from(at).unwrap_or_default()),
+            Ok(at) => Ok(self.found(first + u16::try_from(at).unwrap_or_default())),
             Err(_) => Err(AbortCode::NO_SUB_INDEX),
         }
     }
 
     /// Index and sub-index of a row.
     pub fn id(&self, row: Row) -> (u16, u8) {
-        let after = self.objects.partition_point(|object| object.first <= row);
-        let Some(object) = after.checked_sub(1).and_then(|at| self.objects.get(at)) else { return (0, 0) };
-        let distance = row - object.first;
+        let after = self.objects.partition_point(|first| *first <= row);
+        let Some((at, first)) = after.checked_sub(1).and_then(|at| Some((at, *self.objects.get(at)?))) else {
+            return (0, 0);
+        };
+        let Some(run) = self
+            .runs
+            .partition_point(|run| usize::from(run.object) <= at)
+            .checked_sub(1)
+            .and_then(|at| self.runs.get(at))
+        else {
+            return (0, 0);
+        };
+        let index = run.index + u16::try_from(at).unwrap_or_default() - run.object;
+        let distance = row - first;
         let sub = if self.attributes(row).flags.has(Flags::SPARSE) {
-            let sparse = self.sparse.binary_search_by_key(&object.first, |object| object.first);
+            let sparse = self.sparse.binary_search_by_key(&first, |object| object.first);
             let subs = sparse.ok().and_then(|at| self.sparse.get(at)).map(|object| object.subs);
             subs.and_then(|subs| subs.get(usize::from(distance))).copied().unwrap_or_default()
         } else {
             u8::try_from(distance).unwrap_or_default()
         };
-        (object.index, sub)
+        (index, sub)
     }
 
     /// What an entry is.

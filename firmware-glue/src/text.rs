@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::dictionary::store;
+use crate::dictionary::store_string;
 use crate::table::DataType;
 use crate::value::{prefix, trimmed};
 
@@ -98,7 +98,7 @@ fn put_string(
     bytes: &[u8],
 ) -> Result<(), NoFit> {
     let place = image.get_mut(at..at + capacity + prefix(data_type)).filter(|_| bytes.len() <= capacity);
-    store(place.ok_or(NoFit)?, data_type, bytes);
+    store_string(place.ok_or(NoFit)?, data_type, bytes);
     Ok(())
 }
 

@@ -7309,6 +7309,7 @@ impl glue::Dictionary for Pmc {
 
     const TABLE: &'static glue::Table = &TABLE;
 
+    #[allow(clippy::too_many_lines)]
     #[inline]
     fn entry(row: u16) -> Option<Entry> {
         match row {
@@ -7902,225 +7903,276 @@ const VIEW_58F4: glue::View = glue::View::plain(
     glue::Outside::Saturate,
 );
 
-/// What every entry is.
-static TABLE: glue::Table = glue::Table {
-    objects: &OBJECTS,
-    entries: &ENTRIES,
-    attributes: &ATTRIBUTES,
-    sparse: &[],
-    aliases: &[
-        glue::Alias {
-            target: 155,
-            view: VIEW_5064,
-        },
-        glue::Alias {
-            target: 161,
-            view: VIEW_506C,
-        },
-        glue::Alias {
-            target: 166,
-            view: VIEW_5079,
-        },
-        glue::Alias {
-            target: 167,
-            view: VIEW_507A,
-        },
-        glue::Alias {
-            target: 175,
-            view: VIEW_5081,
-        },
-        glue::Alias {
-            target: 176,
-            view: VIEW_5083,
-        },
-        glue::Alias {
-            target: 177,
-            view: VIEW_5084,
-        },
-        glue::Alias {
-            target: 188,
-            view: VIEW_50B0,
-        },
-        glue::Alias {
-            target: 189,
-            view: VIEW_50B1,
-        },
-        glue::Alias {
-            target: 197,
-            view: VIEW_50F4,
-        },
-        glue::Alias {
-            target: 219,
-            view: VIEW_50FF,
-        },
-        glue::Alias {
-            target: 249,
-            view: VIEW_5864,
-        },
-        glue::Alias {
-            target: 263,
-            view: VIEW_58F4,
-        },
-    ],
-    limits: &[
-        glue::table::Limits {
-            low: 0,
-            high: 2000,
-        },
-        glue::table::Limits {
-            low: 0,
-            high: 32767,
-        },
-        glue::table::Limits {
-            low: 6,
-            high: 15,
-        },
-    ],
-    values: &[
-        &[0, 2],
-        &[0, 3, 255],
-        &[0, 1, 2, 3],
-        &[-1, 0, 1, 2, 3],
-        &[-113, 0, 1, 3, 6, 8, 9],
-        &[-1, 0],
-        &[35],
-        &[0, 7, 10, 13, 14, 15, 16],
-        &[0, 1, 2, 130, 143],
-    ],
-    constants: b"\
-        \x50\x4D\x43\x04\x02\x01\x03\x06\x0F\x0A",
-    factory: &FACTORY,
-    node_id_places: &NODE_ID_PLACES,
-    regions: &[
-        glue::table::Region {
-            storage: glue::Storage::Communication,
-            start: 0,
-            end: 304,
-            layout: 0x9A36_7C8D,
-        },
-        glue::table::Region {
-            storage: glue::Storage::Application,
-            start: 304,
-            end: 517,
-            layout: 0x101D_CCE0,
-        },
-    ],
-    granularity: 8,
-    dummies: 0x00,
-};
+/// Rows of the first entries of the objects, by ascending index, and the number of entries.
+static OBJECTS: [u16; 110] = [
+    0, 1, 2, 4, 5, 10, 15, 16, 17, 22, 25, 28, 31, 34, 37, 46, 55, 64, 73, 76, 79, 82,
+    85, 94, 103, 112, 121, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133, 134,
+    135, 136, 137, 140, 141, 142, 143, 144, 145, 146, 147, 148, 149, 150, 151, 152, 153,
+    154, 155, 156, 157, 158, 159, 160, 161, 162, 163, 164, 165, 166, 167, 168, 169, 172,
+    173, 174, 175, 176, 177, 178, 181, 184, 187, 188, 189, 190, 191, 192, 195, 196, 197,
+    198, 202, 209, 214, 215, 219, 220, 221, 237, 238, 249, 250, 251, 252, 253, 254, 257,
+    260, 263, 264,
+];
 
-/// Objects: index and row of the first entry.
-static OBJECTS: [glue::table::ObjectRow; 109] = glue::table::objects([
-    [0x1000, 0],
-    [0x1001, 1],
-    [0x1003, 2],
-    [0x1008, 4],
-    [0x1010, 5],
-    [0x1011, 10],
-    [0x1014, 15],
-    [0x1017, 16],
-    [0x1018, 17],
-    [0x1200, 22],
-    [0x1400, 25],
-    [0x1401, 28],
-    [0x1402, 31],
-    [0x1403, 34],
-    [0x1600, 37],
-    [0x1601, 46],
-    [0x1602, 55],
-    [0x1603, 64],
-    [0x1800, 73],
-    [0x1801, 76],
-    [0x1802, 79],
-    [0x1803, 82],
-    [0x1A00, 85],
-    [0x1A01, 94],
-    [0x1A02, 103],
-    [0x1A03, 112],
-    [0x2030, 121],
-    [0x5040, 123],
-    [0x5041, 124],
-    [0x5064, 125],
-    [0x506C, 126],
-    [0x5079, 127],
-    [0x507A, 128],
-    [0x5081, 129],
-    [0x5083, 130],
-    [0x5084, 131],
-    [0x5094, 132],
-    [0x50B0, 133],
-    [0x50B1, 134],
-    [0x50F4, 135],
-    [0x50FF, 136],
-    [0x5664, 137],
-    [0x567A, 140],
-    [0x5681, 141],
-    [0x5683, 142],
-    [0x5684, 143],
-    [0x5864, 144],
-    [0x5894, 145],
-    [0x58F4, 146],
-    [0x6007, 147],
-    [0x603F, 148],
-    [0x6040, 149],
-    [0x6041, 150],
-    [0x6044, 151],
-    [0x605E, 152],
-    [0x6060, 153],
-    [0x6061, 154],
-    [0x6064, 155],
-    [0x6065, 156],
-    [0x6066, 157],
-    [0x6067, 158],
-    [0x6068, 159],
-    [0x606A, 160],
-    [0x606C, 161],
-    [0x6073, 162],
-    [0x6076, 163],
-    [0x6077, 164],
-    [0x6078, 165],
-    [0x6079, 166],
-    [0x607A, 167],
-    [0x607C, 168],
-    [0x607D, 169],
-    [0x607E, 172],
-    [0x607F, 173],
-    [0x6080, 174],
-    [0x6081, 175],
-    [0x6083, 176],
-    [0x6084, 177],
-    [0x608F, 178],
-    [0x6091, 181],
-    [0x6092, 184],
-    [0x6098, 187],
-    [0x60B0, 188],
-    [0x60B1, 189],
-    [0x60BA, 190],
-    [0x60BB, 191],
-    [0x60C2, 192],
-    [0x60C5, 195],
-    [0x60C6, 196],
-    [0x60F4, 197],
-    [0x60F6, 198],
-    [0x60F9, 202],
-    [0x60FB, 209],
-    [0x60FD, 214],
-    [0x60FE, 215],
-    [0x60FF, 219],
-    [0x6402, 220],
-    [0x6410, 221],
-    [0x6502, 237],
-    [0x6510, 238],
-    [0x6864, 249],
-    [0x6865, 250],
-    [0x6866, 251],
-    [0x687C, 252],
-    [0x687E, 253],
-    [0x688F, 254],
-    [0x6891, 257],
-    [0x6892, 260],
-    [0x68F4, 263],
-]);
+/// Runs of indices.
+static RUNS: [glue::table::Run; 64] = [
+    glue::table::Run {
+        index: 0x1000,
+        object: 0,
+    },
+    glue::table::Run {
+        index: 0x1003,
+        object: 2,
+    },
+    glue::table::Run {
+        index: 0x1008,
+        object: 3,
+    },
+    glue::table::Run {
+        index: 0x1010,
+        object: 4,
+    },
+    glue::table::Run {
+        index: 0x1014,
+        object: 6,
+    },
+    glue::table::Run {
+        index: 0x1017,
+        object: 7,
+    },
+    glue::table::Run {
+        index: 0x1200,
+        object: 9,
+    },
+    glue::table::Run {
+        index: 0x1400,
+        object: 10,
+    },
+    glue::table::Run {
+        index: 0x1600,
+        object: 14,
+    },
+    glue::table::Run {
+        index: 0x1800,
+        object: 18,
+    },
+    glue::table::Run {
+        index: 0x1A00,
+        object: 22,
+    },
+    glue::table::Run {
+        index: 0x2030,
+        object: 26,
+    },
+    glue::table::Run {
+        index: 0x5040,
+        object: 27,
+    },
+    glue::table::Run {
+        index: 0x5064,
+        object: 29,
+    },
+    glue::table::Run {
+        index: 0x506C,
+        object: 30,
+    },
+    glue::table::Run {
+        index: 0x5079,
+        object: 31,
+    },
+    glue::table::Run {
+        index: 0x5081,
+        object: 33,
+    },
+    glue::table::Run {
+        index: 0x5083,
+        object: 34,
+    },
+    glue::table::Run {
+        index: 0x5094,
+        object: 36,
+    },
+    glue::table::Run {
+        index: 0x50B0,
+        object: 37,
+    },
+    glue::table::Run {
+        index: 0x50F4,
+        object: 39,
+    },
+    glue::table::Run {
+        index: 0x50FF,
+        object: 40,
+    },
+    glue::table::Run {
+        index: 0x5664,
+        object: 41,
+    },
+    glue::table::Run {
+        index: 0x567A,
+        object: 42,
+    },
+    glue::table::Run {
+        index: 0x5681,
+        object: 43,
+    },
+    glue::table::Run {
+        index: 0x5683,
+        object: 44,
+    },
+    glue::table::Run {
+        index: 0x5864,
+        object: 46,
+    },
+    glue::table::Run {
+        index: 0x5894,
+        object: 47,
+    },
+    glue::table::Run {
+        index: 0x58F4,
+        object: 48,
+    },
+    glue::table::Run {
+        index: 0x6007,
+        object: 49,
+    },
+    glue::table::Run {
+        index: 0x603F,
+        object: 50,
+    },
+    glue::table::Run {
+        index: 0x6044,
+        object: 53,
+    },
+    glue::table::Run {
+        index: 0x605E,
+        object: 54,
+    },
+    glue::table::Run {
+        index: 0x6060,
+        object: 55,
+    },
+    glue::table::Run {
+        index: 0x6064,
+        object: 57,
+    },
+    glue::table::Run {
+        index: 0x606A,
+        object: 62,
+    },
+    glue::table::Run {
+        index: 0x606C,
+        object: 63,
+    },
+    glue::table::Run {
+        index: 0x6073,
+        object: 64,
+    },
+    glue::table::Run {
+        index: 0x6076,
+        object: 65,
+    },
+    glue::table::Run {
+        index: 0x607C,
+        object: 70,
+    },
+    glue::table::Run {
+        index: 0x6083,
+        object: 76,
+    },
+    glue::table::Run {
+        index: 0x608F,
+        object: 78,
+    },
+    glue::table::Run {
+        index: 0x6091,
+        object: 79,
+    },
+    glue::table::Run {
+        index: 0x6098,
+        object: 81,
+    },
+    glue::table::Run {
+        index: 0x60B0,
+        object: 82,
+    },
+    glue::table::Run {
+        index: 0x60BA,
+        object: 84,
+    },
+    glue::table::Run {
+        index: 0x60C2,
+        object: 86,
+    },
+    glue::table::Run {
+        index: 0x60C5,
+        object: 87,
+    },
+    glue::table::Run {
+        index: 0x60F4,
+        object: 89,
+    },
+    glue::table::Run {
+        index: 0x60F6,
+        object: 90,
+    },
+    glue::table::Run {
+        index: 0x60F9,
+        object: 91,
+    },
+    glue::table::Run {
+        index: 0x60FB,
+        object: 92,
+    },
+    glue::table::Run {
+        index: 0x60FD,
+        object: 93,
+    },
+    glue::table::Run {
+        index: 0x6402,
+        object: 96,
+    },
+    glue::table::Run {
+        index: 0x6410,
+        object: 97,
+    },
+    glue::table::Run {
+        index: 0x6502,
+        object: 98,
+    },
+    glue::table::Run {
+        index: 0x6510,
+        object: 99,
+    },
+    glue::table::Run {
+        index: 0x6864,
+        object: 100,
+    },
+    glue::table::Run {
+        index: 0x687C,
+        object: 103,
+    },
+    glue::table::Run {
+        index: 0x687E,
+        object: 104,
+    },
+    glue::table::Run {
+        index: 0x688F,
+        object: 105,
+    },
+    glue::table::Run {
+        index: 0x6891,
+        object: 106,
+    },
+    glue::table::Run {
+        index: 0x68F4,
+        object: 108,
+    },
+    glue::table::Run {
+        index: 0xFFFF,
+        object: 109,
+    },
+];
 
 /// Entries by row: attributes and place.
 static ENTRIES: [glue::table::EntryRow; 264] = glue::table::entries([
@@ -8389,6 +8441,165 @@ static ENTRIES: [glue::table::EntryRow; 264] = glue::table::entries([
     [18, 420],
     [27, 668],
 ]);
+
+/// What every entry is.
+static TABLE: glue::Table = glue::Table {
+    runs: &RUNS,
+    pdos: &[
+        glue::table::Pdo {
+            index: 0x1400,
+            cob_id: 26,
+            mapping: 37,
+            rows: &[149],
+        },
+        glue::table::Pdo {
+            index: 0x1401,
+            cob_id: 29,
+            mapping: 46,
+            rows: &[149, 167],
+        },
+        glue::table::Pdo {
+            index: 0x1402,
+            cob_id: 32,
+            mapping: 55,
+            rows: &[149, 219],
+        },
+        glue::table::Pdo {
+            index: 0x1403,
+            cob_id: 35,
+            mapping: 64,
+            rows: &[167, 175],
+        },
+        glue::table::Pdo {
+            index: 0x1800,
+            cob_id: 74,
+            mapping: 85,
+            rows: &[150],
+        },
+        glue::table::Pdo {
+            index: 0x1801,
+            cob_id: 77,
+            mapping: 94,
+            rows: &[150, 155],
+        },
+        glue::table::Pdo {
+            index: 0x1802,
+            cob_id: 80,
+            mapping: 103,
+            rows: &[150, 161],
+        },
+        glue::table::Pdo {
+            index: 0x1803,
+            cob_id: 83,
+            mapping: 112,
+            rows: &[155, 161],
+        },
+    ],
+    first_application_row: 121,
+    objects: &OBJECTS,
+    entries: &ENTRIES,
+    attributes: &ATTRIBUTES,
+    sparse: &[],
+    aliases: &[
+        glue::Alias {
+            target: 155,
+            view: VIEW_5064,
+        },
+        glue::Alias {
+            target: 161,
+            view: VIEW_506C,
+        },
+        glue::Alias {
+            target: 166,
+            view: VIEW_5079,
+        },
+        glue::Alias {
+            target: 167,
+            view: VIEW_507A,
+        },
+        glue::Alias {
+            target: 175,
+            view: VIEW_5081,
+        },
+        glue::Alias {
+            target: 176,
+            view: VIEW_5083,
+        },
+        glue::Alias {
+            target: 177,
+            view: VIEW_5084,
+        },
+        glue::Alias {
+            target: 188,
+            view: VIEW_50B0,
+        },
+        glue::Alias {
+            target: 189,
+            view: VIEW_50B1,
+        },
+        glue::Alias {
+            target: 197,
+            view: VIEW_50F4,
+        },
+        glue::Alias {
+            target: 219,
+            view: VIEW_50FF,
+        },
+        glue::Alias {
+            target: 249,
+            view: VIEW_5864,
+        },
+        glue::Alias {
+            target: 263,
+            view: VIEW_58F4,
+        },
+    ],
+    limits: &[
+        glue::table::Limits {
+            low: 0,
+            high: 2000,
+        },
+        glue::table::Limits {
+            low: 0,
+            high: 32767,
+        },
+        glue::table::Limits {
+            low: 6,
+            high: 15,
+        },
+    ],
+    values: &[
+        &[0, 2],
+        &[0, 3, 255],
+        &[0, 1, 2, 3],
+        &[-1, 0, 1, 2, 3],
+        &[-113, 0, 1, 3, 6, 8, 9],
+        &[-1, 0],
+        &[35],
+        &[0, 7, 10, 13, 14, 15, 16],
+        &[0, 1, 2, 130, 143],
+    ],
+    constants: b"\
+        \x50\x4D\x43\x04\x02\x01\x03\x06\x0F\x0A",
+    factory: &FACTORY,
+    node_id_places: &NODE_ID_PLACES,
+    regions: &[
+        glue::table::Region {
+            storage: glue::Storage::Communication,
+            start: 0,
+            end: 304,
+            layout: 0x9A36_7C8D,
+        },
+        glue::table::Region {
+            storage: glue::Storage::Application,
+            start: 304,
+            end: 517,
+            layout: 0x101D_CCE0,
+        },
+    ],
+    granularity: 8,
+    dummies: 0x00,
+};
 
 /// What entries have in common.
 static ATTRIBUTES: [glue::table::Attributes; 45] = [

@@ -7387,6 +7387,7 @@ impl glue::Dictionary for Pmm {
 
     const TABLE: &'static glue::Table = &TABLE;
 
+    #[allow(clippy::too_many_lines)]
     #[inline]
     fn entry(row: u16) -> Option<Entry> {
         match row {
@@ -8237,148 +8238,159 @@ pub mod constraints {
     }
 }
 
-/// What every entry is.
-static TABLE: glue::Table = glue::Table {
-    objects: &OBJECTS,
-    entries: &ENTRIES,
-    attributes: &ATTRIBUTES,
-    sparse: &[],
-    aliases: &[],
-    limits: &[
-        glue::table::Limits {
-            low: 60,
-            high: 65535,
-        },
-    ],
-    values: &[&[161], &[0]],
-    constants: b"\
-        \x50\x4D\x4D\x04\x02\x01\x08\x06\x03\x09\x07",
-    factory: &FACTORY,
-    node_id_places: &NODE_ID_PLACES,
-    regions: &[
-        glue::table::Region {
-            storage: glue::Storage::Communication,
-            start: 0,
-            end: 304,
-            layout: 0x9A36_7C8D,
-        },
-        glue::table::Region {
-            storage: glue::Storage::Application,
-            start: 304,
-            end: 487,
-            layout: 0xBCEF_094A,
-        },
-        glue::table::Region {
-            storage: glue::Storage::Remanent,
-            start: 488,
-            end: 496,
-            layout: 0xBAE7_5997,
-        },
-    ],
-    granularity: 8,
-    dummies: 0x00,
-};
+/// Rows of the first entries of the objects, by ascending index, and the number of entries.
+static OBJECTS: [u16; 98] = [
+    0, 1, 2, 4, 5, 10, 15, 16, 17, 22, 25, 28, 31, 34, 37, 46, 55, 64, 73, 76, 79, 82,
+    85, 94, 103, 112, 121, 123, 124, 125, 126, 127, 128, 129, 130, 131, 132, 133, 134,
+    135, 136, 137, 146, 155, 156, 157, 158, 159, 160, 161, 170, 171, 172, 173, 174, 175,
+    176, 177, 178, 179, 180, 181, 182, 183, 184, 185, 186, 187, 188, 189, 190, 195, 196,
+    197, 198, 199, 206, 213, 217, 227, 230, 231, 235, 238, 242, 246, 250, 254, 262, 270,
+    278, 282, 286, 295, 296, 297, 298, 299,
+];
 
-/// Objects: index and row of the first entry.
-static OBJECTS: [glue::table::ObjectRow; 97] = glue::table::objects([
-    [0x1000, 0],
-    [0x1001, 1],
-    [0x1003, 2],
-    [0x1008, 4],
-    [0x1010, 5],
-    [0x1011, 10],
-    [0x1014, 15],
-    [0x1017, 16],
-    [0x1018, 17],
-    [0x1200, 22],
-    [0x1400, 25],
-    [0x1401, 28],
-    [0x1402, 31],
-    [0x1403, 34],
-    [0x1600, 37],
-    [0x1601, 46],
-    [0x1602, 55],
-    [0x1603, 64],
-    [0x1800, 73],
-    [0x1801, 76],
-    [0x1802, 79],
-    [0x1803, 82],
-    [0x1A00, 85],
-    [0x1A01, 94],
-    [0x1A02, 103],
-    [0x1A03, 112],
-    [0x2030, 121],
-    [0x3000, 123],
-    [0x3001, 124],
-    [0x3002, 125],
-    [0x3003, 126],
-    [0x3004, 127],
-    [0x3005, 128],
-    [0x3006, 129],
-    [0x3007, 130],
-    [0x3008, 131],
-    [0x3009, 132],
-    [0x3010, 133],
-    [0x3011, 134],
-    [0x3012, 135],
-    [0x3013, 136],
-    [0x301F, 137],
-    [0x3020, 146],
-    [0x3040, 155],
-    [0x3050, 156],
-    [0x3051, 157],
-    [0x3052, 158],
-    [0x3053, 159],
-    [0x3060, 160],
-    [0x3061, 161],
-    [0x3062, 170],
-    [0x3063, 171],
-    [0x3064, 172],
-    [0x3065, 173],
-    [0x3066, 174],
-    [0x3067, 175],
-    [0x3068, 176],
-    [0x3070, 177],
-    [0x3073, 178],
-    [0x3074, 179],
-    [0x3075, 180],
-    [0x3080, 181],
-    [0x3081, 182],
-    [0x30A0, 183],
-    [0x30B0, 184],
-    [0x30B1, 185],
-    [0x30B2, 186],
-    [0x30B3, 187],
-    [0x30B4, 188],
-    [0x30C0, 189],
-    [0x30DC, 190],
-    [0x30E0, 195],
-    [0x30E1, 196],
-    [0x30E2, 197],
-    [0x30E3, 198],
-    [0x30F0, 199],
-    [0x30F1, 206],
-    [0x30FA, 213],
-    [0x30FB, 217],
-    [0x30FC, 227],
-    [0x30FD, 230],
-    [0x30FE, 231],
-    [0x30FF, 235],
-    [0x3110, 238],
-    [0x3111, 242],
-    [0x3112, 246],
-    [0x3113, 250],
-    [0x3201, 254],
-    [0x3202, 262],
-    [0x3203, 270],
-    [0x3204, 278],
-    [0x3220, 282],
-    [0x3300, 286],
-    [0x5040, 295],
-    [0x5041, 296],
-    [0x5042, 297],
-    [0x603F, 298],
-]);
+/// Runs of indices.
+static RUNS: [glue::table::Run; 35] = [
+    glue::table::Run {
+        index: 0x1000,
+        object: 0,
+    },
+    glue::table::Run {
+        index: 0x1003,
+        object: 2,
+    },
+    glue::table::Run {
+        index: 0x1008,
+        object: 3,
+    },
+    glue::table::Run {
+        index: 0x1010,
+        object: 4,
+    },
+    glue::table::Run {
+        index: 0x1014,
+        object: 6,
+    },
+    glue::table::Run {
+        index: 0x1017,
+        object: 7,
+    },
+    glue::table::Run {
+        index: 0x1200,
+        object: 9,
+    },
+    glue::table::Run {
+        index: 0x1400,
+        object: 10,
+    },
+    glue::table::Run {
+        index: 0x1600,
+        object: 14,
+    },
+    glue::table::Run {
+        index: 0x1800,
+        object: 18,
+    },
+    glue::table::Run {
+        index: 0x1A00,
+        object: 22,
+    },
+    glue::table::Run {
+        index: 0x2030,
+        object: 26,
+    },
+    glue::table::Run {
+        index: 0x3000,
+        object: 27,
+    },
+    glue::table::Run {
+        index: 0x3010,
+        object: 37,
+    },
+    glue::table::Run {
+        index: 0x301F,
+        object: 41,
+    },
+    glue::table::Run {
+        index: 0x3040,
+        object: 43,
+    },
+    glue::table::Run {
+        index: 0x3050,
+        object: 44,
+    },
+    glue::table::Run {
+        index: 0x3060,
+        object: 48,
+    },
+    glue::table::Run {
+        index: 0x3070,
+        object: 57,
+    },
+    glue::table::Run {
+        index: 0x3073,
+        object: 58,
+    },
+    glue::table::Run {
+        index: 0x3080,
+        object: 61,
+    },
+    glue::table::Run {
+        index: 0x30A0,
+        object: 63,
+    },
+    glue::table::Run {
+        index: 0x30B0,
+        object: 64,
+    },
+    glue::table::Run {
+        index: 0x30C0,
+        object: 69,
+    },
+    glue::table::Run {
+        index: 0x30DC,
+        object: 70,
+    },
+    glue::table::Run {
+        index: 0x30E0,
+        object: 71,
+    },
+    glue::table::Run {
+        index: 0x30F0,
+        object: 75,
+    },
+    glue::table::Run {
+        index: 0x30FA,
+        object: 77,
+    },
+    glue::table::Run {
+        index: 0x3110,
+        object: 83,
+    },
+    glue::table::Run {
+        index: 0x3201,
+        object: 87,
+    },
+    glue::table::Run {
+        index: 0x3220,
+        object: 91,
+    },
+    glue::table::Run {
+        index: 0x3300,
+        object: 92,
+    },
+    glue::table::Run {
+        index: 0x5040,
+        object: 93,
+    },
+    glue::table::Run {
+        index: 0x603F,
+        object: 96,
+    },
+    glue::table::Run {
+        index: 0xFFFF,
+        object: 97,
+    },
+];
 
 /// Entries by row: attributes and place.
 static ENTRIES: [glue::table::EntryRow; 299] = glue::table::entries([
@@ -8682,6 +8694,100 @@ static ENTRIES: [glue::table::EntryRow; 299] = glue::table::entries([
     [9, 684],
     [16, 664],
 ]);
+
+/// What every entry is.
+static TABLE: glue::Table = glue::Table {
+    runs: &RUNS,
+    pdos: &[
+        glue::table::Pdo {
+            index: 0x1400,
+            cob_id: 26,
+            mapping: 37,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1401,
+            cob_id: 29,
+            mapping: 46,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1402,
+            cob_id: 32,
+            mapping: 55,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1403,
+            cob_id: 35,
+            mapping: 64,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1800,
+            cob_id: 74,
+            mapping: 85,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1801,
+            cob_id: 77,
+            mapping: 94,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1802,
+            cob_id: 80,
+            mapping: 103,
+            rows: &[],
+        },
+        glue::table::Pdo {
+            index: 0x1803,
+            cob_id: 83,
+            mapping: 112,
+            rows: &[],
+        },
+    ],
+    first_application_row: 121,
+    objects: &OBJECTS,
+    entries: &ENTRIES,
+    attributes: &ATTRIBUTES,
+    sparse: &[],
+    aliases: &[],
+    limits: &[
+        glue::table::Limits {
+            low: 60,
+            high: 65535,
+        },
+    ],
+    values: &[&[161], &[0]],
+    constants: b"\
+        \x50\x4D\x4D\x04\x02\x01\x08\x06\x03\x09\x07",
+    factory: &FACTORY,
+    node_id_places: &NODE_ID_PLACES,
+    regions: &[
+        glue::table::Region {
+            storage: glue::Storage::Communication,
+            start: 0,
+            end: 304,
+            layout: 0x9A36_7C8D,
+        },
+        glue::table::Region {
+            storage: glue::Storage::Application,
+            start: 304,
+            end: 487,
+            layout: 0xBCEF_094A,
+        },
+        glue::table::Region {
+            storage: glue::Storage::Remanent,
+            start: 488,
+            end: 496,
+            layout: 0xBAE7_5997,
+        },
+    ],
+    granularity: 8,
+    dummies: 0x00,
+};
 
 /// What entries have in common.
 static ATTRIBUTES: [glue::table::Attributes; 25] = [

@@ -30,6 +30,7 @@ pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
         plan.limits_module(),
         plan.traits(),
         plan.views(),
+        plan.lookup_tables(),
         plan.tables(),
     ];
     quote! {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use od_spec::expr::{ArithmeticOp, CompareOp};
-use od_spec::model::{DataType, Storage};
+use od_spec::model::{DataType, EntryId, Index, Storage, SubIndex};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -83,6 +83,7 @@ impl Plan<'_> {
                 type Entry = Entry;
                 const TABLE: &'static glue::Table = &TABLE;
 
+                #[allow(clippy::too_many_lines)]
                 #[inline]
                 fn entry(row: u16) -> Option<Entry> {
                     // The compiler sees that row and entry are the same number.
@@ -167,12 +168,34 @@ impl Plan<'_> {
         }
     }
 
-    /// The tables.
-    pub(super) fn tables(&self) -> TokenStream {
-        let objects = self.objects.iter().map(|object| {
-            let (index, first) =
-                (hex(object.object.index.0.into(), 4), Literal::u16_unsuffixed(object.first_row));
-            quote!([#index, #first])
+    /// Objects whose indices follow each other: index and position of the first, then what ends them.
+    fn runs(&self) -> Vec<(u16, usize)> {
+        let mut runs = Vec::new();
+        let mut expected = None;
+        for (at, object) in self.objects.iter().enumerate() {
+            let index = object.object.index.0;
+            if expected != Some(index) {
+                runs.push((index, at));
+            }
+            expected = index.checked_add(1);
+        }
+        runs.push((u16::MAX, self.objects.len()));
+        runs
+    }
+
+    /// The tables by which an index and a sub-index become a row and a place.
+    pub(super) fn lookup_tables(&self) -> TokenStream {
+        let objects = self
+            .objects
+            .iter()
+            .map(|object| usize::from(object.first_row))
+            .chain([self.entries.len()])
+            .map(Literal::usize_unsuffixed);
+        let runs = self.runs();
+        let run_count = Literal::usize_unsuffixed(runs.len());
+        let runs = runs.into_iter().map(|(index, object)| {
+            let (index, object) = (hex(index.into(), 4), Literal::usize_unsuffixed(object));
+            quote!(glue::table::Run { index: #index, object: #object })
         });
         let entries = self.entries.iter().map(|entry| {
             let place = match entry.place {
@@ -187,6 +210,24 @@ impl Plan<'_> {
                 (Literal::u16_unsuffixed(entry.attributes), Literal::usize_unsuffixed(place));
             quote!([#attributes, #place])
         });
+        let (count, object_count) = (
+            Literal::usize_unsuffixed(self.entries.len()),
+            Literal::usize_unsuffixed(self.objects.len() + 1),
+        );
+        quote! {
+            /// Rows of the first entries of the objects, by ascending index, and the number of entries.
+            static OBJECTS: [u16; #object_count] = [#(#objects),*];
+
+            /// Runs of indices.
+            static RUNS: [glue::table::Run; #run_count] = [#(#runs),*];
+
+            /// Entries by row: attributes and place.
+            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries([#(#entries),*]);
+        }
+    }
+
+    /// The other tables.
+    pub(super) fn tables(&self) -> TokenStream {
         let attributes = self.attributes.iter().map(attributes);
         let sparse = self.objects.iter().filter_map(|object| {
             let subs: Vec<u8> = object.object.entries.iter().map(|entry| entry.sub.0).collect();
@@ -224,21 +265,36 @@ impl Plan<'_> {
             .map(|entry| self.full_name(entry).replace(['\n', '\r'], " ") + "\n")
             .collect();
         let (constants, factory) = (byte_string(&self.layout.constants), byte_string(&self.layout.factory));
-        let [count, object_count, attribute_count, nodes_count, size] = [
-            self.entries.len(),
-            self.objects.len(),
-            self.attributes.len(),
-            self.layout.node_ids.len(),
-            self.layout.factory.len(),
-        ]
-        .map(Literal::usize_unsuffixed);
+        let [attribute_count, nodes_count, size] =
+            [self.attributes.len(), self.layout.node_ids.len(), self.layout.factory.len()]
+                .map(Literal::usize_unsuffixed);
         let granularity = Literal::u8_unsuffixed(self.device.info.granularity);
         let dummies =
             self.device.info.dummies.iter().fold(0u8, |bits, data_type| bits | 1 << (data_type.code() & 7));
         let dummies = hex(dummies.into(), 2);
+        let pdos = self.pdos.iter().map(|planned| {
+            let row = |index: u16, sub: u8| {
+                let row = self.row(EntryId { index: Index(index), sub: SubIndex(sub) });
+                Literal::u16_unsuffixed(row.unwrap_or(NONE))
+            };
+            let pdo = planned.pdo;
+            let (cob_id, mapping) = (row(pdo.communication_index(), 1), row(pdo.mapping_index(), 0));
+            let rows = planned.fields.iter().map(|field| Literal::u16_unsuffixed(field.row));
+            let index = hex(pdo.communication_index().into(), 4);
+            quote!(glue::table::Pdo { index: #index, cob_id: #cob_id, mapping: #mapping, rows: &[#(#rows),*] })
+        });
+        let application = self
+            .objects
+            .iter()
+            .find(|object| object.object.index.0 >= 0x2000)
+            .map_or(self.entries.len(), |object| usize::from(object.first_row));
+        let application = Literal::usize_unsuffixed(application);
         quote! {
             /// What every entry is.
             static TABLE: glue::Table = glue::Table {
+                runs: &RUNS,
+                pdos: &[#(#pdos),*],
+                first_application_row: #application,
                 objects: &OBJECTS,
                 entries: &ENTRIES,
                 attributes: &ATTRIBUTES,
@@ -253,12 +309,6 @@ impl Plan<'_> {
                 granularity: #granularity,
                 dummies: #dummies,
             };
-
-            /// Objects: index and row of the first entry.
-            static OBJECTS: [glue::table::ObjectRow; #object_count] = glue::table::objects([#(#objects),*]);
-
-            /// Entries by row: attributes and place.
-            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries([#(#entries),*]);
 
             /// What entries have in common.
             static ATTRIBUTES: [glue::table::Attributes; #attribute_count] = [#(#attributes),*];
