@@ -36,6 +36,7 @@ pub struct Builder {
     specification: PathBuf,
     devices: Vec<String>,
     out: Option<PathBuf>,
+    unformatted: bool,
 }
 
 /// Why nothing was generated: what [`Builder::try_generate`] found.
@@ -65,7 +66,7 @@ struct Outcome {
 impl Builder {
     /// Of a specification; the path is relative to the package that is built.
     pub fn new(specification: impl Into<PathBuf>) -> Self {
-        Self { specification: specification.into(), devices: Vec::new(), out: None }
+        Self { specification: specification.into(), devices: Vec::new(), out: None, unformatted: false }
     }
 
     /// Only this device, by its key; may be called for several. Without it, all.
@@ -79,6 +80,14 @@ impl Builder {
     #[must_use]
     pub fn out_dir(mut self, directory: impl Into<PathBuf>) -> Self {
         self.out = Some(directory.into());
+        self
+    }
+
+    /// Leaves the modules as one long line each. Formatting takes most of the time of a build script, which cargo compiles
+    /// without optimisation: two thirds of it, whatever the size. It is well spent where people read the code.
+    #[must_use]
+    pub fn unformatted(mut self) -> Self {
+        self.unformatted = true;
         self
     }
 
@@ -132,7 +141,9 @@ impl Builder {
             }
             let wanted = |device: &&Dictionary| self.devices.is_empty() || self.devices.contains(&device.key);
             let devices = system.devices.iter().filter(wanted);
-            let mut files = rust::artifacts(&system, devices, &Provenance::of(&sources), &mut diagnostics);
+            let provenance = Provenance::of(&sources);
+            let layout = if self.unformatted { rust::plain_file } else { rust::file };
+            let mut files = rust::modules(&system, devices, &provenance, layout, &mut diagnostics);
             for file in &mut files {
                 file.path = file.path.replacen("src/", "", 1);
             }

@@ -54,6 +54,19 @@ fn the_builder_writes_the_file() {
 }
 
 #[test]
+fn without_formatting_it_is_the_same_code() {
+    let out = std::env::temp_dir().join(format!("od-unformatted-{}", std::process::id()));
+    let builder = od_gen::Builder::new(root().join(SPECIFICATION)).device("pmc").out_dir(&out).unformatted();
+    let written = builder.try_generate().unwrap();
+    let code = std::fs::read_to_string(&written[0]).unwrap();
+    std::fs::remove_dir_all(&out).unwrap();
+    assert!(code.lines().any(|line| line.len() > 100_000), "it is not laid out");
+    let file = std::fs::read_to_string(root().join("generated/src/pmc.rs")).unwrap();
+    let again = |code: &str| prettyplease::unparse(&syn::parse_file(code).unwrap());
+    assert_eq!(first_difference(&again(&code), &again(&file)), None);
+}
+
+#[test]
 fn the_compiled_tables_are_equal() {
     fn table<D: Dictionary>() -> String {
         format!("{:?}", D::TABLE)

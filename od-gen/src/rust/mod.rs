@@ -53,4 +53,4 @@ impl Provenance {
 #[cfg(feature = "format")]
 mod file;
 #[cfg(feature = "format")]
-pub use file::{artifacts, file};
+pub use file::{Layout, artifacts, file, modules, plain_file};

@@ -12,14 +12,15 @@ use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::{SourceMap, Spanned};
-use od_tests::{Failure, access_cases, compile_clean, generate, root};
+use od_tests::{Failure, compile_clean, generate, root};
 
 const HELP: &str = "\
 cargo xtask TASK
 
-  test               run every test; puts what the foreign readers need into target/
+  test [--without-emulator]
+                     run every test; puts what the foreign readers need into target/. The firmware for an emulated
+                     Cortex-M needs QEMU, the linker arm-none-eabi-ld and the target thumbv7em-none-eabi
   generate [--check] rewrite everything that is generated and checked in, or tell what is not current
-  access-cases DIR   write the cases that the firmware in tests/thumb tries
   bench              measure odgen beside other tools
 ";
 
@@ -27,11 +28,11 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = match arguments.as_slice() {
-        ["test"] => test(),
+        ["test"] => test(false),
+        ["test", "--without-emulator"] => test(true),
         ["generate"] => write(),
         ["generate", "--check"] => check(),
         ["bench", rest @ ..] => python("tests/bench/run.py", rest),
-        ["access-cases", directory] => access_cases(directory),
         ["help" | "--help"] => {
             print!("{HELP}");
             Ok(())
@@ -51,7 +52,7 @@ fn main() -> ExitCode {
 }
 
 /// All Rust tests, then the foreign readers.
-fn test() -> Result<(), Failure> {
+fn test(without_emulator: bool) -> Result<(), Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     run(Command::new(cargo).args(["test", "--workspace", "--no-fail-fast"]))?;
     python("tests/readers/selftest/selftest.py", &[])?;
@@ -66,7 +67,13 @@ fn test() -> Result<(), Failure> {
     let configured = ["--eds-dir", CONFIGURED, "--values", "target/everything/configured/values.txt"];
     python("tests/readers/run.py", &[&configured[..], &everything[2..]].concat())?;
     python("tests/readers/run.py", &[])?;
-    sdo_client()
+    sdo_client()?;
+    if without_emulator {
+        println!("left out: the firmware in tests/thumb");
+        return Ok(());
+    }
+    python("tests/thumb/run.py", &["sizes"])?;
+    python("tests/thumb/run.py", &["test"])
 }
 
 /// A client that others wrote, against the generated Rust.
@@ -76,20 +83,6 @@ fn sdo_client() -> Result<(), Failure> {
     let arguments =
         ["--eds-dir", "generated/eds", "--dump", "generated/pitch-control-system.json", "--server"];
     run(Command::new(python).arg("tests/readers/sdo_client.py").args(arguments).arg(server))
-}
-
-/// What the tests of accesses try, for the emulated Cortex-M.
-fn access_cases(directory: &str) -> Result<(), Failure> {
-    let dump = std::fs::read(root().join("generated/pitch-control-system.json"))?;
-    let dump = serde_json::from_slice(&dump)?;
-    let mut set = Vec::new();
-    for key in ["pmc", "pmm"] {
-        let cases = access_cases::of_device(&dump, key)?;
-        println!("{key}: {} cases", cases.count);
-        set.push(Artifact { path: format!("{key}.cases"), bytes: cases.bytes, purpose: String::new() });
-    }
-    write_all(&root().join(directory), &set)?;
-    Ok(())
 }
 
 /// Where the DCF with [`SETTINGS`] is put.
