@@ -7,7 +7,7 @@ use super::names::snake;
 use super::{Provenance, tokens};
 use crate::Artifact;
 
-/// A way to write a module down: [`file`] or [`plain_file`].
+/// A way to write a module down: [`file()`] or [`plain_file`].
 pub type Layout = fn(&System, &Dictionary, &Provenance, &mut Diagnostics) -> Option<String>;
 
 /// A formatted file `src/KEY.rs` for each of some devices; of none when anything is wrong.
