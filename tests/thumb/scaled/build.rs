@@ -21,7 +21,9 @@ fn main() {
         let folder = out.join(format!("scaled{size}"));
         fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         // Not `generate`: it has cargo watch the specification, which is written here.
-        if let Err(error) = od_gen::Builder::new(specification).device("controller").out_dir(folder).try_generate() {
+        if let Err(error) =
+            od_gen::Builder::new(specification).device("controller").out_dir(folder).try_generate()
+        {
             panic!("{error}");
         }
     }

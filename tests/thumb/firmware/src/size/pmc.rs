@@ -18,16 +18,24 @@ struct Drive;
 impl Application<Pmc> for Drive {
     fn refresh(&mut self, dictionary: &mut Pmc, entry: Entry) {
         match entry {
-            Entry::PositionActualValue => dictionary.set_position_actual_value(units::PositionUnit(black_box(0))),
-            Entry::ActualVelocity => dictionary.set_actual_velocity(units::PositionUnitPerSecond(black_box(0))),
+            Entry::PositionActualValue => {
+                dictionary.set_position_actual_value(units::PositionUnit(black_box(0)))
+            }
+            Entry::ActualVelocity => {
+                dictionary.set_actual_velocity(units::PositionUnitPerSecond(black_box(0)))
+            }
             _ => {}
         }
     }
 
     fn changed(&mut self, dictionary: &mut Pmc, entry: Entry) {
         match entry {
-            Entry::Controlword => dictionary.set_statusword(types::Statusword(black_box(dictionary.controlword().0))),
-            Entry::ModesOfOperation => dictionary.set_modes_of_operation_display(dictionary.modes_of_operation()),
+            Entry::Controlword => {
+                dictionary.set_statusword(types::Statusword(black_box(dictionary.controlword().0)))
+            }
+            Entry::ModesOfOperation => {
+                dictionary.set_modes_of_operation_display(dictionary.modes_of_operation())
+            }
             Entry::TargetPosition => {
                 black_box(dictionary.target_position());
             }

@@ -32,7 +32,15 @@ fn try_device<D: Dictionary>(name: &str, dictionary: &mut D, bytes: &[u8], made:
             made.parse() == Ok(count) && count > 0
         }
         Err((number, (kind, index, sub), code)) => {
-            hprintln!("{}: case {} (kind {}) at {:04X}h.{}: {:08X}h came", name, number, kind, index, sub, code);
+            hprintln!(
+                "{}: case {} (kind {}) at {:04X}h.{}: {:08X}h came",
+                name,
+                number,
+                kind,
+                index,
+                sub,
+                code
+            );
             false
         }
     }
