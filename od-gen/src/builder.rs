@@ -84,7 +84,7 @@ impl Builder {
     }
 
     /// Leaves the modules as one long line each. Formatting takes most of the time of a build script, which cargo compiles
-    /// without optimisation: two thirds of it, whatever the size. It is well spent where people read the code.
+    /// without optimisation: three fifths of it, whatever the size. It is well spent where people read the code.
     #[must_use]
     pub fn unformatted(mut self) -> Self {
         self.unformatted = true;
