@@ -77,7 +77,7 @@ impl View {
         let (low, high) = if self.data_type.is_signed() {
             (i64::MIN >> unused, i64::MAX >> unused)
         } else {
-            (0, i64::MAX >> (unused - 1))
+            (0, if unused == 0 { i64::MAX } else { i64::MAX >> (unused - 1) })
         };
         if value >= low && value <= high {
             return Ok(value);
@@ -102,7 +102,7 @@ impl View {
         if self.numerator == 1 && self.denominator == 1 {
             return target;
         }
-        let product = target * self.numerator as i64;
+        let product = target.saturating_mul(self.numerator as i64);
         let denominator = self.denominator as i64;
         // A denominator of 0 would be a mistake of the generator, which a view then shows unscaled.
         let Some(floor) = product.checked_div_euclid(denominator) else { return product };
@@ -140,7 +140,8 @@ const fn width(data_type: DataType) -> u32 {
         DataType::Integer32 | DataType::Unsigned32 => 32,
         DataType::Integer40 | DataType::Unsigned40 => 40,
         DataType::Integer48 | DataType::Unsigned48 => 48,
-        _ => 56,
+        DataType::Integer56 | DataType::Unsigned56 => 56,
+        _ => 64,
     }
 }
 

@@ -3,8 +3,11 @@
 use crate::abort::AbortCode;
 use crate::application::Application;
 use crate::dictionary::Dictionary;
+use crate::pdo::{self, PdoError, Received};
 
-/// A condition between entries, such as thresholds that have to stay in order.
+/// A condition between entries, such as thresholds that have to stay in order. It is looked at when it is asked for:
+/// [`Constrained::write_consistent`] and [`unpack_consistent`] ask for every value, [`Dictionary::write`] and
+/// [`pdo::unpack`] do not.
 #[derive(Debug, Clone, Copy)]
 pub struct Constraint<D> {
     /// Name in the specification.
@@ -38,6 +41,20 @@ pub trait Constrained: Dictionary + 'static {
     ) -> Result<Self::Entry, AbortCode> {
         self.write(index, sub, data, &mut Guard(application))
     }
+}
+
+/// [`pdo::unpack`] that leaves out a value with which a condition breaks that held before, and reports it as
+/// [`AbortCode::INCOMPATIBLE`].
+///
+/// # Errors
+/// As [`pdo::unpack`].
+pub fn unpack_consistent<D: Constrained, A: Application<D>>(
+    dictionary: &mut D,
+    number: u16,
+    data: &[u8],
+    application: &mut A,
+) -> Result<Received<D::Entry>, PdoError> {
+    pdo::unpack(dictionary, number, data, &mut Guard(application))
 }
 
 /// Tries a value before the application sees it.

@@ -9,7 +9,7 @@
 //! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
 //! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`].
 //!
-//! `no_std`, no allocation, no `unsafe`; no function panics on any input. There is no hidden state: a dictionary is a plain
+//! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself. There is no hidden state: a dictionary is a plain
 //! value, and a program can have several.
 //!
 //! # Features
@@ -39,7 +39,7 @@ mod value;
 pub use abort::AbortCode;
 pub use alias::{Alias, Outside, Rounding, View};
 pub use application::Application;
-pub use constraint::{Constrained, Constraint};
+pub use constraint::{Constrained, Constraint, unpack_consistent};
 #[cfg(feature = "defmt")]
 pub use defmt;
 pub use dictionary::{Dictionary, Info};

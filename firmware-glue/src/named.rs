@@ -75,14 +75,18 @@ macro_rules! enumeration {
             const NAMES: &'static [(i64, &'static str)] = &[$(($value, $text)),*];
 
             fn number(self) -> i64 {
-                self.0.into()
+                i64::try_from($crate::quantity::Raw::number(self.0)).unwrap_or_default()
             }
         }
 
         impl $name {
             /// The value of a raw number, if it has a name.
-            pub fn known(raw: $raw) -> Result<Self, $crate::UnknownValue<$raw>> {
-                if $crate::Enumeration::is_known(Self(raw)) { Ok(Self(raw)) } else { Err($crate::UnknownValue(raw)) }
+            pub fn known(raw: $raw) -> ::core::result::Result<Self, $crate::UnknownValue<$raw>> {
+                if $crate::Enumeration::is_known(Self(raw)) {
+                    ::core::result::Result::Ok(Self(raw))
+                } else {
+                    ::core::result::Result::Err($crate::UnknownValue(raw))
+                }
             }
         }
 

@@ -119,33 +119,33 @@ macro_rules! unit {
         $(#[$about])*
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
         #[repr(transparent)]
-        pub struct $name<T>(pub T);
+        pub struct $name<__T>(pub __T);
 
-        impl<T: $crate::quantity::Raw> $crate::Quantity for $name<T> {
+        impl<__T: $crate::quantity::Raw> $crate::Quantity for $name<__T> {
             const SYMBOL: &'static str = $symbol;
             const SCALE: (u64, u64) = ($n, $d);
             const STEP: (u64, u64) = ($sn, $sd);
             type Base = bases::$base;
-            type With<U> = $name<U>;
+            type With<__U> = $name<__U>;
 
             fn number(self) -> i128 {
                 self.0.number()
             }
 
-            fn from_number<U: $crate::quantity::Raw>(number: i128) -> Option<$name<U>> {
-                U::from_number(number).map($name)
+            fn from_number<__U: $crate::quantity::Raw>(number: i128) -> ::core::option::Option<$name<__U>> {
+                <__U as $crate::quantity::Raw>::from_number(number).map($name)
             }
         }
 
         /// The value with its unit.
-        impl<T: $crate::quantity::Raw> ::core::fmt::Display for $name<T> {
+        impl<__T: $crate::quantity::Raw> ::core::fmt::Display for $name<__T> {
             fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
                 $crate::quantity::show(*self, f)
             }
         }
 
         /// The value with its unit.
-        impl<T: $crate::quantity::Raw> ::core::fmt::Debug for $name<T> {
+        impl<__T: $crate::quantity::Raw> ::core::fmt::Debug for $name<__T> {
             fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
                 $crate::quantity::show(*self, f)
             }
@@ -160,7 +160,7 @@ macro_rules! unit {
 #[macro_export]
 macro_rules! defmt_quantity {
     ($name:ident) => {
-        impl<T: $crate::quantity::Raw> $crate::defmt::Format for $name<T> {
+        impl<__T: $crate::quantity::Raw> $crate::defmt::Format for $name<__T> {
             fn format(&self, f: $crate::defmt::Formatter<'_>) {
                 $crate::quantity::log(*self, f);
             }

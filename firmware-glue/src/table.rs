@@ -364,7 +364,11 @@ impl Table {
         else {
             return (0, 0);
         };
-        let index = run.index + u16::try_from(at).unwrap_or_default() - run.object;
+        // The end of the list stands for rows that nothing has.
+        if self.entries.get(usize::from(row)).is_none() {
+            return (0, 0);
+        }
+        let index = run.index + (u16::try_from(at).unwrap_or_default() - run.object);
         let distance = row - first;
         let sub = if self.attributes(row).flags.has(Flags::SPARSE) {
             let sparse = self.sparse.binary_search_by_key(&first, |object| object.first);

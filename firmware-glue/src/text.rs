@@ -74,7 +74,8 @@ pub fn unicode(image: &[u8], at: usize, capacity: usize) -> Utf16<'_> {
 /// Puts a UNICODE_STRING; on an error, the old one may be gone in part.
 #[doc(hidden)]
 pub fn put_unicode(image: &mut [u8], at: usize, capacity: usize, text: &str) -> Result<(), NoFit> {
-    if text.encode_utf16().count() * 2 > capacity {
+    // A zero would end the text.
+    if text.contains('\0') || text.encode_utf16().count() * 2 > capacity {
         return Err(NoFit);
     }
     let place = image.get_mut(at..at + capacity).ok_or(NoFit)?;

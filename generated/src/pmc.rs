@@ -266,7 +266,7 @@ impl Pmc {
 
     /// `1600h` RPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60400010, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 16, 4)?;
@@ -298,7 +298,7 @@ impl Pmc {
 
     /// `1601h` RPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60400010, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
@@ -330,7 +330,7 @@ impl Pmc {
 
     /// `1602h` RPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60400010, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 80, 4)?;
@@ -362,7 +362,7 @@ impl Pmc {
 
     /// `1603h` RPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x607A0020, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
@@ -458,7 +458,7 @@ impl Pmc {
 
     /// `1A00h` TPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60410010, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 160, 4)?;
@@ -490,7 +490,7 @@ impl Pmc {
 
     /// `1A01h` TPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60410010, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
@@ -522,7 +522,7 @@ impl Pmc {
 
     /// `1A02h` TPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60410010, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 224, 4)?;
@@ -554,7 +554,7 @@ impl Pmc {
 
     /// `1A03h` TPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
     ///
-    /// UNSIGNED32, rw, default 0x60640020, stored with the communication parameters.
+    /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 256, 4)?;
@@ -662,7 +662,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnit<i16>,
     ) -> Result<(), glue::OutOfRange> {
-        let target = VIEW_507A.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
+        let target = VIEW_507A.target(i64::from(value.0)).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
         glue::put_i32(&mut self.0, 612, number);
@@ -685,7 +685,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecond<u16>,
     ) -> Result<(), glue::OutOfRange> {
-        let target = VIEW_5081.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
+        let target = VIEW_5081.target(i64::from(value.0)).map_err(|_| glue::OutOfRange)?;
         let number = u32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
         glue::put_u32(&mut self.0, 616, number);
@@ -710,7 +710,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecondSquared<u16>,
     ) -> Result<(), glue::OutOfRange> {
-        let target = VIEW_5083.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
+        let target = VIEW_5083.target(i64::from(value.0)).map_err(|_| glue::OutOfRange)?;
         let number = u32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
         glue::put_u32(&mut self.0, 352, number);
@@ -746,11 +746,14 @@ impl Pmc {
     ) -> Result<(), glue::OutOfRange> {
         let target = VIEW_5084
             .target(
-                (match value {
-                    glue::Special::Value(value) => value.0,
-                    glue::Special::Special(specials::AsAcceleration::AsAcceleration) => 0,
-                })
-                    .into(),
+                i64::from(
+                    match value {
+                        glue::Special::Value(value) => value.0,
+                        glue::Special::Special(
+                            specials::AsAcceleration::AsAcceleration,
+                        ) => 0,
+                    },
+                ),
             )
             .map_err(|_| glue::OutOfRange)?;
         let number = u32::try_from(target).map_err(|_| glue::OutOfRange)?;
@@ -789,7 +792,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnit<i16>,
     ) -> Result<(), glue::OutOfRange> {
-        let target = VIEW_50B0.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
+        let target = VIEW_50B0.target(i64::from(value.0)).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
         glue::put_i32(&mut self.0, 620, number);
@@ -812,7 +815,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecond<i16>,
     ) -> Result<(), glue::OutOfRange> {
-        let target = VIEW_50B1.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
+        let target = VIEW_50B1.target(i64::from(value.0)).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
         glue::put_i32(&mut self.0, 624, number);
@@ -845,7 +848,7 @@ impl Pmc {
         &mut self,
         value: units::PositionUnitPerSecond<i16>,
     ) -> Result<(), glue::OutOfRange> {
-        let target = VIEW_50FF.target((value.0).into()).map_err(|_| glue::OutOfRange)?;
+        let target = VIEW_50FF.target(i64::from(value.0)).map_err(|_| glue::OutOfRange)?;
         let number = i32::try_from(target).map_err(|_| glue::OutOfRange)?;
 
         glue::put_i32(&mut self.0, 656, number);
@@ -7606,6 +7609,7 @@ impl glue::Dictionary for Pmc {
         &mut self.0
     }
 
+    #[allow(unused_parens, unused_comparisons)]
     fn condition(&self, number: u16) -> bool {
         match number {
             0 => {
@@ -7677,7 +7681,7 @@ impl glue::Constrained for Pmc {
 }
 
 /// Conditions between entries.
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_parens, unused_variables, unused_comparisons)]
 pub mod constraints {
     /// dc link limits of the drive: The lowest DC link voltage must be below the highest.
     ///

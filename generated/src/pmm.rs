@@ -2932,7 +2932,7 @@ pub mod records {
     impl<D: BorrowMut<super::Pmm>> BatteryParameter<D> {
         /// Sets [`type_`](Self::type_).
         #[inline]
-        pub fn set_type_(&mut self, value: super::types::BatteryType) {
+        pub fn set_type(&mut self, value: super::types::BatteryType) {
             super::glue::put_u8(&mut self.0.borrow_mut().0, 486, value.0);
         }
 
@@ -7719,6 +7719,7 @@ impl glue::Dictionary for Pmm {
         &mut self.0
     }
 
+    #[allow(unused_parens, unused_comparisons)]
     fn condition(&self, number: u16) -> bool {
         let _ = number;
         true
@@ -7843,7 +7844,7 @@ impl glue::Constrained for Pmm {
 }
 
 /// Conditions between entries.
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_parens, unused_variables, unused_comparisons)]
 pub mod constraints {
     /// dc-link voltage ladder: The thresholds of the DC link have to keep this order, from the under voltage limit of the PMC up to its over voltage limit. Equal values are allowed only where the manual allows them or has them by default.
     ///

@@ -61,6 +61,16 @@ pub(super) fn screaming(name: &str) -> String {
     if joined.starts_with(|first: char| first.is_ascii_digit()) { format!("N{joined}") } else { joined }
 }
 
+/// The setter of an accessor: `set_actual_velocity`; of `type_`, `set_type`.
+pub(super) fn setter(name: &str) -> String {
+    format!("set_{}", name.trim_end_matches('_'))
+}
+
+/// The accessor of a group that is to be changed: `gear_ratio_mut`.
+pub(super) fn mutable(name: &str) -> String {
+    format!("{}_mut", name.trim_end_matches('_'))
+}
+
 /// The names of one scope, each given once.
 #[derive(Debug, Default)]
 pub(super) struct Scope {

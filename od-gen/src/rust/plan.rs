@@ -13,7 +13,7 @@ use od_spec::source::Span;
 
 use super::condition::{self, Condition, Unusable};
 use super::layout::{Layout, Place, lay_out};
-use super::names::{Scope, camel, screaming, snake};
+use super::names::{Scope, camel, mutable, screaming, setter, snake};
 
 /// "None" in the table's 16-bit references.
 pub(super) const NONE: u16 = u16::MAX;
@@ -223,8 +223,33 @@ pub(super) struct PlannedMachine<'a> {
     pub commands: Vec<String>,
 }
 
-/// Names that the dictionary's own methods have.
-const METHODS: [&str; 1] = ["new"];
+/// Names that the dictionary's own methods have, and the methods of its traits: an accessor would hide them.
+const METHODS: [&str; 21] = [
+    "new",
+    "clone",
+    "entry",
+    "row",
+    "image",
+    "image_mut",
+    "condition",
+    "find",
+    "info",
+    "read",
+    "upload",
+    "write",
+    "upload_domain",
+    "download_domain",
+    "reset",
+    "reset_stored",
+    "stored",
+    "restore",
+    "layout",
+    "broken_constraint",
+    "write_consistent",
+];
+
+/// Names that generated code uses where groups of accessors and the dictionary are defined.
+const PRELUDE: [&str; 9] = ["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D"];
 
 /// Plans the code of a device. What cannot be code is reported; the plan is of use only if nothing was.
 pub(super) fn plan<'a>(
@@ -234,6 +259,8 @@ pub(super) fn plan<'a>(
 ) -> Plan<'a> {
     let layout = lay_out(device, diagnostics);
     let name = camel(&device.key);
+    let mut top = Scope::with_reserved(&[&PRELUDE[..], &["Entry"]].concat());
+    top.claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);
     let mut rows = BTreeMap::new();
     for (row, (id, ..)) in device.entries().enumerate() {
         let Ok(row) =
@@ -334,39 +361,29 @@ impl<'a> Plan<'a> {
     fn objects(&mut self, diagnostics: &mut Diagnostics) {
         let device = self.device;
         let mut methods = Scope::with_reserved(&METHODS);
-        let mut groups = Scope::default();
+        let mut groups = Scope::with_reserved(&PRELUDE);
         let mut variants = Scope::default();
         for object in device.objects.values() {
             let what = format!("{} ({})", object.index, object.name);
-            let name = object.identifier.clone().unwrap_or_else(|| snake(&object.name));
+            let name = snake(object.identifier.as_ref().unwrap_or(&object.name));
             // What follows from a name that is refused is refused with it.
             if !methods.claim(&name, &what, object.span, diagnostics) {
                 continue;
             }
-            let shape = shape(object, &name);
+            let shape = shape(object, &name, &self.layout);
             match &shape {
                 Shape::Var => {
-                    methods.claim(
-                        &format!("set_{name}"),
-                        &format!("the setter of {what}"),
-                        object.span,
-                        diagnostics,
-                    );
+                    methods.claim(&setter(&name), &format!("the setter of {what}"), object.span, diagnostics);
                 }
                 Shape::Indexed { count } => {
-                    methods.claim(
-                        &format!("set_{name}"),
-                        &format!("the setter of {what}"),
-                        object.span,
-                        diagnostics,
-                    );
-                    for name in count.iter().flat_map(|count| [count.clone(), format!("set_{count}")]) {
+                    methods.claim(&setter(&name), &format!("the setter of {what}"), object.span, diagnostics);
+                    for name in count.iter().flat_map(|count| [count.clone(), setter(count)]) {
                         methods.claim(&name, &format!("sub-index 0 of {what}"), object.span, diagnostics);
                     }
                 }
                 Shape::Group { type_name } => {
                     methods.claim(
-                        &format!("{name}_mut"),
+                        &mutable(&name),
                         &format!("{what} to be changed"),
                         object.span,
                         diagnostics,
@@ -402,7 +419,7 @@ impl<'a> Plan<'a> {
         diagnostics: &mut Diagnostics,
     ) {
         let id = EntryId { index: object.index, sub: entry.sub };
-        let member = entry.identifier.clone().unwrap_or_else(|| snake(&entry.name));
+        let member = snake(entry.identifier.as_ref().unwrap_or(&entry.name));
         let name = if object.is_structured() {
             snake(&format!("{object_name} {}", entry.identifier.as_ref().unwrap_or(&entry.name)))
         } else {
@@ -410,9 +427,9 @@ impl<'a> Plan<'a> {
         };
         let variant = camel(&name);
         let what = format!("{id} ({})", entry.name);
-        let setter = format!("the setter of {what}");
+        let its_setter = format!("the setter of {what}");
         let named = own.claim(&member, &what, entry.span, diagnostics)
-            && own.claim(&format!("set_{member}"), &setter, entry.span, diagnostics)
+            && own.claim(&setter(&member), &its_setter, entry.span, diagnostics)
             && variants.claim(&variant, &what, entry.span, diagnostics);
         if !named {
             return;
@@ -743,7 +760,7 @@ fn base_name(symbol: &str) -> String {
 }
 
 /// How code reaches an object: elements whose names differ only by their number are reached by it.
-fn shape(object: &Object, name: &str) -> Shape {
+fn shape(object: &Object, name: &str, layout: &Layout) -> Shape {
     if !object.is_structured() {
         return Shape::Var;
     }
@@ -765,13 +782,25 @@ fn shape(object: &Object, name: &str) -> Shape {
     let gapless = elements.iter().zip(1u8..).all(|(entry, sub)| entry.sub == SubIndex(sub));
     let fixed =
         elements.iter().all(|entry| entry.data_type.bits().is_some()) && object.kind != ObjectKind::Domain;
-    if alike && gapless && fixed {
+    if alike && gapless && fixed && lies_in_a_row(object, elements, layout) {
         let changes = sub0.access.is_writable() || object.index.0 == 0x1003;
         let count = changes.then(|| snake(&format!("{name} {}", sub0.name)));
         Shape::Indexed { count }
     } else {
         Shape::Group { type_name: camel(name) }
     }
+}
+
+/// Whether elements lie one behind the other in the image, or are all constants.
+fn lies_in_a_row(object: &Object, elements: &[Entry], layout: &Layout) -> bool {
+    let place = |entry: &Entry| layout.places.get(&EntryId { index: object.index, sub: entry.sub }).copied();
+    let Some((Place::Image(start), size)) = elements.first().and_then(place) else {
+        return elements.iter().all(|entry| matches!(place(entry), Some((Place::Constant(_), _))));
+    };
+    elements
+        .iter()
+        .enumerate()
+        .all(|(at, entry)| place(entry) == Some((Place::Image(start + at * size), size)))
 }
 
 fn members<'a>(named: &'a NamedType, span: Span, diagnostics: &mut Diagnostics) -> Members<'a> {

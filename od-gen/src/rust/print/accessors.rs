@@ -5,6 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::layout::Place;
+use super::super::names::{mutable, setter};
 use super::super::plan::{Plan, PlannedEntry, PlannedObject, Shape};
 use super::docs::{doc, escape};
 use super::value::{At, Values, decimal, view_name};
@@ -61,7 +62,8 @@ impl Plan<'_> {
             Shape::Group { type_name } => {
                 let about = doc(&self.object_doc(object.object));
                 let about_mut = doc(&format!("[`{0}`](Self::{0}), to be changed.", object.name));
-                let (get, get_mut) = (format_ident!("{}", object.name), format_ident!("{}_mut", object.name));
+                let (get, get_mut) =
+                    (format_ident!("{}", object.name), format_ident!("{}", mutable(&object.name)));
                 let group = format_ident!("{type_name}");
                 quote! {
                     #about
@@ -107,7 +109,7 @@ impl Plan<'_> {
         let (store, error) = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
         let parameter = values.parameter_type(&entry.kind, &at.root);
         let about = doc(&format!("Sets [`{name}`](Self::{name})."));
-        let set = format_ident!("set_{name}");
+        let set = format_ident!("{}", setter(name));
         match error {
             None => quote! {
                 #about
@@ -142,6 +144,7 @@ impl Plan<'_> {
         let raw = values.encode(&entry.kind, root, &quote!(value));
         let parameter = values.value_type(&entry.kind, root);
         let view = view_name(entry);
+        let number = values.widened(&entry.kind, &raw);
         let target_type = values.raw_type(&plain, root);
         let narrow = quote!(#target_type::try_from(target).map_err(|_| #root glue::OutOfRange)?);
         let (store, error) = values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
@@ -149,12 +152,12 @@ impl Plan<'_> {
         let about = doc(&format!(
             "Sets the entry that [`{name}`](Self::{name}) shows; an error if it has no such value."
         ));
-        let set = format_ident!("set_{name}");
+        let set = format_ident!("{}", setter(name));
         quote! {
             #about
             #[inline]
             pub fn #set(&mut self, value: #parameter) -> Result<(), #root glue::OutOfRange> {
-                let target = #root #view.target((#raw).into()).map_err(|_| #root glue::OutOfRange)?;
+                let target = #root #view.target(#number).map_err(|_| #root glue::OutOfRange)?;
                 let number = #narrow;
                 #store
             }
@@ -174,14 +177,20 @@ impl Plan<'_> {
         let Some(first) = elements.first() else { return quote!(#sub0) };
         let highest = Literal::usize_unsuffixed(elements.len());
         let name = &object.name;
-        let facts = self.entry_doc(first, "");
-        let facts = facts.split_once("\n\n").map_or("", |(_, facts)| facts);
+        let facts_of = |entry: &PlannedEntry<'_>| {
+            let text = self.entry_doc(entry, "");
+            text.split_once("\n\n").map_or_else(String::new, |(_, facts)| facts.to_owned())
+        };
+        let facts = facts_of(first);
+        let shared = elements.iter().all(|element| facts_of(element) == facts);
+        let facts =
+            if shared { facts } else { "The elements differ in their limits or defaults.".to_owned() };
         let about = doc(&format!(
             "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{facts}",
             self.object_doc(object.object),
             elements.len()
         ));
-        let (get, set) = (format_ident!("{name}"), format_ident!("set_{name}"));
+        let (get, set) = (format_ident!("{name}"), format_ident!("{}", setter(name)));
         let value_type = values.value_type(&first.kind, &at.root);
         let Place::Image(start) = first.place else {
             return self.constant_elements(object, &elements, sub0.as_ref());

@@ -4,7 +4,7 @@ use od_spec::model::{BitPattern, Command, ErrorCode};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::plan::{Plan, PlannedEntry, PlannedMachine};
+use super::super::plan::{Plan, PlannedEntry, PlannedMachine, ValueKind};
 use super::docs::{doc, escape};
 use super::value::{Values, hex};
 
@@ -94,8 +94,19 @@ impl Plan<'_> {
             names.push(quote!(Self::#variant => #text,));
         }
         let (word_type, word) = self.word(command);
-        let made = Values::wrap(&command.kind, &quote!(super::), &quote!(word & !mask | value));
-        let raw = Values { plan: self }.raw_type(&command.kind, &quote!(super::));
+        let kind = word_kind(command);
+        let made = quote!(word & !mask | value);
+        let made = if is_signed(&kind) { quote!((#made).cast_signed()) } else { made };
+        let made = Values::wrap(&kind, &quote!(super::), &made);
+        let unsigned = format_ident!(
+            "u{}",
+            kind.data_type.bits().filter(|bits| matches!(bits, 8 | 16 | 32)).unwrap_or(64)
+        );
+        let raw = if is_signed(&kind) {
+            quote!(#unsigned)
+        } else {
+            Values { plan: self }.raw_type(&kind, &quote!(super::))
+        };
         quote! {
             #about
             #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -139,9 +150,13 @@ impl Plan<'_> {
     /// The type of a word, and its raw number.
     fn word(&self, entry: &PlannedEntry<'_>) -> (TokenStream, TokenStream) {
         let values = Values { plan: self };
-        let wrapped = entry.kind.named.is_some() || entry.kind.unit.is_some();
-        let raw = if wrapped { quote!(word.0) } else { quote!(word) };
-        (values.value_type(&entry.kind, &quote!(super::)), raw)
+        let kind = word_kind(entry);
+        let raw = match (kind.named.is_some(), is_signed(&kind)) {
+            (true, _) => quote!(word.0),
+            (false, true) => quote!(word.cast_unsigned()),
+            (false, false) => quote!(word),
+        };
+        (values.value_type(&kind, &quote!(super::)), raw)
     }
 
     fn command_doc(&self, command: &Command) -> String {
@@ -194,4 +209,14 @@ fn pattern(pattern: &BitPattern) -> (proc_macro2::Literal, proc_macro2::Literal)
     let (mask, value) = pattern.mask_and_value();
     let digits = pattern.0.len().div_ceil(4);
     (hex(mask, digits), hex(value, digits))
+}
+
+/// Whether a word is a plain signed number, whose bits have to be taken as unsigned ones.
+fn is_signed(kind: &ValueKind) -> bool {
+    kind.named.is_none() && kind.data_type.is_signed()
+}
+
+/// What a word is in code: a bit field or a plain number; a unit or special values say nothing about its bits.
+fn word_kind(entry: &PlannedEntry<'_>) -> ValueKind {
+    ValueKind { unit: None, special: None, ..entry.kind.clone() }
 }

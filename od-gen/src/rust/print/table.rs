@@ -108,6 +108,7 @@ impl Plan<'_> {
                     &mut self.0
                 }
 
+                #[allow(unused_parens, unused_comparisons)]
                 fn condition(&self, number: u16) -> bool {
                     #body
                 }
@@ -161,7 +162,7 @@ impl Plan<'_> {
             }
 
             /// Conditions between entries.
-            #[allow(dead_code, unreachable_pub)]
+            #[allow(dead_code, unreachable_pub, unused_parens, unused_variables, unused_comparisons)]
             pub mod constraints {
                 #(#functions)*
             }
@@ -279,7 +280,9 @@ impl Plan<'_> {
             };
             let pdo = planned.pdo;
             let (cob_id, mapping) = (row(pdo.communication_index(), 1), row(pdo.mapping_index(), 0));
-            let rows = planned.fields.iter().map(|field| Literal::u16_unsuffixed(field.row));
+            // Placeholders are no rows; a mapping with any of them is searched.
+            let known = planned.fields.len() == pdo.map.len();
+            let rows = planned.fields.iter().filter(|_| known).map(|field| Literal::u16_unsuffixed(field.row));
             let index = hex(pdo.communication_index().into(), 4);
             quote!(glue::table::Pdo { index: #index, cob_id: #cob_id, mapping: #mapping, rows: &[#(#rows),*] })
         });
@@ -468,11 +471,16 @@ fn sum(values: &Values<'_, '_>, of: &Sum, narrow: bool, at: &At) -> TokenStream 
         Sum::Entry(id) => number(*id),
         Sum::Bit(id, bit) => {
             let number = number(*id);
-            if *bit == 0 {
-                return quote!((#number & 1));
-            }
-            let bit = Literal::u8_unsuffixed(*bit);
-            quote!((#number >> #bit & 1))
+            let wide = narrow
+                && values.plan.device.entry(*id).is_some_and(|entry| entry.data_type == DataType::Unsigned64);
+            let shifted = if *bit == 0 {
+                quote!(#number & 1)
+            } else {
+                let bit = Literal::u8_unsuffixed(*bit);
+                quote!(#number >> #bit & 1)
+            };
+            // The other side has 64 bits with a sign.
+            if wide { quote!(i64::from(#shifted != 0)) } else { quote!((#shifted)) }
         }
         Sum::Binary(left, op, right) => {
             let (left, right) = (sum(values, left, narrow, at), sum(values, right, narrow, at));

@@ -288,28 +288,49 @@ impl Values<'_, '_> {
                 let target = self.number(self.plan.entry(alias.target)?, at)?;
                 let (root, view) = (&at.root, view_name(entry));
                 if alias.outside == od_spec::model::Outside::Abort {
-                    let narrow = quote!(#root glue::narrow(number));
+                    let narrow = self.narrowed(&entry.kind, root, &quote!(number));
                     let value = self.decode(&entry.kind, root, &narrow);
                     return Some((
                         quote!(#root #view.show(#target).ok().map(|number| #value)),
                         quote!(Option<#value_type>),
                     ));
                 }
-                let narrow = quote!(#root glue::narrow(#root #view.show_or_zero(#target)));
-                let value = match self.special_name(&entry.kind) {
-                    Some(_) => {
-                        let raw = self.raw_type(&entry.kind, root);
-                        self.decode(
-                            &entry.kind,
-                            root,
-                            &quote!(#root glue::narrow::<#raw>(#root #view.show_or_zero(#target))),
-                        )
-                    }
-                    None => self.decode(&entry.kind, root, &narrow),
-                };
+                let shown = quote!(#root #view.show_or_zero(#target));
+                let raw = self.narrowed(&entry.kind, root, &shown);
+                let value = self.decode(&entry.kind, root, &raw);
                 Some((value, value_type))
             }
             Place::Application => None,
+        }
+    }
+
+    /// A number in 64 bits as the raw form of a value. A bit field on a signed base is unsigned in code.
+    fn narrowed(&self, kind: &ValueKind, root: &TokenStream, number: &TokenStream) -> TokenStream {
+        let narrow = self.raw_type(kind, root);
+        if self.is_bits(kind) && kind.data_type.is_signed() {
+            let bits = kind.data_type.bits().unwrap_or(64);
+            let signed = format_ident!("i{}", if matches!(bits, 8 | 16 | 32) { bits } else { 64 });
+            let mask =
+                (!matches!(bits, 8 | 16 | 32 | 64)).then(|| hex((1 << bits) - 1, usize::from(bits / 4)));
+            let mask = mask.map(|mask| quote!(& #mask));
+            return quote!(#root glue::narrow::<#signed>(#number).cast_unsigned() #mask);
+        }
+        if kind.special.is_some() {
+            return quote!(#root glue::narrow::<#narrow>(#number));
+        }
+        quote!(#root glue::narrow(#number))
+    }
+
+    /// The raw form of a value as a number in 64 bits.
+    pub(super) fn widened(&self, kind: &ValueKind, raw: &TokenStream) -> TokenStream {
+        let signed_bits = self.is_bits(kind) && kind.data_type.is_signed();
+        match self.carrier(kind) {
+            Some(carrier) if carrier.bytes < 8 && carrier.is_exact() && signed_bits => {
+                quote!(i64::from((#raw).cast_signed()))
+            }
+            Some(carrier) if carrier.bytes < 8 && carrier.is_exact() => quote!(i64::from(#raw)),
+            Some(carrier) if !carrier.signed => quote!((#raw).cast_signed()),
+            _ => raw.clone(),
         }
     }
 
@@ -325,12 +346,26 @@ impl Values<'_, '_> {
             Place::Image(offset) => {
                 let offset = Literal::usize_unsuffixed(offset);
                 let raw = self.load(&plain, entry.size, at, &quote!(#offset));
-                let wide =
-                    Carrier::of(&plain, false).is_some_and(|carrier| carrier.is_exact() && carrier.bytes < 8);
-                Some(if wide || plain.data_type == DataType::Boolean { quote!(i64::from(#raw)) } else { raw })
+                let carrier = Carrier::of(&plain, false);
+                let narrow = carrier.is_some_and(|carrier| carrier.is_exact() && carrier.bytes < 8);
+                let odd_unsigned = carrier.is_some_and(|carrier| !carrier.is_exact() && !carrier.signed);
+                Some(if narrow || plain.data_type == DataType::Boolean {
+                    quote!(i64::from(#raw))
+                } else if odd_unsigned {
+                    quote!(#raw.cast_signed())
+                } else {
+                    raw
+                })
             }
             Place::Constant(_) => {
-                let number = decimal(super::super::plan::default_integer(entry.entry)?);
+                let number = super::super::plan::default_integer(entry.entry)?;
+                let number = match (i64::try_from(number), u64::try_from(number)) {
+                    (Ok(number), _) if plain.data_type != DataType::Unsigned64 => {
+                        Literal::i64_suffixed(number)
+                    }
+                    (_, Ok(number)) => Literal::u64_suffixed(number),
+                    _ => return None,
+                };
                 Some(quote!(#number))
             }
             Place::Alias => {

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 
 use super::super::plan::{Plan, PlannedEntry};
 use super::docs::doc;
-use super::value::{Values, decimal};
+use super::value::Values;
 
 impl Plan<'_> {
     /// `mod defaults`: the values after a factory reset that the specification states, apart from those of PDOs.
@@ -53,8 +53,8 @@ impl Plan<'_> {
                 let (lowest, highest) = entry.entry.data_type.range()?;
                 let kind = super::super::plan::ValueKind { special: None, ..entry.kind.clone() };
                 let end = |raw: i128| {
-                    let literal = decimal(raw);
-                    values.decode(&kind, &root, &quote!(#literal))
+                    let literal = values.literal_of(&kind, &Value::Integer(raw)).unwrap_or_else(|| quote!(0));
+                    values.decode(&kind, &root, &literal)
                 };
                 let (low, high) =
                     (end(entry.entry.low.unwrap_or(lowest)), end(entry.entry.high.unwrap_or(highest)));
