@@ -19,8 +19,8 @@ pub trait Application<D: Dictionary> {
 
     /// The application's veto, after every check of the dictionary has passed. `value` has the length of the entry's type.
     ///
-    /// Commands such as "store parameters" (1010h) are carried out here: a client is answered only when they are done, and a
-    /// failure is an abort code such as [`AbortCode::HARDWARE`].
+    /// Commands such as "store parameters" (1010h) are carried out here: their signature was checked, a client is answered
+    /// only when they are done, and a failure is an abort code such as [`AbortCode::HARDWARE`].
     fn accept(&mut self, dictionary: &mut D, entry: D::Entry, value: &[u8]) -> Result<(), AbortCode> {
         let _ = (dictionary, entry, value);
         Ok(())

@@ -153,13 +153,15 @@ pub trait Dictionary: Sized {
         }
     }
 
-    /// The bytes that a "store parameters" command (1010h) saves.
+    /// The bytes that a "store parameters" command saves: 1010h.2 the communication parameters, .3 the application
+    /// parameters, .4 the manufacturer's, .1 all of them.
     fn stored(&self, storage: Storage) -> &[u8] {
         Self::TABLE.region(storage).and_then(|region| self.image().get(bounds(region))).unwrap_or_default()
     }
 
     /// Takes back bytes that [`stored`](Self::stored) gave, with the number that [`layout`](Self::layout) had then; `false`,
-    /// and no change, if they are not of this layout.
+    /// and no change, if they are not of this layout. The values themselves are not checked: keep a checksum beside them.
+    /// Entries that follow the node-ID come back as they were saved.
     #[must_use]
     fn restore(&mut self, storage: Storage, layout: u32, bytes: &[u8]) -> bool {
         let Some(region) = Self::TABLE.region(storage) else { return false };

@@ -30,6 +30,16 @@ impl<V, S> Special<V, S> {
     }
 }
 
+/// The value with its unit, or what it means.
+impl<V: fmt::Display, S: fmt::Display> fmt::Display for Special<V, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Value(value) => value.fmt(f),
+            Self::Special(special) => special.fmt(f),
+        }
+    }
+}
+
 impl<V: fmt::Debug, S: fmt::Debug> fmt::Debug for Special<V, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1219,7 +1219,7 @@ impl Pmc {
         units::Permille(glue::get_u16(&self.0, 438))
     }
 
-    /// Sets [`max_current`](Self::max_current).
+    /// Sets [`max_current`](Self::max_current). The device's own values are not held against the limits.
     #[inline]
     pub fn set_max_current(&mut self, value: units::Permille<u16>) {
         glue::put_u16(&mut self.0, 438, value.0);
@@ -3089,13 +3089,13 @@ pub mod records {
     }
 
     impl<D: BorrowMut<super::Pmc>> GearRatio<D> {
-        /// Sets [`motor_revolutions`](Self::motor_revolutions).
+        /// Sets [`motor_revolutions`](Self::motor_revolutions). The device's own values are not held against the limits.
         #[inline]
         pub fn set_motor_revolutions(&mut self, value: u32) {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 368, value);
         }
 
-        /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
+        /// Sets [`shaft_revolutions`](Self::shaft_revolutions). The device's own values are not held against the limits.
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 372, value);
@@ -3131,7 +3131,7 @@ pub mod records {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 376, value.0);
         }
 
-        /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
+        /// Sets [`shaft_revolutions`](Self::shaft_revolutions). The device's own values are not held against the limits.
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 380, value);
@@ -3818,7 +3818,7 @@ pub mod records {
             super::glue::put_u16(&mut self.0.borrow_mut().0, 506, value.0);
         }
 
-        /// Sets [`max_pwm_frequency`](Self::max_pwm_frequency).
+        /// Sets [`max_pwm_frequency`](Self::max_pwm_frequency). The device's own values are not held against the limits.
         #[inline]
         pub fn set_max_pwm_frequency(&mut self, value: super::units::Kilohertz<u16>) {
             super::glue::put_u16(&mut self.0.borrow_mut().0, 508, value.0);
@@ -6440,6 +6440,13 @@ pub mod specials {
         }
     }
 
+    /// What the value means.
+    impl core::fmt::Display for HeartbeatOff {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(self.name())
+        }
+    }
+
     super::glue::defmt_text!(HeartbeatOff);
 
     /// as acceleration (0).
@@ -6458,6 +6465,13 @@ pub mod specials {
         }
     }
 
+    /// What the value means.
+    impl core::fmt::Display for AsAcceleration {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(self.name())
+        }
+    }
+
     super::glue::defmt_text!(AsAcceleration);
 
     /// monitoring off (4294967295).
@@ -6473,6 +6487,13 @@ pub mod specials {
             match self {
                 Self::MonitoringOff => "monitoring off",
             }
+        }
+    }
+
+    /// What the value means.
+    impl core::fmt::Display for MonitoringOff {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(self.name())
         }
     }
 

@@ -1333,7 +1333,7 @@ impl Pmm {
         }
     }
 
-    /// Sets [`selftest_time`](Self::selftest_time).
+    /// Sets [`selftest_time`](Self::selftest_time). The device's own values are not held against the limits.
     #[inline]
     pub fn set_selftest_time(
         &mut self,
@@ -6565,6 +6565,13 @@ pub mod specials {
         }
     }
 
+    /// What the value means.
+    impl core::fmt::Display for HeartbeatOff {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(self.name())
+        }
+    }
+
     super::glue::defmt_text!(HeartbeatOff);
 
     /// short circuit (-32768) or wire break (32767).
@@ -6586,6 +6593,13 @@ pub mod specials {
         }
     }
 
+    /// What the value means.
+    impl core::fmt::Display for ShortCircuitOrWireBreak {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(self.name())
+        }
+    }
+
     super::glue::defmt_text!(ShortCircuitOrWireBreak);
 
     /// automatic test off (0).
@@ -6601,6 +6615,13 @@ pub mod specials {
             match self {
                 Self::AutomaticTestOff => "automatic test off",
             }
+        }
+    }
+
+    /// What the value means.
+    impl core::fmt::Display for AutomaticTestOff {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            f.write_str(self.name())
         }
     }
 

@@ -136,6 +136,8 @@ fn what_cannot_be_rust_writes_nothing_at_all() {
     assert_eq!(code(&output), 1);
     assert!(!scratch.0.join("generated").exists());
     assert_snapshot!(stderr(&output));
+    assert_eq!(code(&odgen(&scratch.0, &["check", "--rust", "lamp.od.yaml"])), 1);
+    assert_eq!(code(&odgen(&scratch.0, &["check", "lamp.od.yaml"])), 0);
     // An EDS needs no capacity.
     assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml"])), 0);
 }

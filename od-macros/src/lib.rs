@@ -25,7 +25,7 @@ use quote::quote;
 /// `device = "KEY"` chooses a device and can be left out if there is only one.
 ///
 /// Mistakes in the specification become errors of the compiler, with their place in the specification and with help; its
-/// warnings become warnings. The crate is compiled again when the specification, or a library file it uses, changes.
+/// warnings become warnings, which the compiler words as the use of a deprecated constant, as a macro has no other way. The crate is compiled again when the specification, or a library file it uses, changes.
 #[proc_macro]
 pub fn object_dictionary(input: TokenStream) -> TokenStream {
     match Arguments::read(input) {
@@ -82,7 +82,10 @@ impl Arguments {
         let mut out = TokenStream::new();
         for error in errors {
             // The compiler says `error` itself.
-            out.extend(compile_error(error.strip_prefix("error").unwrap_or(&error), self.span));
+            let error = error.strip_prefix("error").unwrap_or(&error);
+            let hint =
+                if read.is_empty() { "\nnote: the path starts at the directory of Cargo.toml" } else { "" };
+            out.extend(compile_error(&format!("{error}{hint}"), self.span));
         }
         for warning in warnings {
             out.extend(self.warning(&warning));

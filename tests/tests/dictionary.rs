@@ -457,6 +457,7 @@ fn every_data_type_is_read_and_written() {
         Some(everything::specials::ShortCircuitOrWireBreak::WireBreak)
     );
     assert_eq!(od.waermetauscher_groesse().value(), None);
+    assert_eq!(od.waermetauscher_groesse().to_string(), "wire break");
     assert_eq!(od.write(0x201B, 0, &851i16.to_le_bytes(), &mut ()), Err(AbortCode::TOO_HIGH));
     // Arrays by sub-index, records with gaps.
     assert_eq!(od.write(0x201C, 12, &[1], &mut ()).map(drop), Ok(()));

@@ -102,7 +102,8 @@ impl Scope {
         span: Span,
         diagnostics: &mut Diagnostics,
     ) -> bool {
-        let help = "give one of them `identifier:`, or another name where the language has no such key";
+        let help =
+            "add `identifier:` to one of the objects or entries; give a type, unit or value another name";
         if name.is_empty() {
             diagnostics.push(
                 Diagnostic::new(

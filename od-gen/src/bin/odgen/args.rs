@@ -89,7 +89,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// Specifications (`*.od.yaml`); without any, the specifications that come with odgen
+    /// Specifications (`*.od.yaml`); without any, the specifications that come with odgen, with Rust and a DCF for node 1
     pub specs: Vec<PathBuf>,
 
     /// Directory for the files
@@ -118,6 +118,10 @@ pub(crate) struct CheckArgs {
     /// Treat warnings as errors
     #[arg(long)]
     pub deny_warnings: bool,
+
+    /// Also what only Rust code minds: names that give one identifier, strings without a capacity
+    #[arg(long)]
+    pub rust: bool,
 }
 
 #[derive(Debug, Args)]

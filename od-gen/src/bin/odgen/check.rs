@@ -1,6 +1,8 @@
 //! `odgen check`.
 
+use od_gen::rust;
 use od_gen::source::{FileLoader, compile_file};
+use od_spec::Compiled;
 use od_spec::source::SourceMap;
 
 use super::args::CheckArgs;
@@ -11,9 +13,15 @@ pub(crate) fn run(args: &CheckArgs, report: &Report) -> u8 {
     let mut code = FINE;
     for path in &args.specs {
         let mut sources = SourceMap::new();
-        let compiled = compile_file(path, &mut sources, &mut FileLoader::default());
-        report.show(&compiled.diagnostics, &sources);
-        if compiled.system.is_none() || (args.deny_warnings && !compiled.diagnostics.is_empty()) {
+        let Compiled { system, mut diagnostics } =
+            compile_file(path, &mut sources, &mut FileLoader::default());
+        for device in system.iter().filter(|_| args.rust).flat_map(|system| &system.devices) {
+            if let Some(system) = &system {
+                let _ = rust::tokens(system, device, &mut diagnostics);
+            }
+        }
+        report.show(&diagnostics, &sources);
+        if diagnostics.has_errors() || system.is_none() || (args.deny_warnings && !diagnostics.is_empty()) {
             code = ERRORS;
         }
     }

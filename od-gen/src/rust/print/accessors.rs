@@ -108,7 +108,10 @@ impl Plan<'_> {
         let raw = values.encode(&entry.kind, &at.root, &quote!(value));
         let (store, error) = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
         let parameter = values.parameter_type(&entry.kind, &at.root);
-        let about = doc(&format!("Sets [`{name}`](Self::{name})."));
+        let limited = entry.entry.low.is_some() || entry.entry.high.is_some();
+        let unchecked =
+            if limited { " The device's own values are not held against the limits." } else { "" };
+        let about = doc(&format!("Sets [`{name}`](Self::{name}).{unchecked}"));
         let set = format_ident!("{}", setter(name));
         match error {
             None => quote! {

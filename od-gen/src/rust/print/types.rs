@@ -282,6 +282,13 @@ fn special(planned: &PlannedSpecial) -> TokenStream {
             }
         }
 
+        /// What the value means.
+        impl core::fmt::Display for #name {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+
         super::glue::defmt_text!(#name);
     }
 }
