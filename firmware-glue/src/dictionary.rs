@@ -209,12 +209,6 @@ pub(crate) fn holder(table: &Table, row: Row) -> Row {
     }
 }
 
-/// The value of a row, whatever its access.
-#[inline]
-pub(crate) fn value<'a>(table: &'static Table, image: &'a [u8], row: Row) -> Result<Value<'a>, AbortCode> {
-    value_of(table, image, table.found(row))
-}
-
 /// The value of an entry, whatever its access.
 #[inline]
 pub(crate) fn value_of<'a>(
@@ -247,8 +241,8 @@ fn string_value<'a>(bytes: &'a [u8], at: usize, shared: &Attributes) -> Result<V
 #[inline(never)]
 fn alias_value(table: &'static Table, image: &[u8], row: Row) -> Result<Value<'static>, AbortCode> {
     let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
-    let target = value(table, image, alias.target)?;
-    let number = number(table.attributes(alias.target).data_type, &target);
+    let target = table.found(alias.target);
+    let number = number(target.shared.data_type, &value_of(table, image, target)?);
     Ok(Value::computed(alias.view.show(number)?, table.attributes(row).size))
 }
 

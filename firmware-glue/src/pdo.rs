@@ -317,20 +317,18 @@ pub(crate) fn check_mapping(
 fn check_mapped(table: &Table, flag: u8, parameter: u32) -> Result<u32, AbortCode> {
     const DUMMY_BITS: [u32; 8] = [0, 1, 8, 16, 32, 8, 16, 32];
     let (index, sub, bits) = parts(parameter);
-    let fits =
-        |width: u32| bits == width && table.granularity != 0 && bits % u32::from(table.granularity) == 0;
-    let width = if is_dummy(index, sub) {
+    let needed = if is_dummy(index, sub) {
         if flag != Flags::RECEIVE || table.dummies & 1 << index == 0 {
             return Err(AbortCode::NO_OBJECT);
         }
         DUMMY_BITS.get(usize::from(index)).copied().unwrap_or_default()
     } else {
-        let row = table.find(index, sub).map_err(|_| AbortCode::NO_OBJECT)?;
-        let shared = table.attributes(row);
+        let Found { shared, .. } = table.lookup(index, sub).map_err(|_| AbortCode::NO_OBJECT)?;
         if !shared.flags.has(flag) {
             return Err(AbortCode::NOT_MAPPABLE);
         }
-        if shared.data_type == DataType::Boolean { 1 } else { u32::from(shared.size) * 8 }
+        width(shared)
     };
-    if fits(width) { Ok(bits) } else { Err(AbortCode::NOT_MAPPABLE) }
+    let in_step = table.granularity != 0 && bits % u32::from(table.granularity) == 0;
+    if bits == needed && in_step { Ok(bits) } else { Err(AbortCode::NOT_MAPPABLE) }
 }

@@ -383,24 +383,12 @@ impl Table {
     /// What an entry is.
     #[inline]
     pub fn attributes(&self, row: Row) -> &'static Attributes {
-        self.shared(self.row(row))
+        self.found(row).shared
     }
 
     #[inline]
     fn row(&self, row: Row) -> EntryRow {
         self.entries.get(usize::from(row)).copied().unwrap_or(EntryRow { attributes: NONE, place: 0 })
-    }
-
-    #[inline]
-    fn shared(&self, entry: EntryRow) -> &'static Attributes {
-        self.attributes.get(usize::from(entry.attributes)).unwrap_or(&NOTHING)
-    }
-
-    /// Offset of an entry in the image or in the constants.
-    #[inline]
-    pub(crate) fn offset(&self, row: Row) -> usize {
-        let entry = self.row(row);
-        usize::from(self.shared(entry).page) << 16 | usize::from(entry.place)
     }
 
     /// The alias behind an entry.
