@@ -18,6 +18,15 @@ mod everything {
 
 use everything::Everything;
 
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    reason = "what users' lints say about generated code is tested with od-generated"
+)]
+mod coarse {
+    od_macros::object_dictionary!("shared/coarse.od.yaml");
+}
+
 /// An application that remembers what it was told.
 #[derive(Default)]
 struct Log<E> {
@@ -276,6 +285,7 @@ fn a_mapping_is_changed_by_the_rules_of_cia_301() {
     assert_eq!(write(0x1A00, 4, 0x6FFF_0020, 4), Err(AbortCode::NO_OBJECT));
     assert_eq!(write(0x1A00, 4, 0x6064_0120, 4), Err(AbortCode::NO_OBJECT));
     assert_eq!(write(0x1A00, 4, 0x6064_0010, 4), Err(AbortCode::NOT_MAPPABLE));
+    assert_eq!(write(0x1A00, 4, 0x6064_0040, 4), Err(AbortCode::NOT_MAPPABLE));
     assert_eq!(write(0x1A00, 4, 0x607A_0020, 4), Err(AbortCode::NOT_MAPPABLE));
     assert_eq!(write(0x1A00, 4, 0x1017_0010, 4), Err(AbortCode::NOT_MAPPABLE));
     assert_eq!(write(0x1A00, 4, 0x0005_0008, 4), Err(AbortCode::NO_OBJECT), "no placeholder in a TPDO");
@@ -291,6 +301,19 @@ fn a_mapping_is_changed_by_the_rules_of_cia_301() {
     od.set_position_actual_value(units::PositionUnit(-1));
     od.set_actual_velocity(units::PositionUnitPerSecond(0x7766_5544));
     assert_eq!(*pdo::pack(&mut od, 1, &mut ()).unwrap(), [0xFF, 0xFF, 0xFF, 0xFF, 0x44, 0x55, 0x66, 0x77]);
+}
+
+#[test]
+fn a_mapping_keeps_to_the_granularity_of_the_device() {
+    let mut od = coarse::Coarse::new(1);
+    let mut write = |index, sub, value: u32, size: usize| {
+        od.write(index, sub, &value.to_le_bytes()[..size], &mut ()).map(drop)
+    };
+    assert_eq!(write(0x1800, 1, 1 << 31 | 0x181, 4), Ok(()));
+    assert_eq!(write(0x1A00, 0, 0, 1), Ok(()));
+    assert_eq!(write(0x1A00, 1, 0x2000_0001, 4), Err(AbortCode::NOT_MAPPABLE));
+    assert_eq!(write(0x1A00, 1, 0x2001_0008, 4), Ok(()));
+    assert_eq!(write(0x1A00, 0, 1, 1), Ok(()));
 }
 
 #[test]
