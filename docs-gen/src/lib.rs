@@ -1,1 +1,65 @@
-//! Will hold the documentation backend, which prints the manual's tables from the resolved model; empty for now.
+//! Reference documentation of CANopen object dictionaries.
+//!
+//! The work has two steps. First the model becomes a [`Context`]: chapters, tables, objects and pictures as data, in one
+//! language, with nothing left to decide but looks. Then templates print it: Markdown and HTML come with this crate, and
+//! a directory of a user's own templates can replace or join them.
+
+mod appendix;
+mod cell;
+mod chapters;
+mod device;
+mod language;
+mod markdown;
+mod printed;
+mod source;
+mod tables;
+mod templates;
+pub mod view;
+
+use std::collections::BTreeMap;
+
+use od_spec::model::{EntryId, System};
+
+pub use language::LANGUAGES;
+pub use printed::{Difference, PrintedTable, TableIndex};
+pub use templates::{Format, Page, TemplateError, Templates};
+pub use view::Context;
+
+/// What a document shows.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// Keys of the devices; empty for all.
+    pub devices: Vec<String>,
+    /// Language; that of the specification unless given.
+    pub language: Option<String>,
+    /// Calls of the accessors in generated Rust, by key of the device and entry.
+    pub accessors: BTreeMap<(String, EntryId), String>,
+}
+
+/// Everything that templates see.
+pub fn context(system: &System, options: &Options) -> Context {
+    let source = source::Source::new(system, options);
+    let document = source.document();
+    let issue = document.revision.as_ref();
+    Context {
+        format: view::FORMAT,
+        language: source.language.code.to_owned(),
+        words: source.language.words(),
+        system: view::SystemView {
+            title: system.title.clone(),
+            vendor: system.vendor.name.clone(),
+            source: document.source.clone().unwrap_or_default(),
+            about: source.text(&document.about),
+            revision: issue.map_or_else(String::new, |issue| issue.number.clone()),
+            date: issue.map_or_else(String::new, |issue| source.language.date(issue.date)),
+        },
+        devices: source.devices.iter().map(|device| source.device(device)).collect(),
+        chapters: source.chapter_views(),
+        appendices: source.appendices(),
+    }
+}
+
+/// The index of the printed manual's tables, for programs.
+pub fn table_index(system: &System, options: &Options) -> TableIndex {
+    source::Source::new(system, options).table_index()
+}

@@ -7,6 +7,8 @@
 mod artifacts;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "docs")]
+pub mod docs;
 pub mod eds;
 mod expand;
 pub mod files;

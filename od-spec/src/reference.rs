@@ -327,7 +327,7 @@ static CHAPTERS: &[Chapter] = &[
         title: "The printed manual",
         text: MANUAL,
         sections: &[
-            Section { keys: &keys::ERRATUM, rules: "What kinds of fact there are:\n\n{ERRATA}" },
+            Section { keys: &keys::ERRATUM, rules: ERRATUM_RULES },
             plain(&keys::SECTION),
             Section { keys: &keys::TABLE, rules: TABLES },
             plain(&keys::TABLE_PDOS),
@@ -626,6 +626,17 @@ const MANUAL: &str = r"
 A specification can stand for a printed manual: `source:`, `revision:` and `history:` say which one, `document:` lists its sections and
 tables in order, and `errata:` lists the places where the specification departs from what is printed.
 ";
+
+const ERRATUM_RULES: &str = "\
+What kinds of fact there are:
+
+{ERRATA}
+
+The words of `place:` also say which tables of the `document:` the erratum is about, so that the documentation can show it with them. A
+number behind `Table`, `Tables`, `Tabelle` or `Tabellen` is that of a numbered table, which has to exist: `5.1.1.1, Table 38`,
+`Tables 12 to 15`; behind `below` or `unter` it is only near. The number of a section means its tables without a number that show an object
+of `at:`, if it stands alone or with `detail table`, `overview`, `Objekttabelle` or `Übersicht`: `4.3.1.1, detail table`. Other words, such
+as `heading` or `text`, mean no table.";
 
 const ERRATA: &[(&str, &str)] = &[
     ("index", "an index"),

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use od_gen::docs::{self, Templates};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::render::{Format, render};
@@ -24,6 +25,7 @@ pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
         let (system, sources) = compile_with_sources(&format!("od-spec/devices/{stem}.od.yaml"))?;
         let set = artifacts(&system, stem, &Selection { devices: &[], node: Some(1) });
         let set = set.into_iter().chain(modules(&system, &sources)?);
+        let set = set.chain(documents(&system, stem)?);
         files.extend(set.map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
     }
     files.push(("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()));
@@ -31,6 +33,12 @@ pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
     files.push(("docs/messages.md".to_owned(), messages().into_bytes()));
     files.push(("README.md".to_owned(), readme()?.into_bytes()));
     Ok(files)
+}
+
+/// The reference documentation of a specification, as Markdown.
+fn documents(system: &System, stem: &str) -> Result<Vec<Artifact>, Failure> {
+    let templates = [Templates::new(Some(docs::Format::Markdown), &[])?];
+    Ok(docs::artifacts(system, "docs/", stem, &docs::options(system, &[], None), &templates)?)
 }
 
 /// The Rust modules of a specification.

@@ -22,6 +22,7 @@ const ELSEWHERE: &[(Code, &str)] = &[
     (Code::Unreadable, "`odgen`, when it opens a file: tests of the command line"),
     (Code::BadNodeId, "`odgen dcf --node`: tests of the command line"),
     (Code::BitRateUnsupported, "`odgen dcf --bit-rate`: tests of the command line"),
+    (Code::BadTemplate, "`odgen docs`, when it prints templates: tests of the command line"),
     (Code::WriteFailed, "`odgen`, when it writes files: tests of the command line"),
     (Code::IdentifierClash, "the Rust backend: `tests/macros/names_clash.rs`"),
     (Code::NoIdentifier, "the Rust backend: `tests/macros/names_clash.rs`"),

@@ -32,7 +32,7 @@ pub fn dump(system: &System, devices: &[String]) -> Vec<u8> {
         errors: system.errors.iter().map(rules::error).collect(),
         state_machines: system.machines.values().map(rules::machine).collect(),
         constraints: system.constraints.iter().map(rules::constraint).collect(),
-        errata: system.errata.iter().map(rules::erratum).collect(),
+        errata: system.errata.iter().map(|erratum| rules::erratum(erratum, &system.document)).collect(),
     };
     let entries: usize = system.devices.iter().map(|device| device.entries().count()).sum();
     let mut text = Vec::with_capacity(2048 * entries);

@@ -1,6 +1,8 @@
 //! Error codes, state machines, constraints, errata.
 
-use od_spec::model::{Constraint, Erratum, ErratumPlace, ErrorCode, PatternBit, StateMachine};
+use od_spec::model::{
+    Constraint, Document, Erratum, ErratumPlace, ErrorCode, PatternBit, StateMachine, TableId,
+};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -118,9 +120,14 @@ pub(super) struct ErratumView<'a> {
     prints: Words<'a>,
     reads: Words<'a>,
     because: Words<'a>,
+    tables: Vec<Json>,
 }
 
-pub(super) fn erratum(erratum: &Erratum) -> ErratumView<'_> {
+pub(super) fn erratum<'a>(erratum: &'a Erratum, document: &Document) -> ErratumView<'a> {
+    let table = |id: &TableId| {
+        let section = document.sections.get(id.section)?;
+        Some(json!({"section": section.number, "number": section.tables.get(id.table)?.number}))
+    };
     ErratumView {
         at: erratum
             .at
@@ -136,5 +143,6 @@ pub(super) fn erratum(erratum: &Erratum) -> ErratumView<'_> {
         prints: words(&erratum.prints),
         reads: words(&erratum.reads),
         because: words(&erratum.because),
+        tables: erratum.tables.iter().filter_map(table).collect(),
     }
 }

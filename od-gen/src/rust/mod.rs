@@ -9,10 +9,11 @@ mod names;
 mod plan;
 mod print;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use od_spec::diag::Diagnostics;
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::SourceMap;
 use proc_macro2::TokenStream;
 
@@ -22,6 +23,14 @@ pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostic
     let (errors, _) = diagnostics.count();
     let plan = plan::plan(system, device, diagnostics);
     (diagnostics.count().0 == errors).then(|| print::tokens(&plan))
+}
+
+/// How code reads each entry of a device: the call of its accessor, `battery_parameter().nominal_capacity()`. Empty where the
+/// device cannot be code.
+pub fn accessors(system: &System, device: &Dictionary) -> BTreeMap<EntryId, String> {
+    let mut diagnostics = Diagnostics::new();
+    let plan = plan::plan(system, device, &mut diagnostics);
+    if diagnostics.has_errors() { BTreeMap::new() } else { plan.accessors() }
 }
 
 /// Which version of which specification code was made from, for the head of a file.

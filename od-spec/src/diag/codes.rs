@@ -221,6 +221,8 @@ codes! {
     WriteFailed Error "OD0709" "an output that cannot be written":
         "A file could not be created, written or renamed. Nothing was changed: the old files are all still there."
 
+    BadTemplate Error "OD0711" "a template that cannot be printed":
+        "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
     ConditionUnmet Warning "OD0710" "a parameter that the device accepts only in some state":
         "The entry has a `writable-when` condition that the configured values do not meet. A PLC that downloads the DCF at boot will get an SDO abort for it."
 

@@ -21,6 +21,35 @@ pub struct Document {
     pub sections: Vec<Section>,
 }
 
+/// The place of a table in a [`Document`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TableId {
+    /// Position of the section.
+    pub section: usize,
+    /// Position in the section's tables.
+    pub table: usize,
+}
+
+impl Document {
+    /// All tables, in order.
+    pub fn tables(&self) -> impl Iterator<Item = (TableId, &Section, &Table)> {
+        self.sections.iter().enumerate().flat_map(|(at, section)| {
+            let id = move |table| TableId { section: at, table };
+            section.tables.iter().enumerate().map(move |(table, content)| (id(table), section, content))
+        })
+    }
+
+    /// The table with this number.
+    pub fn numbered(&self, number: u32) -> Option<TableId> {
+        self.tables().find(|(.., table)| table.number.map(u32::from) == Some(number)).map(|(id, ..)| id)
+    }
+
+    /// The position of the section with this number.
+    pub fn section_position(&self, number: &str) -> Option<usize> {
+        self.sections.iter().position(|section| !number.is_empty() && section.number == number)
+    }
+}
+
 /// One issue of the manual.
 #[derive(Debug, Clone)]
 pub struct Issue {
@@ -118,6 +147,8 @@ pub struct Erratum {
     pub reads: Text,
     /// Why.
     pub because: Text,
+    /// Tables of the document that [`place`](Self::place) names.
+    pub tables: Vec<TableId>,
 }
 
 /// What an erratum is about.

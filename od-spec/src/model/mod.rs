@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
-    Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent,
+    Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
 };
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};

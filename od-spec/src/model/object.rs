@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{
-    Access, Category, DataType, EntryId, Index, NamedType, Outside, PdoMapping, Ratio, Rounding, Storage,
-    SubIndex, Text, Unit, Value,
+    Access, BitField, Category, DataType, EntryId, Index, NamedType, Outside, PdoMapping, Ratio, Rounding,
+    Storage, SubIndex, Text, TypeKind, Unit, Value,
 };
 use crate::expr::Expr;
 use crate::source::Span;
@@ -171,6 +171,16 @@ impl Entry {
         let low = self.low.map(|low| special.clone().fold(low, i128::min));
         let high = self.high.map(|high| special.fold(high, i128::max));
         (low, high)
+    }
+
+    /// Lowest bits of the fields that are set together with an error code.
+    pub fn bits_of_error(&self, code: u16) -> Vec<u8> {
+        let Some(TypeKind::Bits(fields)) = self.named_type.as_ref().map(|named| &named.kind) else {
+            return Vec::new();
+        };
+        let own = |bit: u8| self.bit_errors.iter().any(|(at, codes)| *at == bit && codes.contains(&code));
+        let with = |field: &&BitField| field.errors.contains(&code) || (field.first..=field.last).any(own);
+        fields.iter().filter(with).map(|field| field.first).collect()
     }
 
     /// Whether a raw value is allowed: inside the limits, or special.

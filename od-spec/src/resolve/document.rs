@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::places;
 use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::to_u16;
@@ -85,7 +86,7 @@ fn error_codes(list: &[Name]) -> Vec<u16> {
 
 pub(super) fn errata(
     root: &Spec,
-    devices: &[Dictionary],
+    system: &System,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Erratum> {
@@ -93,22 +94,35 @@ pub(super) fn errata(
     for decl in &root.errata {
         let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
         let about: Vec<&Dictionary> =
-            devices.iter().filter(|d| on.is_empty() || on.contains(&d.key)).collect();
+            system.devices.iter().filter(|d| on.is_empty() || on.contains(&d.key)).collect();
         let mut at = Vec::new();
         for reference in &decl.at {
             if let Some(place) = place(reference, &about, broken, diagnostics) {
                 at.push(place);
             }
         }
+        let place = words(&decl.place);
+        let named = places::read(place.get(system.language()).unwrap_or_default(), &at, &system.document);
+        // Without tables, the document is not described.
+        if system.document.tables().next().is_some()
+            && let Some(number) = named.unknown.first()
+            && let Some(span) = decl.place.as_ref().map(|place| place.span)
+        {
+            diagnostics.push(
+                Diagnostic::new(Code::UnknownReference, span, format!("there is no Table {number}"))
+                    .help("correct the number, or add the table to `document:`"),
+            );
+        }
         let Some(kind) = decl.kind else { continue };
         errata.push(Erratum {
             at,
             devices: on,
             kind: kind.value,
-            place: words(&decl.place),
+            place,
             prints: words(&decl.prints),
             reads: words(&decl.reads),
             because: words(&decl.because),
+            tables: named.tables,
         });
     }
     errata

@@ -9,6 +9,7 @@ mod errors;
 mod machines;
 mod objects;
 mod pdos;
+mod places;
 mod refs;
 mod scope;
 mod types;
@@ -67,7 +68,7 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
     };
     system.machines = machines::resolve(root, &system.devices, &broken, diagnostics);
     system.constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
-    system.errata = document::errata(root, &system.devices, &broken, diagnostics);
+    system.errata = document::errata(root, &system, &broken, diagnostics);
     document::check(root, &system, &broken, diagnostics);
     crate::check::run(root, &system, diagnostics);
     system

@@ -18,12 +18,20 @@ pub(crate) struct Cli {
     pub command: Command,
 
     /// How messages are written
-    #[arg(long, global = true, value_enum, default_value_t)]
-    pub format: Format,
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
 
     /// Colours in messages
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     pub color: Color,
+}
+
+/// How messages are written, said behind the command. `odgen docs` has formats of its own; there it is said before the command.
+#[derive(Debug, Args)]
+pub(crate) struct Messages {
+    /// How messages are written
+    #[arg(long, value_enum)]
+    pub format: Option<Format>,
 }
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
@@ -35,6 +43,30 @@ pub(crate) enum Format {
     Short,
     /// One JSON object per line
     Json,
+}
+
+impl Cli {
+    /// How messages are written, wherever it was said.
+    pub(crate) fn message_format(&self) -> Format {
+        let behind = match &self.command {
+            Command::Build(args) => args.messages.format,
+            Command::Check(args) => args.messages.format,
+            Command::Dcf(args) => args.messages.format,
+            Command::Dump(args) => args.messages.format,
+            Command::Errata(args) => args.messages.format,
+            _ => None,
+        };
+        behind.or(self.format).unwrap_or_default()
+    }
+}
+
+impl From<DocsFormat> for docs_gen::Format {
+    fn from(format: DocsFormat) -> Self {
+        match format {
+            DocsFormat::Md => docs_gen::Format::Markdown,
+            DocsFormat::Html => docs_gen::Format::Html,
+        }
+    }
 }
 
 impl From<Format> for render::Format {
@@ -68,6 +100,8 @@ pub(crate) enum Command {
     Dcf(DcfArgs),
     /// Print the resolved model as JSON
     Dump(DumpArgs),
+    /// Make the reference documentation: the manual's tables and a reference of all objects, as Markdown or HTML
+    Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
     /// Tell what a message code means and what to do about it
@@ -107,6 +141,13 @@ pub(crate) struct BuildArgs {
     /// Also a Rust module of each device, `src/KEY.rs`
     #[arg(long)]
     pub rust: bool,
+
+    /// Also the reference documentation in this format, `docs/`; without specifications, Markdown
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub docs: Vec<DocsFormat>,
+
+    #[command(flatten)]
+    pub messages: Messages,
 }
 
 #[derive(Debug, Args)]
@@ -122,6 +163,9 @@ pub(crate) struct CheckArgs {
     /// Also what only Rust code minds: names that give one identifier, strings without a capacity
     #[arg(long)]
     pub rust: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
 }
 
 #[derive(Debug, Args)]
@@ -160,6 +204,51 @@ pub(crate) struct DcfArgs {
     /// File to write [default: the key and node-ID, such as pmc-5.dcf]
     #[arg(long, short, value_name = "FILE")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DocsArgs {
+    /// Specifications (`*.od.yaml`); without any, the specifications that come with odgen
+    pub specs: Vec<PathBuf>,
+
+    /// Directory for the documents; those of a specification go into a directory with its name
+    #[arg(long, short, default_value = "generated/docs", value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Only these devices
+    #[arg(long, value_name = "KEY")]
+    pub device: Vec<String>,
+
+    /// Language of the documents, such as `en` or `de` [default: the first of the specification]
+    #[arg(long, value_name = "CODE")]
+    pub lang: Option<String>,
+
+    /// Format; can be given twice [default: md, or with --templates none but theirs]
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Vec<DocsFormat>,
+
+    /// Directory with templates of your own, which are laid over those of the format
+    #[arg(long, value_name = "DIR")]
+    pub templates: Option<PathBuf>,
+
+    /// Write the templates of the format into this directory, to start your own from, and nothing else
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["templates", "dump_context"])]
+    pub export_templates: Option<PathBuf>,
+
+    /// Print what templates see, as JSON, and nothing else
+    #[arg(long)]
+    pub dump_context: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DocsFormat {
+    /// Markdown: a file per chapter, device and appendix
+    Md,
+    /// HTML: a file for the system and one per device, each complete in itself
+    Html,
 }
 
 #[derive(Debug, Args)]
@@ -174,6 +263,9 @@ pub(crate) struct DumpArgs {
     /// Only these devices
     #[arg(long, value_name = "KEY")]
     pub device: Vec<String>,
+
+    #[command(flatten)]
+    pub messages: Messages,
 }
 
 #[derive(Debug, Args)]
@@ -192,4 +284,7 @@ pub(crate) struct ErrataArgs {
     /// As Markdown
     #[arg(long)]
     pub markdown: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
 }

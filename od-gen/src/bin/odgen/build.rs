@@ -13,11 +13,12 @@ use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 
 use super::ERRORS;
-use super::args::BuildArgs;
+use super::args::{BuildArgs, DocsFormat};
+use super::docs;
 use super::report::{Report, node_id, print};
 
 /// The specifications that come with odgen: name and text.
-const SHIPPED: [(&str, &str); 1] = [(
+pub(crate) const SHIPPED: [(&str, &str); 1] = [(
     "pitch-control-system.od.yaml",
     include_str!("../../../../od-spec/devices/pitch-control-system.od.yaml"),
 )];
@@ -35,16 +36,15 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
     let mut text = String::new();
     for key in &args.device {
         if !systems.iter().any(|built| built.system.device(key).is_some()) {
-            let keys = systems
-                .iter()
-                .flat_map(|built| &built.system.devices)
-                .map(|device| format!("`{}`", device.key));
-            return report.refuse(
-                Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
-                    .help(format!("the devices are {}", keys.collect::<Vec<_>>().join(", "))),
-            );
+            return report.unknown_device(systems.iter().map(|built| &built.system), key);
         }
     }
+    let formats = if shipped && args.docs.is_empty() { &[DocsFormat::Md][..] } else { &args.docs };
+    let templates = match docs::templates(formats, None) {
+        Ok(templates) if !formats.is_empty() => templates,
+        Ok(_) => Vec::new(),
+        Err(problem) => return problem.show(report),
+    };
     for Built { stem, system, rust } in &mut systems {
         let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
@@ -53,6 +53,13 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
         text.extend(devices.into_iter().map(describe));
         set.extend(artifacts(system, stem, &Selection { devices: &args.device, node }));
         set.append(rust);
+        if !templates.is_empty() {
+            let options = od_gen::docs::options(system, &args.device, None);
+            match od_gen::docs::artifacts(system, "docs/", stem, &options, &templates) {
+                Ok(artifacts) => set.extend(artifacts),
+                Err(error) => return docs::Problem::Template(error, None).show(report),
+            }
+        }
     }
     if let Some(path) = clash(&set) {
         return report.refuse(
@@ -113,7 +120,7 @@ fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {
     args.device.is_empty() || args.device.contains(&device.key)
 }
 
-fn shipped(name: &str, text: &str, report: &Report) -> Option<(System, SourceMap)> {
+pub(crate) fn shipped(name: &str, text: &str, report: &Report) -> Option<(System, SourceMap)> {
     let mut sources = SourceMap::new();
     let root = sources.add(name, text);
     let compiled = compile(&mut sources, root, &mut NoFiles);
@@ -122,7 +129,7 @@ fn shipped(name: &str, text: &str, report: &Report) -> Option<(System, SourceMap
 }
 
 /// `pitch.od.yaml` → `pitch`.
-fn stem(path: &Path) -> String {
+pub(crate) fn stem(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let name = name.strip_suffix(".yaml").or_else(|| name.strip_suffix(".yml")).unwrap_or(&name);
     name.strip_suffix(".od").unwrap_or(name).to_owned()
@@ -155,7 +162,7 @@ fn describe(device: &Dictionary) -> String {
     )
 }
 
-fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
+pub(crate) fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     let paths: Vec<String> =
         set.iter().map(|artifact| out.join(&artifact.path).display().to_string()).collect();

@@ -4,6 +4,7 @@ mod args;
 mod build;
 mod check;
 mod dcf;
+mod docs;
 mod errata;
 mod report;
 
@@ -23,11 +24,12 @@ const USAGE: u8 = 2;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let report = report::Report::new(cli.format.into(), cli.color);
+    let report = report::Report::new(cli.message_format().into(), cli.color);
     let code = match cli.command {
         Command::Build(args) => build::run(&args, &report),
         Command::Check(args) => check::run(&args, &report),
         Command::Dcf(args) => dcf::run(&args, &report),
+        Command::Docs(args) => docs::run(&args, &report),
         Command::Dump(args) => dump(&args, &report),
         Command::Errata(args) => errata::run(&args, &report),
         Command::Explain { code } => explain(&code),

@@ -66,6 +66,15 @@ impl Report {
         code
     }
 
+    /// Shows that none of the specifications has a device.
+    pub(crate) fn unknown_device<'a>(&self, systems: impl Iterator<Item = &'a System>, key: &str) -> u8 {
+        let keys = systems.flat_map(|system| &system.devices).map(|device| format!("`{}`", device.key));
+        self.refuse(
+            Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
+                .help(format!("the devices are {}", keys.collect::<Vec<_>>().join(", "))),
+        )
+    }
+
     /// The device with this key.
     pub(crate) fn device<'a>(&self, system: &'a System, key: &str) -> Result<&'a Dictionary, u8> {
         system.device(key).ok_or_else(|| {

@@ -297,6 +297,20 @@ impl<'a> Plan<'a> {
     pub(super) fn entry(&self, row: u16) -> Option<&PlannedEntry<'a>> {
         self.entries.get(usize::from(row))
     }
+
+    /// The call that reads each entry.
+    pub(super) fn accessors(&self) -> BTreeMap<EntryId, String> {
+        let call = |planned: &PlannedEntry<'_>| {
+            let object = self.objects.get(planned.object)?;
+            Some(match &object.shape {
+                Shape::Var => format!("{}()", object.name),
+                Shape::Indexed { count } if planned.id.sub.0 == 0 => format!("{}()", count.as_ref()?),
+                Shape::Indexed { .. } => format!("{}({})", object.name, planned.id.sub),
+                Shape::Group { .. } => format!("{}().{}()", object.name, planned.member),
+            })
+        };
+        self.entries.iter().filter_map(|planned| Some((planned.id, call(planned)?))).collect()
+    }
 }
 
 fn too_large(span: Span, what: &str) -> Diagnostic {

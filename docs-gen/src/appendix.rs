@@ -1,0 +1,301 @@
+//! Tables over the whole system: what a manual has no place for, or scatters.
+
+use od_spec::model::{Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit};
+
+use crate::cell::{entry_anchor, slug};
+use crate::device::constraint_anchor;
+use crate::language::Word;
+use crate::source::Source;
+use crate::tables::Columns;
+use crate::tables::overview::{access, among};
+use crate::view::{Appendix, Cell, ErratumView, Row, Table};
+
+impl Source<'_> {
+    /// All appendices that have something to show.
+    pub(crate) fn appendices(&self) -> Vec<Appendix> {
+        let mut list = self.device_appendices();
+        list.extend(self.shown([
+            ("errata", Word::Errata, Some(Word::ErrataIntro), vec![self.errata()]),
+            ("tables", Word::AllTables, Some(Word::TablesIntro), vec![self.tables()]),
+        ]));
+        list
+    }
+
+    /// Those that a device's page shows for its device.
+    pub(crate) fn device_appendices(&self) -> Vec<Appendix> {
+        let errors =
+            vec![Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()])];
+        self.shown([
+            ("errors", Word::ErrorCodes, None, errors),
+            ("aliases", Word::Aliases, Some(Word::AliasesIntro), vec![self.aliases()]),
+            ("units", Word::Units, Some(Word::UnitsIntro), vec![self.units()]),
+            ("storage", Word::Storage, Some(Word::StorageIntro), self.storage()),
+            ("constraints", Word::Constraints, Some(Word::ConstraintsIntro), self.constraints()),
+        ])
+    }
+
+    fn shown<const N: usize>(
+        &self,
+        list: [(&'static str, Word, Option<Word>, Vec<Table>); N],
+    ) -> Vec<Appendix> {
+        list.into_iter()
+            .map(|(page, title, intro, tables)| Appendix {
+                page,
+                title: self.word(title).to_owned(),
+                intro: intro.map_or_else(String::new, |intro| self.word(intro).to_owned()),
+                tables: tables
+                    .into_iter()
+                    .filter(|table| table.grids.iter().any(|grid| !grid.rows.is_empty()))
+                    .collect(),
+            })
+            .filter(|appendix| !appendix.tables.is_empty())
+            .collect()
+    }
+
+    fn entries(&self) -> impl Iterator<Item = (&Dictionary, EntryId, &Object, &Entry)> {
+        self.devices
+            .iter()
+            .flat_map(|device| device.entries().map(move |(id, object, entry)| (*device, id, object, entry)))
+    }
+
+    /// The device of a row, where there are several.
+    fn device_cell(&self, device: &Dictionary) -> Cell {
+        if self.devices.len() > 1 { Cell::plain(device.key.to_uppercase()) } else { Cell::default() }
+    }
+
+    fn aliases(&self) -> Table {
+        let rows = self.entries().filter_map(|(device, id, _, entry)| {
+            let alias = entry.alias.as_ref()?;
+            let target = device.entry(alias.target)?;
+            Some(Row::of(vec![
+                self.entry_link(id),
+                Cell::plain(device.entry_name(id).unwrap_or_default()),
+                Cell::plain(entry.data_type.name()),
+                self.entry_link(alias.target),
+                Cell::plain(device.entry_name(alias.target).unwrap_or_default()),
+                Cell::plain(target.data_type.name()),
+                Cell::plain(self.language.number(&alias.factor.to_string())),
+                Cell::plain(self.conversion(alias)),
+                self.device_cell(device),
+            ]))
+        });
+        let grid = Columns::new()
+            .left(self, "alias", Word::Alias)
+            .left(self, "name", Word::Name)
+            .left(self, "type", Word::Type)
+            .left(self, "target", Word::Target)
+            .left(self, "target_name", Word::Name)
+            .left(self, "target_type", Word::Type)
+            .right(self, "factor", Word::Factor)
+            .left(self, "conversion", Word::Meaning)
+            .left(self, "device", Word::Device)
+            .grid(rows.collect(), &["alias", "name", "type", "target"]);
+        Table::unnumbered("aliases-all", "aliases", Cell::default(), vec![grid])
+    }
+
+    /// Units that an entry of the devices shown has.
+    fn units(&self) -> Table {
+        let rows = self.system.units.values().filter_map(|unit| {
+            let entries = self.entries_in(unit);
+            let base = unit.base.as_ref().map(|base| {
+                format!(
+                    "1 {} = {} {}",
+                    unit.symbol,
+                    self.language.number(&base.factor.to_string()),
+                    base.symbol
+                )
+            });
+            (!entries.is_empty()).then(|| Row {
+                anchor: format!("unit-{}", slug(&unit.name)),
+                ..Row::of(vec![
+                    Cell::plain(&unit.name),
+                    Cell::plain(&unit.symbol),
+                    Cell::plain(self.language.number(&format!("{} {}", unit.scale, unit.symbol))),
+                    base.map_or_else(Cell::default, Cell::plain),
+                    self.text(&unit.about),
+                    entries,
+                ])
+            })
+        });
+        let grid = Columns::new()
+            .left(self, "name", Word::Name)
+            .left(self, "symbol", Word::Symbol)
+            .left(self, "step", Word::Step)
+            .left(self, "base", Word::BaseUnit)
+            .left(self, "description", Word::Description)
+            .left(self, "entries", Word::UsedBy)
+            .grid(rows.collect(), &["name", "symbol", "step", "entries"]);
+        Table::unnumbered("units-all", "units", Cell::default(), vec![grid])
+    }
+
+    /// The entries in a unit; an object whose entries all are stands for them.
+    fn entries_in(&self, unit: &Unit) -> Cell {
+        let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|other| other.name == unit.name);
+        let (mut cell, mut shown) = (Cell::default(), Vec::new());
+        for object in self.devices.iter().flat_map(|device| device.objects.values()) {
+            let whole = among(object, has) == [true];
+            let entries =
+                object.entries.iter().filter(|entry| has(entry)).take(if whole { 1 } else { usize::MAX });
+            for entry in entries {
+                let id = EntryId { index: object.index, sub: if whole { SubIndex(0) } else { entry.sub } };
+                if shown.contains(&id) {
+                    continue;
+                }
+                shown.push(id);
+                cell = if cell.is_empty() { cell } else { cell.text(", ") };
+                cell = cell.and(self.entry_link(id));
+            }
+        }
+        cell
+    }
+
+    /// One table per device and storage group.
+    fn storage(&self) -> Vec<Table> {
+        let groups = [
+            (Storage::Communication, Word::StoredCommunication),
+            (Storage::Application, Word::StoredApplication),
+            (Storage::Manufacturer, Word::StoredManufacturer),
+            (Storage::Remanent, Word::StoredRemanent),
+        ];
+        let mut tables = Vec::new();
+        for device in &self.devices {
+            for (group, word) in groups {
+                let rows =
+                    device.entries().filter(|(.., entry)| entry.stored == group).map(|(id, _, entry)| {
+                        Row::of(vec![
+                            self.entry_link(id),
+                            Cell::plain(device.entry_name(id).unwrap_or_default()),
+                            Cell::plain(entry.data_type.name()),
+                            Cell::plain(access(entry)),
+                            Cell::plain(
+                                entry
+                                    .default
+                                    .as_ref()
+                                    .map_or_else(String::new, |value| self.value(entry, value)),
+                            ),
+                        ])
+                    });
+                let grid = Columns::new()
+                    .left(self, "entry", Word::Index)
+                    .left(self, "name", Word::Name)
+                    .left(self, "type", Word::Type)
+                    .left(self, "access", Word::Access)
+                    .left(self, "default", Word::Default)
+                    .full(rows.collect());
+                let title = format!("{}: {}", device.key.to_uppercase(), self.word(word));
+                let anchor = format!("storage-{}-{}", device.key, group.word());
+                tables.push(Table::unnumbered(anchor, "storage", Cell::plain(title), vec![grid]));
+            }
+        }
+        tables
+    }
+
+    fn constraints(&self) -> Vec<Table> {
+        let tables = self.shown_constraints().map(|constraint| {
+            let mut rows = vec![(Word::Condition, self.condition(&constraint.require, &constraint.devices))];
+            if let Some(when) = &constraint.when {
+                rows.push((Word::OnlyThere, self.condition(when, &constraint.devices)));
+            }
+            rows.push((Word::Because, self.text(&constraint.about)));
+            let rows = rows
+                .into_iter()
+                .filter(|(_, cell)| !cell.is_empty())
+                .map(|(word, cell)| Row::of(vec![Cell::plain(self.word(word)), cell]));
+            let grid = Columns::new()
+                .left(self, "name", Word::Constraint)
+                .with("value", constraint.name.clone(), "left")
+                .full(rows.collect());
+            Table {
+                ladder: self.ladder(constraint),
+                ..Table::unnumbered(
+                    constraint_anchor(&constraint.name),
+                    "constraint",
+                    Cell::plain(&constraint.name),
+                    vec![grid],
+                )
+            }
+        });
+        tables.collect()
+    }
+
+    /// One erratum.
+    pub(crate) fn erratum(&self, at: usize) -> ErratumView {
+        let erratum = &self.system.errata[at];
+        ErratumView {
+            number: at + 1,
+            kind: erratum.kind.word(),
+            place: self.text(&erratum.place),
+            prints: self.text(&erratum.prints),
+            reads: self.text(&erratum.reads),
+            because: self.text(&erratum.because),
+        }
+    }
+
+    fn errata(&self) -> Table {
+        let errata = self.system.errata.iter().enumerate().filter(|(_, erratum)| self.is_about(erratum));
+        let rows = errata.map(|(at, erratum)| {
+            let view = self.erratum(at);
+            let mut entries = Cell::default();
+            for (place, one) in erratum.at.iter().enumerate() {
+                entries = if place == 0 { entries } else { entries.text(", ") };
+                entries = entries.and(match one {
+                    ErratumPlace::Object(index) => self.object_link(*index),
+                    ErratumPlace::Entry(id) => {
+                        self.link(id.index, format!("{}.{}", id.index, id.sub), entry_anchor(*id))
+                    }
+                });
+            }
+            Row {
+                anchor: format!("erratum-{}", at + 1),
+                ..Row::of(vec![
+                    Cell::plain((at + 1).to_string()),
+                    entries,
+                    Cell::plain(view.kind),
+                    view.place,
+                    view.prints,
+                    view.reads,
+                    view.because,
+                ])
+            }
+        });
+        let grid = Columns::new()
+            .right(self, "number", Word::Number)
+            .left(self, "entries", Word::ElementsOf)
+            .left(self, "kind", Word::Kind)
+            .left(self, "place", Word::Place)
+            .left(self, "prints", Word::Prints)
+            .left(self, "reads", Word::Reads)
+            .left(self, "because", Word::Because)
+            .full(rows.collect());
+        Table::unnumbered("errata-all", "errata", Cell::default(), vec![grid])
+    }
+
+    /// Every table of the manual with the table here that takes its place.
+    fn tables(&self) -> Table {
+        let rows = self.printed().into_iter().map(|printed| {
+            let number = printed.number.map_or_else(Cell::default, |number| Cell::plain(number.to_string()));
+            let mut errata = Cell::default();
+            for (at, number) in printed.errata.iter().enumerate() {
+                errata = if at == 0 { errata } else { errata.text(", ") };
+                errata = errata.link(number.to_string(), format!("erratum-{number}"), "errata");
+            }
+            Row::of(vec![
+                number,
+                printed.title,
+                Cell::plain(printed.section),
+                Cell::plain(printed.kind),
+                Cell::default().link(printed.anchor.clone(), printed.anchor, printed.page),
+                errata,
+            ])
+        });
+        let grid = Columns::new()
+            .right(self, "number", Word::Number)
+            .left(self, "title", Word::Printed)
+            .left(self, "section", Word::Section)
+            .left(self, "kind", Word::Kind)
+            .left(self, "generated", Word::Generated)
+            .left(self, "errata", Word::DiffersCount)
+            .full(rows.collect());
+        Table::unnumbered("tables-all", "tables", Cell::default(), vec![grid])
+    }
+}

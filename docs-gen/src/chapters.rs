@@ -1,0 +1,55 @@
+//! The manual's chapters, with the tables that the devices shown have something of.
+
+use od_spec::model::TableId;
+
+use crate::source::{Source, section_anchor};
+use crate::view::{Chapter, Section, Table};
+
+impl Source<'_> {
+    /// Chapters that have something to show, or have sections that do.
+    pub(crate) fn chapter_views(&self) -> Vec<Chapter> {
+        let partial = self.devices.len() < self.system.devices.len();
+        let mut chapters = Vec::new();
+        for (page, sections) in self.chapters() {
+            let mut views: Vec<Section> = Vec::new();
+            for (at, level) in sections {
+                let section = &self.document().sections[at];
+                let ids = (0..section.tables.len()).map(|table| TableId { section: at, table });
+                let tables: Vec<Table> = ids.filter_map(|id| self.table(id)).collect();
+                if partial && tables.is_empty() && !section.tables.is_empty() {
+                    continue;
+                }
+                views.push(Section {
+                    number: section.number.clone(),
+                    title: self.text(&section.title),
+                    anchor: section_anchor(section),
+                    level,
+                    tables,
+                });
+            }
+            if partial {
+                remove_empty(&mut views);
+            }
+            let Some(first) = views.first() else { continue };
+            chapters.push(Chapter {
+                number: first.number.clone(),
+                title: first.title.clone(),
+                page,
+                sections: views,
+            });
+        }
+        chapters
+    }
+}
+
+/// Removes headings below which nothing is left.
+fn remove_empty(sections: &mut Vec<Section>) {
+    let mut at = sections.len();
+    while at > 0 {
+        at -= 1;
+        let below = sections.get(at + 1).is_some_and(|next| next.level > sections[at].level);
+        if sections[at].tables.is_empty() && !below {
+            sections.remove(at);
+        }
+    }
+}

@@ -1,0 +1,372 @@
+//! A device: its objects with everything that refers to them, and its PDOs.
+
+use std::collections::BTreeSet;
+
+use od_spec::model::{
+    Category, Dictionary, Entry, EntryId, Object, ObjectKind, Origin, PdoMapping, PdoTarget, Storage,
+    TableContent, TypeKind,
+};
+
+use crate::cell::{entry_anchor, object_anchor, slug};
+use crate::language::Word;
+use crate::source::{Source, hex, section_anchor};
+use crate::tables::bits::types_of;
+use crate::tables::overview::{access, among};
+use crate::tables::{Columns, errors, pdos};
+use crate::view::{
+    Cell, DeviceView, EntryPath, Filters, Grid, ObjectHead, ObjectView, Place, Row, Table, Used,
+};
+
+/// Uses that more lines would not make clearer.
+const MOST_LINES: usize = 40;
+
+impl Source<'_> {
+    pub(crate) fn device(&self, device: &Dictionary) -> DeviceView {
+        let uses = Uses::new(self, device);
+        let objects: Vec<ObjectView> =
+            device.objects.values().map(|object| self.object(device, object, &uses)).collect();
+        let rows = device.objects.values().map(|object| self.overview_row(object)).collect();
+        let overview =
+            Table::unnumbered("overview", "overview", Cell::default(), vec![self.overview_grid(rows)]);
+        let all = |facts: fn(&ObjectView) -> &[String]| -> Vec<String> {
+            let all: BTreeSet<&String> = objects.iter().flat_map(facts).collect();
+            all.into_iter().cloned().collect()
+        };
+        let groups = [
+            (Storage::Communication, Word::StoredCommunication),
+            (Storage::Application, Word::StoredApplication),
+            (Storage::Manufacturer, Word::StoredManufacturer),
+            (Storage::Remanent, Word::StoredRemanent),
+            (Storage::No, Word::NotStored),
+        ];
+        let filters = Filters {
+            types: all(|object| &object.data_types),
+            access: all(|object| &object.access),
+            units: all(|object| &object.units),
+            stored: groups
+                .iter()
+                .filter(|(group, _)| {
+                    objects.iter().any(|object| object.stored.iter().any(|one| one == group.word()))
+                })
+                .map(|(group, word)| (group.word(), self.word(*word).to_owned()))
+                .collect(),
+        };
+        DeviceView {
+            key: device.key.clone(),
+            name: device.name.clone(),
+            about: self.text(&device.about),
+            facts: self.facts(device),
+            overview,
+            objects,
+            pdos: device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect(),
+            appendices: self.only(device).device_appendices(),
+            filters,
+        }
+    }
+
+    fn facts(&self, device: &Dictionary) -> Table {
+        let info = &device.info;
+        let rates: Vec<String> = info.bit_rates.iter().map(u16::to_string).collect();
+        let rows = [
+            (Word::Vendor, self.system.vendor.name.clone()),
+            (Word::Name, info.product_name.clone()),
+            (Word::OrderCode, info.order_code.clone()),
+            (Word::Product, hex(u128::from(info.product), 8)),
+            (Word::ProductRevision, hex(u128::from(info.product_revision), 8)),
+            (Word::DeviceType, hex(u128::from(info.device_type), 8)),
+            (Word::BitRates, format!("{} kbit/s", rates.join(", "))),
+        ];
+        let rows = rows
+            .into_iter()
+            .map(|(word, text)| Row::of(vec![Cell::plain(self.word(word)), Cell::plain(text)]));
+        let grid = Columns::new()
+            .left(self, "name", Word::Parameter)
+            .left(self, "value", Word::Value)
+            .full(rows.collect());
+        Table::unnumbered(
+            format!("device-{}", device.key),
+            "facts",
+            Cell::plain(self.word(Word::Facts)),
+            vec![grid],
+        )
+    }
+
+    fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {
+        let id = |entry: &Entry| EntryId { index: object.index, sub: entry.sub };
+        let types = types_of(object).into_iter().map(|named| {
+            let (kind, grid) = match &named.kind {
+                TypeKind::Bits(fields) => ("bits", self.bits(named, fields)),
+                TypeKind::Enum(values) => ("values", self.values(named.base, values)),
+            };
+            let anchor = format!("{}-{}", object_anchor(object.index), slug(&named.name));
+            let word = if kind == "bits" { Word::Bits } else { Word::Values };
+            let title = Cell::plain(format!("{}: {}", self.word(word), named.name));
+            Table::unnumbered(anchor, kind, title, vec![grid])
+        });
+        let types = types.collect();
+        let paths: Vec<EntryPath> = object
+            .entries
+            .iter()
+            .map(|entry| EntryPath {
+                name: entry.name.clone(),
+                anchor: entry_anchor(id(entry)),
+                entry: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
+                rust: self.accessors.get(&(device.key.clone(), id(entry))).cloned().unwrap_or_default(),
+            })
+            .collect();
+        let table = Table::unnumbered(
+            format!("{}-entries", object_anchor(object.index)),
+            "objects",
+            Cell::default(),
+            vec![self.detail(device, object)],
+        );
+        let (data_types, units) = (among(object, |entry| entry.data_type.name()), units(object));
+        let mut view = ObjectView {
+            index: object.index.to_string(),
+            anchor: object_anchor(object.index),
+            name: object.name.clone(),
+            kind: object.kind.name(),
+            origin: object.origin.word(),
+            about: self.about(object),
+            notes: self.notes(object),
+            table,
+            types,
+            used: uses.of(object.index),
+            places: self.places(object),
+            errata: self
+                .errata_of_object(object.index)
+                .iter()
+                .filter(|at| {
+                    let devices = &self.system.errata[**at].devices;
+                    devices.is_empty() || devices.contains(&device.key)
+                })
+                .map(|at| self.erratum(*at))
+                .collect(),
+            paths,
+            access: among(object, access),
+            data_types: data_types.into_iter().map(str::to_owned).collect(),
+            units,
+            stored: among(object, |entry| entry.stored.word().to_owned()),
+            mappable: mappable(object),
+            search: String::new(),
+        };
+        view.search = search(object, &view);
+        view
+    }
+
+    /// The entries of one object.
+    fn detail(&self, device: &Dictionary, object: &Object) -> Grid {
+        let rows = self.entry_rows(device, object, true);
+        let grid = self.entry_columns(object).grid(rows, crate::tables::objects::ALWAYS);
+        if !object.is_structured() {
+            return grid;
+        }
+        let head = ObjectHead {
+            index: object.index.to_string(),
+            anchor: String::new(),
+            name: object.name.clone(),
+            kind: object.kind.name(),
+            about: Cell::default(),
+            device: String::new(),
+        };
+        Grid { object: Some(head), ..grid }
+    }
+
+    /// What an object is for; the only entry of a VAR tells it in its row.
+    fn about(&self, object: &Object) -> Cell {
+        match object.kind {
+            ObjectKind::Array | ObjectKind::Record => self.text(&object.about),
+            ObjectKind::Var | ObjectKind::Domain => Cell::default(),
+        }
+    }
+
+    fn notes(&self, object: &Object) -> Vec<Cell> {
+        let mut notes = Vec::new();
+        if let Some(profile) = &object.profile {
+            let mut note = Cell::plain(format!("{} {profile}", self.word(Word::FromStandard)));
+            if !object.differs.is_empty() {
+                note = note.text(format!(". {}: {}", self.word(Word::Differs), object.differs.join(", ")));
+            }
+            notes.push(note.text("."));
+        }
+        if let Some(category) = object.category {
+            let word = self.word(match category {
+                Category::Mandatory => Word::CategoryMandatory,
+                Category::Optional => Word::CategoryOptional,
+                Category::Conditional => Word::CategoryConditional,
+            });
+            notes.push(Cell::plain(format!("{}: {word}.", self.word(Word::Category))));
+        }
+        if let Some(since) = &object.since {
+            notes.push(Cell::plain(format!("{} {since}.", self.word(Word::Since))));
+        }
+        if object.entries.iter().any(|entry| entry.locked) {
+            notes.push(Cell::plain(self.word(Word::LockedNote)));
+        }
+        notes
+    }
+
+    /// The sections of the manual whose tables show the object in detail.
+    fn places(&self, object: &Object) -> Vec<Place> {
+        let mut places = Vec::new();
+        if object.origin != Origin::Manual {
+            return places;
+        }
+        for (page, sections) in self.chapters() {
+            for (at, _) in sections {
+                let section = &self.document().sections[at];
+                let shows = section.tables.iter().any(|table| match &table.content {
+                    TableContent::Objects(list) | TableContent::Overview(list) => {
+                        list.contains(&object.index)
+                    }
+                    _ => false,
+                });
+                if shows {
+                    let title = self.text(&section.title).text;
+                    let text = format!("{} {title}", section.number).trim().to_owned();
+                    places.push(Place { text, anchor: section_anchor(section), page: page.clone() });
+                }
+            }
+        }
+        places
+    }
+}
+
+/// Unit symbols of an object's entries, each once.
+fn units(object: &Object) -> Vec<String> {
+    let symbols = among(object, |entry| entry.unit.as_ref().map(|unit| unit.symbol.clone()));
+    let symbols: BTreeSet<String> = symbols.into_iter().flatten().collect();
+    symbols.into_iter().collect()
+}
+
+fn mappable(object: &Object) -> Vec<String> {
+    let any = |wanted: PdoMapping| {
+        object.entries.iter().any(|entry| entry.pdo == wanted || entry.pdo == PdoMapping::Both)
+    };
+    [PdoMapping::Receive, PdoMapping::Transmit]
+        .into_iter()
+        .filter(|pdo| any(*pdo))
+        .map(|pdo| pdo.word().to_owned())
+        .collect()
+}
+
+/// What a search looks at: index, names, meanings, bits and values.
+fn search(object: &Object, view: &ObjectView) -> String {
+    let mut text = format!("{} 0x{:04X} {}", view.index, object.index.0, object.name);
+    let mut add = |words: &str| {
+        if !words.is_empty() {
+            text.push(' ');
+            text.push_str(words);
+        }
+    };
+    add(&view.about.text);
+    for grid in view.types.iter().chain([&view.table]).flat_map(|table| &table.grids) {
+        let wanted =
+            |at: &usize| matches!(grid.columns[*at].key, "name" | "description" | "meaning" | "error_codes");
+        for row in &grid.rows {
+            (0..grid.columns.len()).filter(wanted).for_each(|at| add(&row.cells[at].text));
+        }
+    }
+    text.to_lowercase()
+}
+
+/// What refers to each object of a device, worked out once.
+struct Uses(std::collections::BTreeMap<od_spec::model::Index, Vec<Used>>);
+
+impl Uses {
+    fn new(source: &Source<'_>, device: &Dictionary) -> Self {
+        let mut uses = Self(std::collections::BTreeMap::new());
+        for pdo in &device.pdos {
+            let mut bit = 0;
+            for mapped in &pdo.map {
+                let start = bit;
+                bit += u32::from(mapped.bits);
+                let PdoTarget::Entry(id) = mapped.target else { continue };
+                let (byte, rest) = (start / 8, start % 8);
+                let mut place = format!("{} {byte}", source.word(Word::Byte));
+                if rest > 0 {
+                    place = format!("{place}, {} {rest}", source.word(Word::Bit));
+                }
+                let off = if pdo.valid { String::new() } else { format!(", {}", source.word(Word::Off)) };
+                let line = Cell::default()
+                    .link(
+                        format!("{} {}", pdo.direction.pdo(), pdo.number),
+                        pdos::anchor(pdo),
+                        device.key.clone(),
+                    )
+                    .text(format!(" ({place}, {} bit{off})", mapped.bits));
+                uses.add(id, "pdos", source.word(Word::Pdos), line);
+            }
+        }
+        for (id, _, entry) in device.entries() {
+            if let Some(alias) = &entry.alias {
+                let line = source.named_entry(device, id).text(format!("; {}", source.conversion(alias)));
+                uses.add(alias.target, "aliases", source.word(Word::Alias), line);
+            }
+            for named in entry.writable_when.iter().flat_map(od_spec::expr::Expr::entries) {
+                let line = source.named_entry(device, id);
+                uses.add(named.id, "conditions", source.word(Word::Gates), line);
+            }
+            for code in codes(entry) {
+                let name =
+                    source.system.errors.iter().find(|error| error.code == code).map(|error| &error.name);
+                let line = Cell::default()
+                    .link(hex(u128::from(code), 4), errors::anchor(code), "errors")
+                    .text(format!(" {}", name.map_or("", String::as_str)));
+                uses.add(id, "errors", source.word(Word::ErrorCodes), line);
+            }
+        }
+        for constraint in &source.system.constraints {
+            let conditions = std::iter::once(&constraint.require).chain(&constraint.when);
+            for named in conditions.flat_map(od_spec::expr::Expr::entries) {
+                let owner = source.device_of(&constraint.devices, named);
+                if owner.is_some_and(|owner| owner.key == device.key) {
+                    let anchor = constraint_anchor(&constraint.name);
+                    let line = Cell::default().link(&constraint.name, anchor, "constraints");
+                    uses.add(named.id, "constraints", source.word(Word::Constraints), line);
+                }
+            }
+        }
+        for machine in source.system.machines.values() {
+            if machine.devices.is_empty() || machine.devices.contains(&device.key) {
+                for (id, word) in [(machine.status, Word::Status), (machine.command, Word::Command)] {
+                    let line = Cell::plain(format!("{} ({})", machine.name, source.word(word)));
+                    uses.add(id, "machines", source.word(Word::Machines), line);
+                }
+            }
+        }
+        uses
+    }
+
+    fn add(&mut self, id: EntryId, kind: &'static str, title: &str, line: Cell) {
+        let uses = self.0.entry(id.index).or_default();
+        let at = uses.iter().position(|used| used.kind == kind).unwrap_or_else(|| {
+            uses.push(Used { kind, title: title.to_owned(), lines: Vec::new() });
+            uses.len() - 1
+        });
+        let lines = &mut uses[at].lines;
+        if !lines.contains(&line) && lines.len() < MOST_LINES {
+            lines.push(line);
+        }
+    }
+
+    fn of(&self, index: od_spec::model::Index) -> Vec<Used> {
+        self.0.get(&index).cloned().unwrap_or_default()
+    }
+}
+
+/// Where links to a constraint lead.
+pub(crate) fn constraint_anchor(name: &str) -> String {
+    format!("constraint-{}", slug(name))
+}
+
+/// Error codes that come with the bits of an entry.
+fn codes(entry: &Entry) -> Vec<u16> {
+    let mut codes: Vec<u16> = entry.bit_errors.iter().flat_map(|(_, codes)| codes.iter().copied()).collect();
+    if let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) {
+        codes.extend(fields.iter().flat_map(|field| field.errors.iter().copied()));
+    }
+    codes.sort_unstable();
+    codes.dedup();
+    codes
+}

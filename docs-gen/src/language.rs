@@ -1,0 +1,278 @@
+//! The fixed words of the documents, and how numbers are written.
+
+use std::collections::BTreeMap;
+
+macro_rules! words {
+    ($($variant:ident $key:literal: $en:literal, $de:literal;)+) => {
+        /// A heading, a column title or another fixed word of the documents.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub(crate) enum Word { $($variant,)+ }
+
+        impl Word {
+            /// The name by which templates know the word.
+            pub(crate) const fn key(self) -> &'static str {
+                match self { $(Word::$variant => $key,)+ }
+            }
+
+            const fn text(self, german: bool) -> &'static str {
+                match self { $(Word::$variant => if german { $de } else { $en },)+ }
+            }
+
+            const ALL: &'static [Word] = &[$(Word::$variant,)+];
+        }
+    };
+}
+
+words! {
+    Abbreviation "abbreviation": "Abbreviation", "Abkürzung";
+    Access "access": "Attr", "Zugriff";
+    Action "action": "Action", "Aktion";
+    Active "active": "Active", "Aktiv";
+    AlarmCode "alarm_code": "Error code", "Fehlercode";
+    Alias "alias": "16-bit view", "16-Bit-Abbild";
+    AliasOf "alias_of": "View of", "Abbild von";
+    Aliases "aliases": "Aliases", "Abbilder";
+    AliasesIntro "aliases_intro":
+        "Objects that show another object in a narrower type or another unit. They have no value of their own: what is written to them goes to the object that they show.",
+        "Objekte, die ein anderes Objekt in einem kleineren Typ oder einer anderen Einheit zeigen. Sie haben keinen eigenen Wert: was in sie geschrieben wird, geht an das gezeigte Objekt.";
+    All "all": "all", "alle";
+    AllTables "all_tables": "Index of tables", "Verzeichnis der Tabellen";
+    BaseUnit "base_unit": "Base unit", "Basiseinheit";
+    Because "because": "Why", "Begründung";
+    Bit "bit": "Bit", "Bit";
+    Bits "bits": "Bits", "Bits";
+    BitOf "bit_of": "bit {n} of", "Bit {n} von";
+    BitRates "bit_rates": "Bit rates", "Bitraten";
+    BothEdges "both_edges": "0↔1", "0↔1";
+    Byte "byte": "Byte", "Byte";
+    Category "category": "Category", "Kategorie";
+    CategoryConditional "conditional": "conditional", "bedingt";
+    CategoryMandatory "mandatory": "mandatory", "verpflichtend";
+    CategoryOptional "optional": "optional", "optional";
+    Chapters "chapters": "Chapters", "Kapitel";
+    Clamp "clamp": "Clamp", "Klemme";
+    CobId "cob_id": "COB-ID", "COB-ID";
+    Command "command": "Command", "Befehl";
+    Condition "condition": "Condition", "Bedingung";
+    Constraint "constraint": "Constraint", "Randbedingung";
+    Constraints "constraints": "Constraints", "Randbedingungen";
+    ConstraintsIntro "constraints_intro":
+        "Conditions between entries that every configuration has to meet.",
+        "Bedingungen zwischen Einträgen, die jede Parametrierung erfüllen muss.";
+    Contents "contents": "Contents", "Inhalt";
+    Copied "copied": "copied", "kopiert";
+    Copy "copy": "Copy", "Kopieren";
+    Date "date": "Date", "Datum";
+    Default "default": "Default", "Vorgabe";
+    Device "device": "Device", "Gerät";
+    DeviceType "device_type": "Device type", "Gerätetyp";
+    Differs "differs": "Differs from the standard in", "Weicht vom Standard ab in";
+    ElementsOf "elements": "Entries", "Einträge";
+    Enabled "enabled": "Active", "Aktiv";
+    Errata "errata": "Errata", "Errata";
+    ErrataIntro "errata_intro":
+        "Where the printed manual says something else than this document, contradicts itself or says nothing, and why this document says what it says.",
+        "Wo das gedruckte Handbuch etwas anderes sagt als dieses Dokument, sich widerspricht oder schweigt, und warum dieses Dokument sagt, was es sagt.";
+    Erratum "erratum": "Erratum", "Erratum";
+    ErrorCodes "error_codes": "Error codes", "Fehlercodes";
+    Errors "errors": "Errors", "Fehler";
+    Event "event": "Event", "Ereignis";
+    EventTimer "event_timer": "Event timer", "Ereigniszeit";
+    Facts "facts": "Device", "Gerät";
+    Factor "factor": "Factor", "Faktor";
+    From "from": "From", "Von";
+    FromStandard "from_standard": "From", "Aus";
+    Gates "gates": "Decides about writing to", "Entscheidet über das Schreiben von";
+    Generated "generated": "Table here", "Tabelle hier";
+    Index "index": "Index", "Index";
+    InhibitTime "inhibit_time": "Inhibit time", "Sperrzeit";
+    Issue "issue": "Issue", "Ausgabe";
+    Kind "kind": "Kind", "Art";
+    Legend "legend":
+        "Attr: ro can be read, wo written, rw both; r(w) can be read, and written once the device is unlocked for service; const never changes. Map: N not mappable, Y (R) into RPDOs, Y (T) into TPDOs. Mem.: Y can be stored, N not. A default in a unit is followed by its raw value where the two differ.",
+        "Zugriff: ro ist lesbar, wo schreibbar, rw beides; r(w) ist lesbar und, wenn das Gerät für den Service entsperrt ist, schreibbar; const ändert sich nie. Map: N nicht abbildbar, Y (R) in RPDOs, Y (T) in TPDOs. Sp.: Y speicherbar, N nicht. Einer Vorgabe mit Einheit folgt ihr Rohwert, wo beide sich unterscheiden.";
+    LockedNote "locked": "Writable only when the device is unlocked for service.", "Nur schreibbar, wenn das Gerät für den Service entsperrt ist.";
+    Machines "machines": "State machines", "Zustandsmaschinen";
+    Manual "manual": "Manual", "Handbuch";
+    Map "map": "Map", "Map";
+    Meaning "meaning": "Meaning", "Bedeutung";
+    Mem "mem": "Mem.", "Sp.";
+    Description "description": "Description", "Beschreibung";
+    Name "name": "Name", "Name";
+    No "no": "no", "nein";
+    NoMatch "no_match": "Nothing fits. Escape clears the search.", "Nichts passt. Escape löscht die Suche.";
+    NodeId "node_id": "node-ID", "Node-ID";
+    NotStored "not_stored": "not stored", "nicht gespeichert";
+    NotSupported "not_supported": "not supported", "nicht unterstützt";
+    Number "number": "No.", "Nr.";
+    Object "object": "Object", "Objekt";
+    Objects "objects": "Objects", "Objekte";
+    Off "off": "off after start-up", "nach dem Einschalten aus";
+    OnlyThere "only_there": "Only while", "Nur solange";
+    OrderCode "order_code": "Order code", "Bestellnummer";
+    OutsideAbort "outside_abort": "outside its range: abort", "außerhalb seines Bereichs: Abbruch";
+    OutsideSaturate "outside_saturate": "outside its range: the nearest value", "außerhalb seines Bereichs: der nächste Wert";
+    OutsideWrap "outside_wrap": "outside its range: the low bits", "außerhalb seines Bereichs: die unteren Bits";
+    Parameter "parameter": "Parameter", "Parameter";
+    Pattern "pattern": "Bits", "Bits";
+    Pdo "pdo": "PDO", "PDO";
+    Pdos "pdos": "PDOs", "PDOs";
+    PdosIntro "pdos_intro": "Factory mapping. Bit 0 of byte 0 is sent first.", "Abbildung ab Werk. Bit 0 von Byte 0 wird zuerst gesendet.";
+    Place "place": "Place", "Stelle";
+    Prints "prints": "The manual prints", "Das Handbuch druckt";
+    Printed "printed": "Printed table", "Gedruckte Tabelle";
+    Priority "priority": "Prio.", "Prio.";
+    Product "product": "Product code", "Produktcode";
+    ProductRevision "product_revision": "Product revision", "Produktrevision";
+    Range "range": "Range", "Bereich";
+    Reaction "reaction": "Reaction", "Reaktion";
+    Reads "reads": "Read as", "Gelesen als";
+    Reference "reference": "Object reference", "Objektreferenz";
+    ReferenceIntro "reference_intro":
+        "Every object of the device, also those of the communication profile and of the PDOs.",
+        "Alle Objekte des Geräts, auch die des Kommunikationsprofils und der PDOs.";
+    Relation "relation": "", "";
+    ReportedBy "reported_by": "Shown by", "Angezeigt von";
+    Reserved "reserved": "reserved", "reserviert";
+    Revision "revision": "Issue", "Ausgabe";
+    RoundedDown "rounded_down": "rounded down", "abgerundet";
+    RoundedNearest "rounded_nearest": "rounded to the nearest step", "auf den nächsten Schritt gerundet";
+    RoundedUp "rounded_up": "rounded up", "aufgerundet";
+    RoundedZero "rounded_zero": "rounded towards zero", "zur Null hin gerundet";
+    Search "search": "Search", "Suche";
+    SearchHint "search_hint": "index, name or word", "Index, Name oder Wort";
+    Section "section": "Section", "Abschnitt";
+    Send "send": "Code", "Code";
+    Since "since": "Since issue", "Seit Ausgabe";
+    SkipLink "skip": "Skip to the objects", "Zu den Objekten";
+    SkipContents "skip_contents": "Skip to the text", "Zum Text";
+    State "state": "State", "Zustand";
+    Status "status": "Status", "Status";
+    Storage "storage": "Storage", "Speicherung";
+    StorageIntro "storage_intro":
+        "What is kept over power-off: the entries that each command of store parameters (1010h) saves and that restore default parameters (1011h) sets back, and what the device keeps by itself.",
+        "Was das Ausschalten überdauert: die Einträge, die jeder Befehl von 1010h speichert und 1011h zurücksetzt, und was das Gerät von sich aus hält.";
+    Stored "stored": "Stored", "Gespeichert";
+    StoredApplication "stored_application": "1010h.3, application parameters", "1010h.3, Anwendungsparameter";
+    StoredCommunication "stored_communication": "1010h.2, communication parameters", "1010h.2, Kommunikationsparameter";
+    StoredManufacturer "stored_manufacturer": "1010h.4 and above, manufacturer parameters", "1010h.4 und höher, Herstellerparameter";
+    StoredRemanent "stored_remanent": "by the device itself", "vom Gerät selbst";
+    Step "step": "One step", "Ein Schritt";
+    SubIndex "sub": "Sub-Index", "Subindex";
+    Sub "sub_short": "Sub", "Sub";
+    Supported "supported": "Supported", "Unterstützt";
+    Symbol "symbol": "Symbol", "Zeichen";
+    SyncStart "sync_start": "SYNC start value", "SYNC-Startwert";
+    Table "table": "Table", "Tabelle";
+    TablesIntro "tables_intro":
+        "Every table of the printed manual, the table of this document that takes its place, and how many of its facts differ on purpose. The file tables.json lists them for programs, fact by fact.",
+        "Jede Tabelle des gedruckten Handbuchs, die Tabelle dieses Dokuments, die an ihre Stelle tritt, und wie viele ihrer Angaben mit Absicht abweichen. Die Datei tables.json führt sie für Programme einzeln auf.";
+    DiffersCount "differs_count": "Errata", "Errata";
+    Target "target": "Shows", "Zeigt";
+    Theme "theme": "Light or dark", "Hell oder dunkel";
+    To "to": "To", "Nach";
+    ToRange "to_range": "to", "bis";
+    Transition "transition": "Transition", "Übergang";
+    Transmission "transmission": "Transmission type", "Übertragungsart";
+    Type "type": "Type", "Typ";
+    Unit "unit": "Unit", "Einheit";
+    Units "units": "Units", "Einheiten";
+    UnitsIntro "units_intro":
+        "What one step of a raw value is worth, and which entries are in the unit.",
+        "Was ein Schritt des Rohwerts wert ist, und welche Einträge die Einheit haben.";
+    Unused "unused": "free", "frei";
+    UsedBy "used_by": "Entries", "Einträge";
+    Value "value": "Value", "Wert";
+    Values "values": "Values", "Werte";
+    Vendor "vendor": "Vendor", "Hersteller";
+    WritableWhen "writable_when": "Writable while", "Schreibbar, solange";
+    Yes "yes": "yes", "ja";
+}
+
+/// Languages whose fixed words are known; others get English words.
+pub const LANGUAGES: &[&str] = &["en", "de"];
+
+/// The language of a document.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Language<'a> {
+    pub code: &'a str,
+}
+
+impl Language<'_> {
+    fn is_german(self) -> bool {
+        self.code == "de" || self.code.starts_with("de-")
+    }
+
+    /// A fixed word.
+    pub(crate) fn word(self, word: Word) -> &'static str {
+        word.text(self.is_german())
+    }
+
+    /// All fixed words by the names that templates use.
+    pub(crate) fn words(self) -> BTreeMap<&'static str, &'static str> {
+        Word::ALL.iter().map(|word| (word.key(), self.word(*word))).collect()
+    }
+
+    /// A number that was written with a decimal point, as the language writes it.
+    pub(crate) fn number(self, text: &str) -> String {
+        if self.is_german() { text.replace('.', ",") } else { text.to_owned() }
+    }
+
+    /// A date: `2009-05-27`, in German `27.05.2009`.
+    pub(crate) fn date(self, date: od_spec::model::Date) -> String {
+        let od_spec::model::Date { year, month, day } = date;
+        if self.is_german() {
+            format!("{day:02}.{month:02}.{year:04}")
+        } else {
+            format!("{year:04}-{month:02}-{day:02}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_has_one_key() {
+        let language = Language { code: "en" };
+        assert_eq!(language.words().len(), Word::ALL.len());
+    }
+
+    /// A word that nothing shows is a leftover.
+    #[test]
+    fn every_word_is_used() {
+        let mut text = String::new();
+        let mut folders = vec![std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR"))];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if !path.ends_with("language.rs") {
+                    text.push_str(&std::fs::read_to_string(path).unwrap());
+                }
+            }
+        }
+        let used = |word: &&Word| {
+            let words =
+                text.split(|sign: char| !sign.is_alphanumeric() && sign != '_' && sign != '.' && sign != ':');
+            let names = [format!("Word::{word:?}"), format!("words.{}", word.key())];
+            words.into_iter().any(|one| names.iter().any(|name| one == name))
+        };
+        let unused: Vec<&Word> = Word::ALL.iter().filter(|word| !used(word)).collect();
+        assert!(unused.is_empty(), "{unused:?}");
+    }
+
+    #[test]
+    fn numbers_and_dates_follow_the_language() {
+        let date = od_spec::model::Date { year: 2009, month: 5, day: 27 };
+        let (german, english) = (Language { code: "de" }, Language { code: "en" });
+        assert_eq!((german.number("50.0"), english.number("50.0")), ("50,0".to_owned(), "50.0".to_owned()));
+        assert_eq!(
+            (german.date(date), english.date(date)),
+            ("27.05.2009".to_owned(), "2009-05-27".to_owned())
+        );
+        assert_eq!((german.word(Word::Value), Language { code: "fr" }.word(Word::Value)), ("Wert", "Value"));
+    }
+}

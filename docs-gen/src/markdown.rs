@@ -1,0 +1,136 @@
+//! Filters for Markdown: text, cells and tables that read well as they are and on a forge.
+
+use std::fmt::Write as _;
+
+use minijinja::{Error, Value};
+
+/// Columns are filled up to this width, so that a table stands in columns as plain text, too.
+const WIDEST: usize = 32;
+
+/// A text with the signs escaped that Markdown would read as its own.
+pub(crate) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut signs = text.chars().peekable();
+    while let Some(sign) = signs.next() {
+        let after = signs.peek().copied().unwrap_or(' ');
+        let special = match sign {
+            '\\' | '`' | '*' | '[' | ']' | '|' | '~' => true,
+            // `<` begins a tag, `&` an entity, only before a letter or the like.
+            '<' => after.is_alphabetic() || matches!(after, '/' | '!' | '?'),
+            '&' => after.is_alphanumeric() || after == '#',
+            // Inside a word it is no emphasis.
+            '_' => !(before.is_alphanumeric() && after.is_alphanumeric()),
+            _ => false,
+        };
+        if special {
+            escaped.push('\\');
+        }
+        escaped.push(sign);
+        before = sign;
+    }
+    escaped
+}
+
+/// A cell on a page: links to the same page are short.
+pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
+    let mut text = String::new();
+    for part in cell.get_attr("parts")?.try_iter()? {
+        let own = part.get_attr("text")?.to_string();
+        match part.get_attr("kind")?.as_str() {
+            Some("break") => text.push_str("<br>"),
+            Some("code") => {
+                let _ = write!(text, "`{own}`");
+            }
+            Some("link") => {
+                let target = part.get_attr("page")?.to_string();
+                let file =
+                    if target == page || target.is_empty() { String::new() } else { format!("{target}.md") };
+                let anchor = part.get_attr("anchor")?.to_string();
+                let _ = write!(text, "[{}]({file}#{})", escape(&own), heading(&anchor));
+            }
+            _ => {
+                text.push_str(&escape(&own).replace('\n', " "));
+                let language = part.get_attr("language")?.to_string();
+                if !language.is_empty() {
+                    let _ = write!(text, " *({language})*");
+                }
+            }
+        }
+    }
+    Ok(text)
+}
+
+/// Rows of a table have no anchors of their own in Markdown: a link to the entry `3020.5` leads to its object.
+fn heading(anchor: &str) -> &str {
+    match anchor.split_once('.') {
+        Some((object, _)) if object.len() == 4 && object.bytes().all(|digit| digit.is_ascii_hexdigit()) => {
+            object
+        }
+        _ => anchor,
+    }
+}
+
+/// A grid as a table with a heading line.
+pub(crate) fn table(grid: &Value, page: &str) -> Result<String, Error> {
+    let (mut titles, mut aligns) = (Vec::new(), Vec::new());
+    for column in grid.get_attr("columns")?.try_iter()? {
+        titles.push(escape(&column.get_attr("title")?.to_string()));
+        aligns.push(column.get_attr("align")?.to_string());
+    }
+    let mut rows: Vec<Vec<String>> = vec![titles];
+    for row in grid.get_attr("rows")?.try_iter()? {
+        let mut cells: Vec<String> =
+            row.get_attr("cells")?.try_iter()?.map(|one| cell(&one, page)).collect::<Result<_, _>>()?;
+        let anchor = row.get_attr("anchor")?.to_string();
+        // Anchors of entries stand above the table; others, such as `erratum-17`, lead to their row.
+        if let Some(first) = cells.first_mut()
+            && anchor.contains('-')
+        {
+            first.insert_str(0, &format!("<a id=\"{anchor}\"></a>"));
+        }
+        rows.push(cells);
+    }
+    let last = aligns.len().saturating_sub(1);
+    let widths: Vec<usize> = (0..aligns.len())
+        .map(|at| {
+            let widest = rows.iter().filter_map(|row| row.get(at)).map(|cell| cell.chars().count());
+            if at == last { 3 } else { widest.filter(|width| *width <= WIDEST).max().unwrap_or(3).max(3) }
+        })
+        .collect();
+    let mut text = String::new();
+    for (number, row) in rows.iter().enumerate() {
+        for ((cell, align), width) in row.iter().zip(&aligns).zip(&widths) {
+            let fill = " ".repeat(width.saturating_sub(cell.chars().count()));
+            let _ = if align == "right" {
+                write!(text, "| {fill}{cell} ")
+            } else {
+                write!(text, "| {cell}{fill} ")
+            };
+        }
+        text.push_str("|\n");
+        if number == 0 {
+            for (align, width) in aligns.iter().zip(&widths) {
+                let _ = match align.as_str() {
+                    "right" => write!(text, "| {}: ", "-".repeat(width - 1)),
+                    "center" => write!(text, "| :{}: ", "-".repeat(width - 2)),
+                    _ => write!(text, "| {} ", "-".repeat(*width)),
+                };
+            }
+            text.push_str("|\n");
+        }
+    }
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::escape;
+
+    #[test]
+    fn only_signs_that_markdown_reads_are_escaped() {
+        assert_eq!(escape("1 < 2, a <b> c & d &amp; e"), "1 < 2, a \\<b> c & d \\&amp; e");
+        assert_eq!(escape("PMM_controlword _x_ a*b|c"), "PMM_controlword \\_x\\_ a\\*b\\|c");
+        assert_eq!(escape("r(w) 0..3 [1]"), "r(w) 0..3 \\[1\\]");
+    }
+}

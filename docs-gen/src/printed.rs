@@ -1,0 +1,146 @@
+//! The index of printed tables: what takes the place of each, and which of its facts differ on purpose.
+
+use od_spec::model::{ErratumKind, ErratumPlace, TableContent, TableId};
+use serde::Serialize;
+
+use crate::source::{Source, kind_of};
+use crate::view::Cell;
+
+/// Index of the manual's tables, for programs.
+#[derive(Debug, Clone, Serialize)]
+pub struct TableIndex {
+    /// Version of this format: 1.
+    pub format: u32,
+    /// Title and edition of the printed manual.
+    pub source: String,
+    /// Its tables, in order.
+    pub tables: Vec<PrintedTable>,
+}
+
+/// A printed table and its counterpart.
+#[derive(Debug, Clone, Serialize)]
+pub struct PrintedTable {
+    /// Number, as printed; none for a table without one.
+    pub number: Option<u16>,
+    /// Caption.
+    #[serde(serialize_with = "text_only")]
+    pub title: Cell,
+    /// Number of the section that it stands in.
+    pub section: String,
+    /// What fills it.
+    pub kind: &'static str,
+    /// Anchor of the table that takes its place.
+    pub anchor: String,
+    /// Page that has the anchor, where pages are small.
+    pub page: String,
+    /// Rows of the table that takes its place.
+    pub rows: usize,
+    /// Numbers of the errata about it.
+    pub errata: Vec<usize>,
+    /// Its facts that differ on purpose.
+    pub differs: Vec<Difference>,
+}
+
+/// A fact of a printed table that differs on purpose.
+#[derive(Debug, Clone, Serialize)]
+pub struct Difference {
+    /// Number of the erratum that says why.
+    pub erratum: usize,
+    /// Kind of fact.
+    pub kind: &'static str,
+    /// Objects or entries whose rows are concerned: `3020h.5`.
+    pub entries: Vec<String>,
+    /// Column of these rows, where the fact stands in one.
+    pub column: Option<&'static str>,
+    /// What the manual prints.
+    pub prints: String,
+    /// What stands here.
+    pub reads: String,
+}
+
+fn text_only<S: serde::Serializer>(cell: &Cell, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&cell.text)
+}
+
+/// The column in which a fact stands.
+const fn column(kind: ErratumKind, content: &TableContent) -> Option<&'static str> {
+    let detail = matches!(content, TableContent::Objects(_));
+    if !detail && !matches!(content, TableContent::Overview(_)) {
+        return None;
+    }
+    match kind {
+        ErratumKind::Index => Some("index"),
+        ErratumKind::Name => Some("name"),
+        ErratumKind::Type | ErratumKind::Sign => Some("type"),
+        ErratumKind::Access => Some("access"),
+        ErratumKind::ObjectType if !detail => Some("object"),
+        ErratumKind::Stored if !detail => Some("mem"),
+        ErratumKind::SubIndex if detail => Some("sub"),
+        ErratumKind::Default if detail => Some("default"),
+        ErratumKind::Limit if detail => Some("range"),
+        ErratumKind::Unit if detail => Some("unit"),
+        ErratumKind::Pdo if detail => Some("map"),
+        _ => None,
+    }
+}
+
+impl Source<'_> {
+    /// Every table that the document lists and the devices shown have.
+    pub(crate) fn printed(&self) -> Vec<PrintedTable> {
+        let mut list = Vec::new();
+        for (page, sections) in self.chapters() {
+            for (at, _) in sections {
+                let section = &self.document().sections[at];
+                for (place, printed) in section.tables.iter().enumerate() {
+                    let id = TableId { section: at, table: place };
+                    let Some(table) = self.table(id) else { continue };
+                    list.push(PrintedTable {
+                        number: printed.number,
+                        title: table.title.clone(),
+                        section: section.number.clone(),
+                        kind: kind_of(&printed.content),
+                        anchor: table.anchor.clone(),
+                        page: page.clone(),
+                        rows: table.grids.iter().map(|grid| grid.rows.len()).sum(),
+                        differs: table
+                            .errata
+                            .iter()
+                            .map(|number| self.difference(*number, &printed.content))
+                            .collect(),
+                        errata: table.errata,
+                    });
+                }
+            }
+        }
+        list
+    }
+
+    /// The index of tables, for programs.
+    pub(crate) fn table_index(&self) -> TableIndex {
+        TableIndex {
+            format: 1,
+            source: self.document().source.clone().unwrap_or_default(),
+            tables: self.printed(),
+        }
+    }
+
+    fn difference(&self, number: usize, content: &TableContent) -> Difference {
+        let erratum = &self.system.errata[number - 1];
+        let entries = erratum.at.iter().filter(|place| match content {
+            TableContent::Overview(list) | TableContent::Objects(list) => list.contains(&place.index()),
+            _ => true,
+        });
+        let entries = entries.map(|place| match place {
+            ErratumPlace::Object(index) => index.to_string(),
+            ErratumPlace::Entry(id) => format!("{}.{}", id.index, id.sub),
+        });
+        Difference {
+            erratum: number,
+            kind: erratum.kind.word(),
+            entries: entries.collect(),
+            column: column(erratum.kind, content),
+            prints: self.text(&erratum.prints).text,
+            reads: self.text(&erratum.reads).text,
+        }
+    }
+}

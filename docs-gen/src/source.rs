@@ -1,0 +1,398 @@
+//! The model in front of the printer: chosen devices, language, and where each thing is shown.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use od_spec::expr::{EntryRef, Expr, Term};
+use od_spec::model::{
+    DataType, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index, Object, System,
+    TableContent, TableId, Text, TypeKind, Unit, Value,
+};
+
+use crate::Options;
+use crate::cell::{entry_anchor, object_anchor, slug};
+use crate::language::{Language, Word};
+use crate::view::Cell;
+
+/// Name of the page of a chapter.
+pub(crate) fn chapter_page(number: &str, title: &str) -> String {
+    slug(&format!("{number} {title}"))
+}
+
+/// The model, seen by the printer.
+pub(crate) struct Source<'a> {
+    pub system: &'a System,
+    /// The devices to show.
+    pub devices: Vec<&'a Dictionary>,
+    pub language: Language<'a>,
+    /// Calls of the accessors in generated Rust, by device and entry.
+    pub accessors: &'a BTreeMap<(String, EntryId), String>,
+    /// The page, where pages are small, that shows an object in detail.
+    homes: BTreeMap<Index, String>,
+    /// Position of an erratum by entry or object, ascending.
+    errata: BTreeMap<Index, Vec<usize>>,
+}
+
+impl<'a> Source<'a> {
+    pub(crate) fn new(system: &'a System, options: &'a Options) -> Self {
+        let chosen =
+            |device: &&Dictionary| options.devices.is_empty() || options.devices.contains(&device.key);
+        let devices: Vec<&Dictionary> = system.devices.iter().filter(chosen).collect();
+        let language = Language { code: options.language.as_deref().unwrap_or_else(|| system.language()) };
+        let mut source = Self {
+            system,
+            devices,
+            language,
+            accessors: &options.accessors,
+            homes: BTreeMap::new(),
+            errata: BTreeMap::new(),
+        };
+        source.homes = source.find_homes();
+        source.errata = source.find_errata();
+        source
+    }
+
+    /// The same for one device alone.
+    pub(crate) fn only(&self, device: &'a Dictionary) -> Self {
+        let (homes, errata) = (self.homes.clone(), self.errata.clone());
+        Self { devices: vec![device], homes, errata, ..*self }
+    }
+
+    fn find_errata(&self) -> BTreeMap<Index, Vec<usize>> {
+        let mut errata: BTreeMap<Index, Vec<usize>> = BTreeMap::new();
+        for (at, erratum) in self.system.errata.iter().enumerate().filter(|(_, one)| self.is_about(one)) {
+            let indices: BTreeSet<Index> = erratum.at.iter().map(|place| place.index()).collect();
+            for index in indices {
+                errata.entry(index).or_default().push(at);
+            }
+        }
+        errata
+    }
+
+    fn find_homes(&self) -> BTreeMap<Index, String> {
+        let mut homes = BTreeMap::new();
+        for (page, sections) in self.chapters() {
+            for (section, _) in sections {
+                for table in &self.system.document.sections[section].tables {
+                    let TableContent::Objects(list) = &table.content else { continue };
+                    for index in list {
+                        homes.entry(*index).or_insert_with(|| page.clone());
+                    }
+                }
+            }
+        }
+        for device in &self.devices {
+            for index in device.objects.keys() {
+                homes.entry(*index).or_insert_with(|| device.key.clone());
+            }
+        }
+        homes
+    }
+
+    /// The document's sections by chapter: name of the page; position and depth of each section.
+    pub(crate) fn chapters(&self) -> Vec<(String, Vec<(usize, usize)>)> {
+        let mut chapters: Vec<(String, Vec<(usize, usize)>)> = Vec::new();
+        for (at, section) in self.system.document.sections.iter().enumerate() {
+            let level = if section.number.is_empty() { 1 } else { section.number.split('.').count() };
+            match chapters.last_mut() {
+                Some((_, sections)) if level > 1 => sections.push((at, level)),
+                _ => {
+                    let title = section.title.get(self.system.language()).unwrap_or_default();
+                    chapters.push((chapter_page(&section.number, title), vec![(at, level)]));
+                }
+            }
+        }
+        chapters
+    }
+
+    pub(crate) const fn document(&self) -> &'a Document {
+        &self.system.document
+    }
+
+    /// A fixed word.
+    pub(crate) fn word(&self, word: Word) -> &'static str {
+        self.language.word(word)
+    }
+
+    /// A text of the specification.
+    pub(crate) fn text(&self, text: &Text) -> Cell {
+        Cell::words(text, self.language)
+    }
+
+    /// The page that shows an object in detail.
+    pub(crate) fn home(&self, index: Index) -> &str {
+        self.homes.get(&index).map_or("", String::as_str)
+    }
+
+    /// A link to an entry, as `6040h` or `3020h.5`; of a device that is not shown, the id alone.
+    pub(crate) fn entry_link(&self, id: EntryId) -> Cell {
+        self.link(id.index, id.to_string(), entry_anchor(id))
+    }
+
+    /// A link to an object; of a device that is not shown, the index alone.
+    pub(crate) fn object_link(&self, index: Index) -> Cell {
+        self.link(index, index.to_string(), object_anchor(index))
+    }
+
+    /// A link to something of an object, if a device shown has the object.
+    pub(crate) fn link(&self, index: Index, text: String, anchor: String) -> Cell {
+        if self.devices.iter().all(|device| !device.objects.contains_key(&index)) {
+            return Cell::plain(text);
+        }
+        Cell::default().link(text, anchor, self.home(index))
+    }
+
+    /// A link to an entry with its name.
+    pub(crate) fn named_entry(&self, device: &Dictionary, id: EntryId) -> Cell {
+        self.entry_link(id).text(format!(" {}", device.entry_name(id).unwrap_or_default()))
+    }
+
+    /// Whether an erratum is about one of the devices shown.
+    pub(crate) fn is_about(&self, erratum: &Erratum) -> bool {
+        erratum.devices.is_empty() || self.devices.iter().any(|device| erratum.devices.contains(&device.key))
+    }
+
+    /// Numbers of the errata about an object, as a whole or any of its entries.
+    pub(crate) fn errata_of_object(&self, index: Index) -> &[usize] {
+        self.errata.get(&index).map_or(&[], Vec::as_slice)
+    }
+
+    /// Numbers of the errata that name one entry; those of an object of one value name its only entry.
+    pub(crate) fn errata_of_entry(&self, object: &Object, entry: &Entry) -> Vec<usize> {
+        let id = EntryId { index: object.index, sub: entry.sub };
+        let names = |at: &&usize| {
+            self.system.errata[**at].at.iter().any(|place| match place {
+                ErratumPlace::Object(index) => *index == object.index && !object.is_structured(),
+                ErratumPlace::Entry(one) => *one == id,
+            })
+        };
+        self.errata_of_object(object.index).iter().filter(names).copied().collect()
+    }
+
+    /// The anchor of a table.
+    pub(crate) fn table_anchor(&self, id: TableId) -> String {
+        let section = &self.document().sections[id.section];
+        let table = &section.tables[id.table];
+        match table.number {
+            Some(number) => format!("table-{number}"),
+            None => {
+                let before = section.tables[..id.table].iter().filter(|table| table.number.is_none()).count();
+                let anchor = format!("{}-{}", section_anchor(section), kind_of(&table.content));
+                if before == 0 { anchor } else { format!("{anchor}-{}", before + 1) }
+            }
+        }
+    }
+
+    /// A value the way the manual writes it, with the raw value behind it where that is another number.
+    pub(crate) fn value(&self, entry: &Entry, value: &Value) -> String {
+        match value {
+            Value::Integer(raw) => self.integer(entry, *raw),
+            Value::NodeId(offset) => {
+                format!("{} + {}", hex(u128::from(*offset), 3), self.word(Word::NodeId))
+            }
+            Value::Real(number) => self.language.number(&format!("{number:?}")),
+            Value::Text(text) => text.clone(),
+            Value::Bytes(bytes) => {
+                bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+            }
+        }
+    }
+
+    fn integer(&self, entry: &Entry, raw: i128) -> String {
+        if let Some(special) = entry.special.iter().find(|special| special.value == raw) {
+            return format!("{raw} ({})", special.name);
+        }
+        if entry.data_type == DataType::Boolean {
+            return raw.to_string();
+        }
+        match entry.named_type.as_ref().map(|named| &named.kind) {
+            Some(TypeKind::Enum(values)) => {
+                let number = enum_number(entry.data_type, raw);
+                let name = values.iter().find(|value| value.value == raw).map(|value| &value.name);
+                name.map_or(number.clone(), |name| format!("{number}: {name}"))
+            }
+            Some(TypeKind::Bits(_)) => bit_pattern(entry.data_type, raw),
+            None => entry.unit.as_ref().map_or_else(
+                || raw.to_string(),
+                |unit| {
+                    let physical = self.physical(unit, raw);
+                    if unit.scale == od_spec::model::Ratio::ONE {
+                        physical
+                    } else {
+                        format!("{physical} ({raw})")
+                    }
+                },
+            ),
+        }
+    }
+
+    /// A raw value in its unit: `50.0 °C`.
+    pub(crate) fn physical(&self, unit: &Unit, raw: i128) -> String {
+        self.language.number(&unit.show(raw))
+    }
+
+    /// What one raw step is worth: `0.1 °C`.
+    pub(crate) fn step(&self, unit: &Unit) -> String {
+        self.language.number(&unit.step_text())
+    }
+
+    /// The limits of an entry: `0 to 100`, `≤ 90.0 °C (900)`.
+    pub(crate) fn range(&self, entry: &Entry) -> String {
+        let is_enum = matches!(entry.named_type.as_ref().map(|named| &named.kind), Some(TypeKind::Enum(_)));
+        let own = entry.data_type.range();
+        let (low, high) = (
+            entry.low.filter(|low| own.is_none_or(|(lowest, _)| *low != lowest)),
+            entry.high.filter(|high| own.is_none_or(|(_, highest)| *high != highest)),
+        );
+        let one = |raw: i128| match &entry.unit {
+            Some(unit) if unit.scale != od_spec::model::Ratio::ONE => {
+                format!("{} ({raw})", self.physical(unit, raw))
+            }
+            Some(unit) => self.physical(unit, raw),
+            None => raw.to_string(),
+        };
+        if is_enum {
+            return String::new();
+        }
+        match (low.or(entry.low.filter(|_| high.is_some())), high.or(entry.high.filter(|_| low.is_some()))) {
+            (Some(low), Some(high)) => format!("{} {} {}", one(low), self.word(Word::ToRange), one(high)),
+            (Some(low), None) => format!("≥ {}", one(low)),
+            (None, Some(high)) => format!("≤ {}", one(high)),
+            (None, None) => String::new(),
+        }
+    }
+
+    /// The device of an entry that a condition names.
+    pub(crate) fn device_of(&self, devices: &[String], entry: &EntryRef) -> Option<&'a Dictionary> {
+        let has = |device: &&Dictionary| device.entry(entry.id).is_some();
+        match &entry.device {
+            Some(key) => self.system.devices.iter().find(|device| &device.key == key),
+            None => self
+                .system
+                .devices
+                .iter()
+                .filter(|device| devices.is_empty() || devices.contains(&device.key))
+                .find(has),
+        }
+    }
+
+    /// A condition in words: names with links instead of bare indices.
+    pub(crate) fn condition(&self, condition: &Expr, devices: &[String]) -> Cell {
+        let mut cell = Cell::default();
+        for (at, comparison) in condition.comparisons.iter().enumerate() {
+            if at > 0 {
+                cell = cell.text(if self.language.code.starts_with("de") { " und " } else { " and " });
+            }
+            cell = self.term(cell, &comparison.first, devices, 0);
+            let mut left = &comparison.first;
+            for (operator, term) in &comparison.rest {
+                cell = cell.text(format!(" {} ", relation(*operator)));
+                cell = self.term(cell, term, devices, 0);
+                if let Some(name) = self.value_name(left, term, devices) {
+                    cell = cell.text(format!(" ({name})"));
+                }
+                left = term;
+            }
+        }
+        cell
+    }
+
+    /// The name of the number that an enum is compared with.
+    fn value_name(&self, left: &Term, right: &Term, devices: &[String]) -> Option<&'a str> {
+        let (Term::Entry(entry), Term::Number(number)) = (left, right) else { return None };
+        let named = self.device_of(devices, entry)?.entry(entry.id)?.named_type.as_ref()?;
+        let TypeKind::Enum(values) = &named.kind else { return None };
+        let value = values.iter().find(|value| Some(value.value) == number.to_whole())?;
+        Some(&value.name)
+    }
+
+    fn term(&self, cell: Cell, term: &Term, devices: &[String], around: u8) -> Cell {
+        use od_spec::expr::ArithmeticOp as Op;
+        let named = |cell: Cell, entry: &EntryRef| {
+            let device = self.device_of(devices, entry);
+            let name = device.and_then(|device| device.entry_name(entry.id)).unwrap_or_default();
+            cell.text(format!("{name} (")).and(self.entry_link(entry.id)).text(")")
+        };
+        match term {
+            Term::Number(number) => cell.text(self.language.number(&number.to_string())),
+            Term::Entry(entry) => named(cell, entry),
+            Term::Bit(entry, bit) => {
+                let words = self.word(Word::BitOf).replace("{n}", &bit.to_string());
+                named(cell.text(format!("{words} ")), entry)
+            }
+            Term::Binary(left, operator, right) => {
+                let (sign, level) = match operator {
+                    Op::Add => ("+", 1),
+                    Op::Subtract => ("−", 1),
+                    Op::Multiply => ("×", 2),
+                    Op::Divide => ("/", 2),
+                };
+                let brackets = level < around;
+                let cell = if brackets { cell.text("(") } else { cell };
+                let cell = self.term(cell, left, devices, level).text(format!(" {sign} "));
+                // The right side of `-` and `/` needs brackets at its own level, too.
+                let right_level = level + u8::from(matches!(operator, Op::Subtract | Op::Divide));
+                let cell = self.term(cell, right, devices, right_level);
+                if brackets { cell.text(")") } else { cell }
+            }
+        }
+    }
+}
+
+/// An operator as it is printed.
+pub(crate) const fn relation(operator: od_spec::expr::CompareOp) -> &'static str {
+    use od_spec::expr::CompareOp as Op;
+    match operator {
+        Op::Less => "<",
+        Op::LessOrEqual => "≤",
+        Op::Equal => "=",
+        Op::NotEqual => "≠",
+        Op::GreaterOrEqual => "≥",
+        Op::Greater => ">",
+    }
+}
+
+/// The anchor of a section.
+pub(crate) fn section_anchor(section: &od_spec::model::Section) -> String {
+    if section.number.is_empty() {
+        slug(section.title.iter().next().map_or("section", |(_, title)| title))
+    } else {
+        format!("section-{}", section.number)
+    }
+}
+
+/// What fills a table, as the specification's key says it.
+pub(crate) const fn kind_of(content: &TableContent) -> &'static str {
+    match content {
+        TableContent::Overview(_) => "overview",
+        TableContent::Objects(_) => "objects",
+        TableContent::Bits(_) => "bits",
+        TableContent::Values(_) => "values",
+        TableContent::Errors(_) => "errors",
+        TableContent::Reactions(_) => "reactions",
+        TableContent::States(_) => "states",
+        TableContent::Transitions(_) => "transitions",
+        TableContent::Commands(_) => "commands",
+        TableContent::Ladder(_) => "ladder",
+        TableContent::Pdos(_) => "pdos",
+        TableContent::Rows { .. } => "rows",
+        TableContent::Glossary => "glossary",
+        TableContent::History => "history",
+    }
+}
+
+/// The field's notation of a hexadecimal number: `0180h`.
+pub(crate) fn hex(value: u128, digits: usize) -> String {
+    format!("{value:0digits$X}h")
+}
+
+/// A raw value as hexadecimal digits of its type's width: `FFh` for -1 in 8 bits.
+pub(crate) fn bit_pattern(data_type: DataType, raw: i128) -> String {
+    let bits = data_type.bits().unwrap_or(64);
+    hex(raw.rem_euclid(1 << bits).unsigned_abs(), usize::from(bits.div_ceil(4)))
+}
+
+/// A value of an enum: decimal and, where that is another way to write it, hexadecimal: `-113 (8Fh)`.
+pub(crate) fn enum_number(data_type: DataType, raw: i128) -> String {
+    let small = (0..10).contains(&raw) || (data_type.is_signed() && raw >= 0);
+    if small { raw.to_string() } else { format!("{raw} ({})", bit_pattern(data_type, raw)) }
+}

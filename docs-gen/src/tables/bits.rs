@@ -1,0 +1,158 @@
+//! Bit tables and value tables of named types, and pictures of registers.
+
+use od_spec::model::{BitField, BitUsage, DataType, Edge, EnumValue, NamedType, Object};
+
+use super::Columns;
+use crate::cell::entry_anchor;
+use crate::language::Word;
+use crate::source::{Source, enum_number, hex};
+use crate::view::{BitBox, BitPicture, BitPictureRow, Cell, Grid, Row};
+
+impl Source<'_> {
+    /// The bits of a type. Where several entries share it and report different error codes, the codes name their entry.
+    pub(crate) fn bits(&self, named: &NamedType, fields: &[BitField]) -> Grid {
+        let rows = fields
+            .iter()
+            .map(|field| {
+                let bits = if field.first == field.last {
+                    field.first.to_string()
+                } else {
+                    format!("{}..{}", field.first, field.last)
+                };
+                let name = match field.usage {
+                    BitUsage::Used => field.name.as_str(),
+                    BitUsage::Reserved => self.word(Word::Reserved),
+                    BitUsage::Unused => self.word(Word::Unused),
+                };
+                let active = match (field.edge, field.active) {
+                    (Some(Edge::Rising), _) => "0→1",
+                    (Some(Edge::Falling), _) => "1→0",
+                    (Some(Edge::Both), _) => self.word(Word::BothEdges),
+                    (None, 0) => "0",
+                    (None, _) => "",
+                };
+                Row::of(vec![
+                    Cell::plain(bits),
+                    Cell::plain(name),
+                    self.meaning(field),
+                    Cell::plain(active),
+                    field.clamp.as_ref().map_or_else(Cell::default, Cell::plain),
+                    field.priority.as_ref().map_or_else(Cell::default, Cell::plain),
+                    self.codes(named, field),
+                ])
+            })
+            .collect();
+        let grid = Columns::new()
+            .right(self, "bit", Word::Bit)
+            .left(self, "name", Word::Name)
+            .left(self, "meaning", Word::Meaning)
+            .center(self, "active", Word::Active)
+            .left(self, "clamp", Word::Clamp)
+            .center(self, "priority", Word::Priority)
+            .left(self, "error_codes", Word::AlarmCode)
+            .grid(rows, &["bit", "name"]);
+        Grid { bits: Some(picture(named, fields)), ..grid }
+    }
+
+    fn meaning(&self, field: &BitField) -> Cell {
+        let mut cell = self.text(&field.about);
+        for value in &field.values {
+            cell = cell.line().text(format!("{} = {}", value.value, value.name));
+            if !value.supported {
+                cell = cell.text(format!(" ({})", self.word(Word::NotSupported)));
+            }
+            if !value.about.is_empty() {
+                cell = cell.text(": ").and_words(&value.about, self.language);
+            }
+        }
+        for (mode, name, about) in &field.modes {
+            cell = cell.line().text(format!("{mode}: {name}"));
+            if !about.is_empty() {
+                cell = cell.text("; ").and_words(about, self.language);
+            }
+        }
+        cell
+    }
+
+    /// Error codes of a bit: those of the type, then those of each entry that has the type.
+    fn codes(&self, named: &NamedType, field: &BitField) -> Cell {
+        let mut cell = Cell::plain(list(&field.errors));
+        let mut seen = Vec::new();
+        for device in &self.devices {
+            for (id, object, entry) in device.entries() {
+                let shares = entry.named_type.as_ref().is_some_and(|other| other.name == named.name);
+                let own = entry.bit_errors.iter().find(|(bit, _)| (field.first..=field.last).contains(bit));
+                let Some((_, codes)) = own.filter(|_| shares && !seen.contains(&id)) else { continue };
+                seen.push(id);
+                let place = if object.is_structured() { id.to_string() } else { object.index.to_string() };
+                cell = cell
+                    .line()
+                    .link(place, entry_anchor(id), self.home(id.index))
+                    .text(format!(": {}", list(codes)));
+            }
+        }
+        cell
+    }
+
+    /// The values of an enum.
+    pub(crate) fn values(&self, base: DataType, values: &[EnumValue]) -> Grid {
+        let rows = values
+            .iter()
+            .map(|value| {
+                Row::of(vec![
+                    Cell::plain(enum_number(base, value.value)),
+                    Cell::plain(&value.name),
+                    self.text(&value.about),
+                    if value.supported { Cell::default() } else { Cell::plain(self.word(Word::No)) },
+                ])
+            })
+            .collect();
+        Columns::new()
+            .right(self, "value", Word::Value)
+            .left(self, "name", Word::Name)
+            .left(self, "meaning", Word::Meaning)
+            .center(self, "supported", Word::Supported)
+            .grid(rows, &["value", "name"])
+    }
+}
+
+/// The named types of an object's entries, each once.
+pub(crate) fn types_of(object: &Object) -> Vec<&NamedType> {
+    let mut types: Vec<&NamedType> = Vec::new();
+    for named in object.entries.iter().filter_map(|entry| entry.named_type.as_deref()) {
+        if types.iter().all(|before| before.name != named.name) {
+            types.push(named);
+        }
+    }
+    types
+}
+
+/// Error codes, separated by commas.
+pub(crate) fn list(codes: &[u16]) -> String {
+    codes.iter().map(|code| hex(u128::from(*code), 4)).collect::<Vec<_>>().join(", ")
+}
+
+/// A register in rows of 16 bits, the highest first.
+pub(crate) fn picture(named: &NamedType, fields: &[BitField]) -> BitPicture {
+    let bits = named.base.bits().map_or(64, |bits| u8::try_from(bits).unwrap_or(64));
+    let rows = (0..bits.div_ceil(16)).rev().map(|row| {
+        let (first, last) = (row * 16, bits.min(row * 16 + 16) - 1);
+        let inside = fields.iter().rev().filter(|field| field.first <= last && field.last >= first);
+        let fields = inside.map(|field| {
+            let (from, to) = (field.first.max(first), field.last.min(last));
+            BitBox {
+                last: to,
+                first: from,
+                width: to - from + 1,
+                name: field.name.clone(),
+                usage: match field.usage {
+                    BitUsage::Used => "used",
+                    BitUsage::Reserved => "reserved",
+                    BitUsage::Unused => "unused",
+                },
+            }
+        });
+        BitPictureRow { last, first, fields: fields.collect() }
+    });
+    BitPicture { name: named.name.clone(), rows: rows.collect() }
+}

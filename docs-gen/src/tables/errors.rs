@@ -1,0 +1,134 @@
+//! Error codes and what the devices do about them.
+
+use od_spec::model::ErrorCode;
+
+use super::Columns;
+use crate::cell::entry_anchor;
+use crate::language::Word;
+use crate::source::{Source, hex};
+use crate::view::{Cell, Grid, Row};
+
+/// Where links to an error code lead.
+pub(crate) fn anchor(code: u16) -> String {
+    format!("error-{code:04X}")
+}
+
+impl Source<'_> {
+    /// The wanted codes of the devices shown; none means all.
+    fn wanted(&self, codes: &[u16]) -> impl Iterator<Item = &ErrorCode> {
+        let shown = |error: &&ErrorCode| {
+            error.devices.is_empty() || self.devices.iter().any(|device| error.devices.contains(&device.key))
+        };
+        self.system
+            .errors
+            .iter()
+            .filter(move |error| codes.is_empty() || codes.contains(&error.code))
+            .filter(shown)
+    }
+
+    /// One row per code, with a column for each device.
+    pub(crate) fn errors(&self, codes: &[u16]) -> Grid {
+        let mut columns =
+            Columns::new().left(self, "code", Word::AlarmCode).left(self, "name", Word::Meaning);
+        if self.devices.len() > 1 {
+            for device in &self.devices {
+                columns = columns.with("device", device.key.to_uppercase(), "center");
+            }
+        }
+        let columns =
+            columns.center(self, "priority", Word::Priority).left(self, "description", Word::Description);
+        let rows = self
+            .wanted(codes)
+            .map(|error| {
+                let mut cells = vec![code(error.code), Cell::plain(&error.name)];
+                if self.devices.len() > 1 {
+                    cells.extend(self.devices.iter().map(|device| {
+                        let has = error.devices.is_empty() || error.devices.contains(&device.key);
+                        Cell::plain(if has { "X" } else { "" })
+                    }));
+                }
+                cells.push(error.priority.as_ref().map_or_else(Cell::default, Cell::plain));
+                cells.push(self.text(&error.about));
+                Row::of(cells)
+            })
+            .collect();
+        columns.grid(rows, &["code", "name", "device"])
+    }
+
+    /// One row per code with the reaction.
+    pub(crate) fn reactions(&self, codes: &[u16]) -> Grid {
+        let rows = self
+            .wanted(codes)
+            .map(|error| {
+                Row::of(vec![
+                    Cell::plain(&error.name),
+                    Cell::default().link(hex(u128::from(error.code), 4), anchor(error.code), "errors"),
+                    self.text(&error.reaction),
+                ])
+            })
+            .collect();
+        Columns::new()
+            .left(self, "name", Word::Errors)
+            .left(self, "code", Word::AlarmCode)
+            .left(self, "reaction", Word::Reaction)
+            .grid(rows, &["name", "code", "reaction"])
+    }
+
+    /// All codes with priority, reaction and the bits that show them.
+    pub(crate) fn error_reference(&self) -> Grid {
+        let rows = self
+            .wanted(&[])
+            .map(|error| {
+                let devices: Vec<String> = self
+                    .devices
+                    .iter()
+                    .filter(|device| error.devices.is_empty() || error.devices.contains(&device.key))
+                    .map(|device| device.key.to_uppercase())
+                    .collect();
+                Row {
+                    anchor: anchor(error.code),
+                    ..Row::of(vec![
+                        code(error.code),
+                        Cell::plain(&error.name),
+                        Cell::plain(devices.join(", ")),
+                        error.priority.as_ref().map_or_else(Cell::default, Cell::plain),
+                        self.text(&error.reaction),
+                        self.reported_by(error.code),
+                        self.text(&error.about),
+                    ])
+                }
+            })
+            .collect();
+        Columns::new()
+            .left(self, "code", Word::AlarmCode)
+            .left(self, "name", Word::Meaning)
+            .left(self, "device", Word::Device)
+            .center(self, "priority", Word::Priority)
+            .left(self, "reaction", Word::Reaction)
+            .left(self, "reported_by", Word::ReportedBy)
+            .left(self, "description", Word::Description)
+            .grid(rows, &["code", "name"])
+    }
+
+    /// The bits that are set together with a code.
+    fn reported_by(&self, code: u16) -> Cell {
+        let mut cell = Cell::default();
+        let mut seen = Vec::new();
+        for (id, object, entry) in self.devices.iter().flat_map(|device| device.entries()) {
+            for bit in entry.bits_of_error(code) {
+                if seen.contains(&(id, bit)) {
+                    continue;
+                }
+                seen.push((id, bit));
+                let place = if object.is_structured() { id.to_string() } else { object.index.to_string() };
+                cell = cell.line().link(place, entry_anchor(id), self.home(id.index));
+                cell = cell.text(format!(" {} {bit}", self.word(Word::Bit)));
+            }
+        }
+        cell
+    }
+}
+
+fn code(code: u16) -> Cell {
+    Cell::plain(hex(u128::from(code), 4))
+}

@@ -1,0 +1,140 @@
+//! States, transitions and commands of a state machine.
+
+use od_spec::model::{BitPattern, EntryId, PatternBit, StateMachine, TypeKind};
+
+use super::Columns;
+use crate::language::Word;
+use crate::source::{Source, bit_pattern};
+use crate::view::{Cell, Grid, Row};
+
+/// A pattern in groups of four bits, most significant first: `xxxx xxxx x01x 0001`.
+fn pattern(pattern: &BitPattern) -> String {
+    let mut text = String::new();
+    for (at, bit) in pattern.0.iter().enumerate() {
+        if at > 0 && (pattern.0.len() - at).is_multiple_of(4) {
+            text.push(' ');
+        }
+        text.push(match bit {
+            PatternBit::Zero | PatternBit::Falling => '0',
+            PatternBit::One | PatternBit::Rising => '1',
+            PatternBit::Any => 'x',
+        });
+    }
+    text
+}
+
+/// One bit of a command.
+const fn level(bit: PatternBit) -> &'static str {
+    match bit {
+        PatternBit::Zero => "0",
+        PatternBit::One => "1",
+        PatternBit::Any => "x",
+        PatternBit::Rising => "0→1",
+        PatternBit::Falling => "1→0",
+    }
+}
+
+impl Source<'_> {
+    pub(crate) fn states(&self, machine: &StateMachine) -> Grid {
+        let rows = machine
+            .states
+            .iter()
+            .map(|state| {
+                Row::of(vec![
+                    Cell::default().code(pattern(&state.pattern)),
+                    Cell::plain(&state.name),
+                    self.text(&state.about),
+                ])
+            })
+            .collect();
+        let title = self.entry_name(machine.status).unwrap_or_else(|| self.word(Word::Pattern).to_owned());
+        Columns::new()
+            .with("pattern", title, "left")
+            .left(self, "state", Word::State)
+            .left(self, "meaning", Word::Meaning)
+            .grid(rows, &["pattern", "state"])
+    }
+
+    pub(crate) fn transitions(&self, machine: &StateMachine) -> Grid {
+        let rows = machine
+            .transitions
+            .iter()
+            .map(|transition| {
+                Row::of(vec![
+                    Cell::plain(transition.number.to_string()),
+                    Cell::plain(transition.from.join(", ")),
+                    Cell::plain(&transition.to),
+                    self.text(&transition.event),
+                    self.text(&transition.action),
+                ])
+            })
+            .collect();
+        Columns::new()
+            .right(self, "transition", Word::Transition)
+            .left(self, "from", Word::From)
+            .left(self, "to", Word::To)
+            .left(self, "event", Word::Event)
+            .left(self, "action", Word::Action)
+            .grid(rows, &["transition", "from", "to", "event", "action"])
+    }
+
+    /// One row per command, with a column for every bit that any command looks at.
+    pub(crate) fn commands(&self, machine: &StateMachine) -> Grid {
+        let width = machine.commands.iter().map(|command| command.pattern.0.len()).max().unwrap_or(0);
+        let bit_of = |pattern: &BitPattern, bit: usize| {
+            let length = pattern.0.len();
+            length.checked_sub(bit + 1).and_then(|at| pattern.0.get(at).copied()).unwrap_or(PatternBit::Any)
+        };
+        let bits: Vec<usize> = (0..width)
+            .rev()
+            .filter(|bit| {
+                machine.commands.iter().any(|command| bit_of(&command.pattern, *bit) != PatternBit::Any)
+            })
+            .collect();
+        let mut columns = Columns::new().left(self, "command", Word::Command);
+        for bit in &bits {
+            let name = self.bit_name(machine.command, *bit).unwrap_or_default();
+            columns =
+                columns.with("bit", format!("{} {bit} {name}", self.word(Word::Bit)).trim_end(), "center");
+        }
+        let columns = columns
+            .left(self, "send", Word::Send)
+            .left(self, "transitions", Word::Transition)
+            .left(self, "meaning", Word::Meaning);
+        let data_type = self.entry_type(machine.command);
+        let rows = machine
+            .commands
+            .iter()
+            .map(|command| {
+                let mut cells = vec![Cell::plain(&command.name)];
+                cells.extend(bits.iter().map(|bit| Cell::plain(level(bit_of(&command.pattern, *bit)))));
+                let send = command.send.zip(data_type);
+                cells.push(send.map_or_else(Cell::default, |(value, data_type)| {
+                    Cell::plain(bit_pattern(data_type, i128::from(value)))
+                }));
+                let transitions: Vec<String> = command.transitions.iter().map(u8::to_string).collect();
+                cells.push(Cell::plain(transitions.join(", ")));
+                cells.push(self.text(&command.about));
+                Row::of(cells)
+            })
+            .collect();
+        columns.grid(rows, &["command", "bit"])
+    }
+
+    fn entry_name(&self, id: EntryId) -> Option<String> {
+        self.devices.iter().find_map(|device| device.entry_name(id))
+    }
+
+    fn entry_type(&self, id: EntryId) -> Option<od_spec::model::DataType> {
+        self.devices.iter().find_map(|device| device.entry(id)).map(|entry| entry.data_type)
+    }
+
+    fn bit_name(&self, id: EntryId, bit: usize) -> Option<String> {
+        let entry = self.devices.iter().find_map(|device| device.entry(id))?;
+        let TypeKind::Bits(fields) = &entry.named_type.as_ref()?.kind else { return None };
+        let field = fields
+            .iter()
+            .find(|field| (field.first..=field.last).contains(&u8::try_from(bit).unwrap_or(255)))?;
+        Some(field.name.clone())
+    }
+}

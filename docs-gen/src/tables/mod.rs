@@ -1,0 +1,177 @@
+//! From the contents of a table to its columns and rows.
+
+pub(crate) mod bits;
+pub(crate) mod errors;
+pub(crate) mod machines;
+pub(crate) mod objects;
+pub(crate) mod overview;
+pub(crate) mod pdos;
+pub(crate) mod texts;
+
+use od_spec::model::{Constraint, Dictionary, Index, TableContent, TableId, TypeKind};
+
+use crate::language::Word;
+use crate::source::{Source, kind_of};
+use crate::view::{Cell, Column, Grid, Row, Table};
+
+/// Columns, each with what it holds, its title and its alignment.
+pub(crate) struct Columns(Vec<Column>);
+
+impl Columns {
+    pub(crate) const fn new() -> Self {
+        Self(Vec::new())
+    }
+
+    pub(crate) fn with(mut self, key: &'static str, title: impl Into<String>, align: &'static str) -> Self {
+        self.0.push(Column { key, title: title.into(), align });
+        self
+    }
+
+    pub(crate) fn left(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
+        self.with(key, source.word(word), "left")
+    }
+
+    pub(crate) fn right(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
+        self.with(key, source.word(word), "right")
+    }
+
+    pub(crate) fn center(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
+        self.with(key, source.word(word), "center")
+    }
+
+    /// A grid of these columns without those that nothing fills, apart from those that always stand.
+    pub(crate) fn grid(self, rows: Vec<Row>, always: &[&str]) -> Grid {
+        let keep: Vec<bool> = self
+            .0
+            .iter()
+            .enumerate()
+            .map(|(at, column)| {
+                always.contains(&column.key) || rows.iter().any(|row| !row.cells[at].is_empty())
+            })
+            .collect();
+        let kept = |at: usize| keep.get(at).copied().unwrap_or(true);
+        let columns =
+            self.0.into_iter().enumerate().filter(|(at, _)| kept(*at)).map(|(_, column)| column).collect();
+        let rows = rows.into_iter().map(|row| {
+            let cells = row.cells.into_iter().enumerate().filter(|(at, _)| kept(*at)).map(|(_, cell)| cell);
+            Row { cells: cells.collect(), ..row }
+        });
+        Grid { columns, rows: rows.collect(), ..Grid::default() }
+    }
+
+    /// A grid of all columns.
+    pub(crate) fn full(self, rows: Vec<Row>) -> Grid {
+        Grid { columns: self.0, rows, ..Grid::default() }
+    }
+}
+
+impl Row {
+    /// A row without a place to link to.
+    pub(crate) fn of(cells: Vec<Cell>) -> Self {
+        Self { cells, ..Self::default() }
+    }
+}
+
+impl Table {
+    /// A table that the manual does not number.
+    pub(crate) fn unnumbered(
+        anchor: impl Into<String>,
+        kind: &'static str,
+        title: Cell,
+        grids: Vec<Grid>,
+    ) -> Self {
+        Self { anchor: anchor.into(), number: None, title, kind, grids, ladder: None, errata: Vec::new() }
+    }
+}
+
+impl Source<'_> {
+    /// A table of the manual; `None` when the devices shown have nothing of it.
+    pub(crate) fn table(&self, id: TableId) -> Option<Table> {
+        let table = &self.document().sections[id.section].tables[id.table];
+        let mut ladder = None;
+        let grids = match &table.content {
+            TableContent::Overview(list) => vec![self.overview(list)],
+            TableContent::Objects(list) => self.details(list, |index| self.first_detail(id, index)),
+            TableContent::Bits(name) | TableContent::Values(name) => {
+                let named = self.system.types.get(name).filter(|_| self.shows_type(name))?;
+                match &named.kind {
+                    TypeKind::Bits(fields) => vec![self.bits(named, fields)],
+                    TypeKind::Enum(values) => vec![self.values(named.base, values)],
+                }
+            }
+            TableContent::Errors(codes) => vec![self.errors(codes)],
+            TableContent::Reactions(codes) => vec![self.reactions(codes)],
+            TableContent::States(name) => vec![self.states(self.machine(name)?)],
+            TableContent::Transitions(name) => vec![self.transitions(self.machine(name)?)],
+            TableContent::Commands(name) => vec![self.commands(self.machine(name)?)],
+            TableContent::Ladder(name) => {
+                let constraint =
+                    self.system.constraints.iter().find(|constraint| &constraint.name == name)?;
+                ladder = self.ladder(constraint);
+                vec![self.ladder_rows(constraint)]
+            }
+            TableContent::Pdos(pdos) => {
+                let device = self.devices.iter().find(|device| device.key == pdos.device)?;
+                vec![self.pdo_rows(device, pdos.direction)]
+            }
+            TableContent::Rows { columns, rows } => vec![self.rows(columns, rows)],
+            TableContent::Glossary => vec![self.glossary()],
+            TableContent::History => vec![self.history()],
+        };
+        let grids: Vec<Grid> = grids.into_iter().filter(|grid| !grid.rows.is_empty()).collect();
+        if grids.is_empty() {
+            return None;
+        }
+        Some(Table {
+            anchor: self.table_anchor(id),
+            number: table.number,
+            title: self.text(&table.title),
+            kind: kind_of(&table.content),
+            grids,
+            ladder,
+            errata: self.errata_of_table(id),
+        })
+    }
+
+    /// Whether a device shown has an entry of the type, or no device at all.
+    fn shows_type(&self, name: &str) -> bool {
+        let has = |device: &Dictionary| {
+            device
+                .entries()
+                .any(|(.., entry)| entry.named_type.as_ref().is_some_and(|named| named.name == name))
+        };
+        self.devices.iter().any(|device| has(device)) || !self.system.devices.iter().any(has)
+    }
+
+    /// The constraints that name a device shown.
+    pub(crate) fn shown_constraints(&self) -> impl Iterator<Item = &Constraint> {
+        self.system.constraints.iter().filter(|constraint| {
+            constraint.devices.is_empty()
+                || self.devices.iter().any(|device| constraint.devices.contains(&device.key))
+        })
+    }
+
+    /// Numbers of the errata whose place names the table.
+    pub(crate) fn errata_of_table(&self, id: TableId) -> Vec<usize> {
+        let errata = self.system.errata.iter().enumerate();
+        errata
+            .filter(|(_, erratum)| self.is_about(erratum) && erratum.tables.contains(&id))
+            .map(|(at, _)| at + 1)
+            .collect()
+    }
+
+    /// Whether this table is the first of the document to show the object in detail.
+    fn first_detail(&self, id: TableId, index: Index) -> bool {
+        let mut tables = self.document().tables().filter(
+            |(.., table)| matches!(&table.content, TableContent::Objects(list) if list.contains(&index)),
+        );
+        tables.next().is_some_and(|(first, ..)| first == id)
+    }
+
+    fn machine(&self, name: &str) -> Option<&od_spec::model::StateMachine> {
+        let machine = self.system.machines.get(name)?;
+        let shown = machine.devices.is_empty()
+            || self.devices.iter().any(|device| machine.devices.contains(&device.key));
+        shown.then_some(machine)
+    }
+}

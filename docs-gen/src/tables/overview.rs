@@ -1,0 +1,93 @@
+//! Overview tables: one row per object.
+
+use std::collections::BTreeSet;
+
+use od_spec::model::{Access, Entry, Index, Object, PdoMapping};
+
+use super::Columns;
+use crate::cell::object_anchor;
+use crate::language::Word;
+use crate::source::Source;
+use crate::view::{Cell, Grid, Row};
+
+/// Access in the words of a manual: `r(w)` for an entry that is writable only when unlocked.
+pub(crate) fn access(entry: &Entry) -> String {
+    match (entry.locked, entry.access) {
+        (true, Access::Wo) => "(w)".to_owned(),
+        (true, _) => "r(w)".to_owned(),
+        (false, access) => access.word().to_owned(),
+    }
+}
+
+/// Whether an entry can be mapped, and into which PDOs.
+pub(crate) const fn mapping(pdo: PdoMapping) -> &'static str {
+    match pdo {
+        PdoMapping::None => "N",
+        PdoMapping::Receive => "Y (R)",
+        PdoMapping::Transmit => "Y (T)",
+        PdoMapping::Both => "Y (RT)",
+    }
+}
+
+/// What differs among the entries of an object, each once and in order; the count at sub-index 0 does not matter.
+pub(crate) fn among<T: Ord>(object: &Object, fact: impl Fn(&Entry) -> T) -> Vec<T> {
+    let entries = if object.is_structured() { &object.entries[1..] } else { &object.entries[..] };
+    let mut seen = BTreeSet::new();
+    let mut facts = Vec::new();
+    for entry in entries {
+        if seen.insert(fact(entry)) {
+            facts.push(fact(entry));
+        }
+    }
+    facts
+}
+
+impl Source<'_> {
+    /// The objects of these indices on the devices shown. An object that devices share stands once, unless it differs.
+    pub(crate) fn overview(&self, indices: &[Index]) -> Grid {
+        let mut rows: Vec<Row> = Vec::new();
+        for index in indices {
+            let mut same: Vec<Row> = Vec::new();
+            for object in self.devices.iter().filter_map(|device| device.objects.get(index)) {
+                let row = self.overview_row(object);
+                if same.iter().all(|before| before.cells != row.cells) {
+                    same.push(row);
+                }
+            }
+            rows.extend(same);
+        }
+        self.overview_grid(rows)
+    }
+
+    pub(crate) fn overview_grid(&self, rows: Vec<Row>) -> Grid {
+        Columns::new()
+            .left(self, "index", Word::Index)
+            .left(self, "object", Word::Object)
+            .left(self, "name", Word::Name)
+            .left(self, "type", Word::Type)
+            .left(self, "access", Word::Access)
+            .center(self, "mem", Word::Mem)
+            .full(rows)
+    }
+
+    pub(crate) fn overview_row(&self, object: &Object) -> Row {
+        let index = Cell::default().link(
+            object.index.to_string(),
+            object_anchor(object.index),
+            self.home(object.index),
+        );
+        let stored = object.is_stored();
+        Row {
+            cells: vec![
+                index,
+                Cell::plain(object.kind.name()),
+                Cell::plain(&object.name),
+                Cell::plain(among(object, |entry| entry.data_type.name()).join(", ")),
+                Cell::plain(among(object, access).join(", ")),
+                Cell::plain(if stored { "Y" } else { "N" }),
+            ],
+            stored,
+            ..Row::default()
+        }
+    }
+}

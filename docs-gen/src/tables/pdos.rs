@@ -1,0 +1,149 @@
+//! Factory PDOs in the form of a manual: a row for the number of mapped entries, then a row for each of them.
+
+use od_spec::model::{DataType, Dictionary, Direction, Pdo, PdoTarget, Ratio, Value};
+
+use super::Columns;
+use crate::cell::{entry_anchor, object_anchor};
+use crate::language::Word;
+use crate::source::{Source, hex};
+use crate::view::{Cell, Grid, PdoField, PdoView, Row, Table};
+
+/// `rpdo-1`
+pub(crate) fn anchor(pdo: &Pdo) -> String {
+    format!("{}-{}", pdo.direction.pdo().to_lowercase(), pdo.number)
+}
+
+/// A mapping parameter as its parts: `6040 00 10h`.
+pub(crate) fn parameter(raw: u32) -> String {
+    format!("{:04X} {:02X} {:02X}h", raw >> 16, raw >> 8 & 0xFF, raw & 0xFF)
+}
+
+impl Source<'_> {
+    pub(crate) fn pdo_rows(&self, device: &Dictionary, direction: Direction) -> Grid {
+        let mut rows = Vec::new();
+        for pdo in device.pdos_of(direction) {
+            rows.push(Row {
+                anchor: String::new(),
+                ..Row::of(vec![
+                    Cell::plain(format!("{} {}", direction.pdo(), pdo.number)),
+                    Cell::plain(self.cob_id_entry(pdo)),
+                    Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No })),
+                    Cell::plain(hex(u128::from(pdo.mapping_index()), 4)),
+                    Cell::plain("0"),
+                    Cell::plain(pdo.map.len().to_string()),
+                    Cell::default(),
+                ])
+            });
+            for (at, mapped) in pdo.map.iter().enumerate() {
+                let mut cells = vec![Cell::default(); 4];
+                cells.push(Cell::plain((at + 1).to_string()));
+                cells.push(Cell::plain(parameter(mapped.parameter())));
+                cells.push(match mapped.target {
+                    PdoTarget::Entry(id) => Cell::default().link(
+                        device.entry_name(id).unwrap_or_default(),
+                        entry_anchor(id),
+                        self.home(id.index),
+                    ),
+                    PdoTarget::Dummy(data_type) => Cell::plain(data_type.name()),
+                });
+                rows.push(Row::of(cells));
+            }
+        }
+        Columns::new()
+            .left(self, "pdo", Word::Pdo)
+            .left(self, "cob_id", Word::CobId)
+            .left(self, "enabled", Word::Enabled)
+            .left(self, "index", Word::Index)
+            .right(self, "sub", Word::Sub)
+            .left(self, "default", Word::Default)
+            .left(self, "object", Word::Object)
+            .full(rows)
+    }
+
+    /// The COB-ID entry with its flag bits: `80000300h + node-ID`.
+    fn cob_id_entry(&self, pdo: &Pdo) -> String {
+        let digits = |raw: u128| if raw > 0xFFFF { 8 } else { 3 };
+        match &pdo.cob_id {
+            Value::NodeId(offset) => {
+                let raw = u128::from(*offset);
+                format!("{} + {}", hex(raw, digits(raw)), self.word(Word::NodeId))
+            }
+            other => other
+                .integer()
+                .map_or_else(String::new, |raw| hex(raw.unsigned_abs(), digits(raw.unsigned_abs()))),
+        }
+    }
+
+    /// The CAN-ID alone.
+    fn can_id(&self, pdo: &Pdo) -> String {
+        match &pdo.cob_id {
+            Value::NodeId(offset) => {
+                format!("{} + {}", hex(u128::from(*offset & 0x1FFF_FFFF), 3), self.word(Word::NodeId))
+            }
+            other => other.integer().map_or_else(String::new, |raw| hex(raw.unsigned_abs() & 0x1FFF_FFFF, 3)),
+        }
+    }
+
+    /// A PDO with what is needed to draw it.
+    pub(crate) fn pdo(&self, device: &Dictionary, pdo: &Pdo) -> PdoView {
+        let mut start = 0;
+        let fields = pdo.map.iter().map(|mapped| {
+            let width = u32::from(mapped.bits);
+            let (entry, anchor, name) = match mapped.target {
+                PdoTarget::Entry(id) => {
+                    (id.to_string(), entry_anchor(id), device.entry_name(id).unwrap_or_default())
+                }
+                PdoTarget::Dummy(data_type) => (String::new(), String::new(), dummy(data_type)),
+            };
+            let field = PdoField { start, width, entry, anchor, name };
+            start += width;
+            field
+        });
+        let fields = fields.collect();
+        PdoView {
+            name: format!("{} {}", pdo.direction.pdo(), pdo.number),
+            anchor: anchor(pdo),
+            direction: pdo.direction.word(),
+            cob_id: self.can_id(pdo),
+            valid: pdo.valid,
+            facts: self.pdo_facts(pdo),
+            fields,
+            bits: pdo.bits(),
+            about: self.text(&pdo.about),
+        }
+    }
+
+    fn pdo_facts(&self, pdo: &Pdo) -> Table {
+        let index = |index: u16| {
+            let index = od_spec::model::Index(index);
+            Cell::default().link(index.to_string(), object_anchor(index), self.home(index))
+        };
+        let mut rows = vec![
+            (Word::CobId, Cell::plain(self.cob_id_entry(pdo))),
+            (Word::Enabled, Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No }))),
+            (Word::Transmission, Cell::plain(pdo.transmission.to_string())),
+        ];
+        if let Some(time) = pdo.inhibit_time {
+            let tenths = Ratio::new(i128::from(time), 10).and_then(|ms| ms.to_decimal(1)).unwrap_or_default();
+            rows.push((Word::InhibitTime, Cell::plain(format!("{} ms", self.language.number(&tenths)))));
+        }
+        if let Some(timer) = pdo.event_timer {
+            rows.push((Word::EventTimer, Cell::plain(format!("{timer} ms"))));
+        }
+        if let Some(start) = pdo.sync_start {
+            rows.push((Word::SyncStart, Cell::plain(start.to_string())));
+        }
+        let objects = index(pdo.communication_index()).text(", ").and(index(pdo.mapping_index()));
+        rows.push((Word::Objects, objects));
+        let rows =
+            rows.into_iter().map(|(word, cell)| Row::of(vec![Cell::plain(self.word(word)), cell])).collect();
+        let grid =
+            Columns::new().left(self, "name", Word::Parameter).left(self, "value", Word::Value).full(rows);
+        Table::unnumbered(String::new(), "facts", Cell::default(), vec![grid])
+    }
+}
+
+/// A placeholder.
+fn dummy(data_type: DataType) -> String {
+    format!("({})", data_type.name())
+}

@@ -1,0 +1,227 @@
+//! Templates and the pages that they print.
+//!
+//! A set of templates is a list of files. The name of a file says what it is for: `chapter.EXT` is printed once per chapter,
+//! `device.EXT` once per device, `appendix.EXT` once per appendix, and any other file once, under its own name. Files whose
+//! name begins with `_` are only included by others.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::ops::Range;
+
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::{Serde, Value};
+use minijinja::{Environment, UndefinedBehavior, context};
+
+use crate::markdown;
+use crate::view::Context;
+
+/// A format that this crate has templates for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Markdown: a page per chapter, device and appendix, and an index.
+    Markdown,
+    /// HTML: a page for the system and one per device, each complete in itself.
+    Html,
+}
+
+impl Format {
+    /// Name and text of the templates.
+    pub const fn files(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Format::Markdown => MARKDOWN,
+            Format::Html => HTML,
+        }
+    }
+}
+
+macro_rules! files {
+    ($($path:literal),+ $(,)?) => {
+        &[$((file_name($path), include_str!(concat!("../templates/", $path)))),+]
+    };
+}
+
+const MARKDOWN: &[(&str, &str)] =
+    files!("md/_macros.md", "md/README.md", "md/chapter.md", "md/device.md", "md/appendix.md");
+const HTML: &[(&str, &str)] = files!(
+    "html/_layout.html",
+    "html/_macros.html",
+    "html/_pictures.html",
+    "html/_style.css",
+    "html/_script.js",
+    "html/index.html",
+    "html/device.html",
+);
+
+/// `md/chapter.md` → `chapter.md`.
+const fn file_name(path: &'static str) -> &'static str {
+    let bytes = path.as_bytes();
+    let mut at = bytes.len();
+    while at > 0 && bytes[at - 1] != b'/' {
+        at -= 1;
+    }
+    path.split_at(at).1
+}
+
+/// A printed page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Page {
+    /// Name of the file.
+    pub path: String,
+    /// Contents.
+    pub text: String,
+}
+
+/// What is wrong with a template.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TemplateError {
+    /// Name of the template's file; empty where no single one is wrong.
+    pub template: String,
+    /// The template.
+    pub source: String,
+    /// The place in it.
+    pub range: Range<usize>,
+    /// What is wrong there.
+    pub message: String,
+}
+
+impl fmt::Display for TemplateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.template.is_empty() {
+            f.write_str(&self.message)
+        } else {
+            write!(f, "{}: {}", self.template, self.message)
+        }
+    }
+}
+
+impl std::error::Error for TemplateError {}
+
+/// A set of templates, ready to print.
+#[derive(Debug)]
+pub struct Templates {
+    environment: Environment<'static>,
+    files: BTreeMap<String, String>,
+}
+
+impl Templates {
+    /// The templates of a format, if any, with a user's own over them: a file of the same name replaces that of the format.
+    pub fn new(format: Option<Format>, own: &[(String, String)]) -> Result<Self, TemplateError> {
+        let mut files: BTreeMap<String, String> = BTreeMap::new();
+        for (name, text) in format.map_or(&[][..], Format::files) {
+            files.insert((*name).to_owned(), (*text).to_owned());
+        }
+        files.extend(own.iter().cloned());
+        let mut templates = Self { environment: environment(), files };
+        for (name, text) in &templates.files {
+            if let Err(error) = templates.environment.add_template_owned(name.clone(), text.clone()) {
+                return Err(templates.explain(name, &error));
+            }
+        }
+        Ok(templates)
+    }
+
+    /// All pages, in the order of the templates' names.
+    pub fn print(&self, context: &Context) -> Result<Vec<Page>, TemplateError> {
+        let all = Value::from(Serde(context));
+        let list = |key: &str| -> Vec<Value> {
+            all.get_attr(key).and_then(|list| list.try_iter()).map_or_else(|_| Vec::new(), Iterator::collect)
+        };
+        let mut pages = Vec::new();
+        for name in self.files.keys().filter(|name| !name.starts_with('_')) {
+            let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
+            let (many, key) = match stem {
+                "chapter" => (list("chapters"), "page"),
+                "appendix" => (list("appendices"), "page"),
+                "device" => (list("devices"), "key"),
+                _ => {
+                    let page = context! { name => stem, path => name, kind => "system" };
+                    pages.push(self.page(name, name.clone(), context! { page, ..all.clone() })?);
+                    continue;
+                }
+            };
+            for item in many {
+                let own = item.get_attr(key).map(|own| own.to_string()).unwrap_or_default();
+                let path = format!("{own}.{extension}");
+                let page = context! { name => own, path => path.clone(), kind => stem };
+                let variables = context! { page, ..all.clone() };
+                let item = BTreeMap::from([(stem, item)]);
+                pages.push(self.page(name, path, context! { ..Value::from(item), ..variables })?);
+            }
+        }
+        let mut seen = BTreeSet::new();
+        if let Some(twice) = pages.iter().find(|page| !seen.insert(page.path.to_lowercase())) {
+            return Err(TemplateError {
+                template: String::new(),
+                source: String::new(),
+                range: 0..0,
+                message: format!(
+                    "two pages would be {}: a device has the name of another page as its key",
+                    twice.path
+                ),
+            });
+        }
+        Ok(pages)
+    }
+
+    fn page(&self, template: &str, path: String, variables: Value) -> Result<Page, TemplateError> {
+        let printed = self.environment.get_template(template).and_then(|template| template.render(variables));
+        match printed {
+            Ok(text) => Ok(Page { path, text }),
+            Err(error) => Err(self.explain(template, &error)),
+        }
+    }
+
+    fn explain(&self, template: &str, error: &minijinja::Error) -> TemplateError {
+        // The innermost error is the cause; those around it say through which includes it was reached.
+        let mut inner = error;
+        while let Some(next) = std::error::Error::source(inner).and_then(|next| next.downcast_ref()) {
+            inner = next;
+        }
+        let name = inner.name().unwrap_or(template).to_owned();
+        let source = self.files.get(&name).cloned().unwrap_or_default();
+        let range = inner.range().or_else(|| line_range(&source, inner.line()?)).unwrap_or(0..0);
+        let range = range.start.min(source.len())..range.end.min(source.len());
+        let message = match inner.detail() {
+            Some(detail) => format!("{}: {detail}", inner.kind()),
+            None => inner.kind().to_string(),
+        };
+        TemplateError { template: name, source, range, message }
+    }
+}
+
+/// Where a line lies in a text; lines are counted from 1.
+fn line_range(text: &str, line: usize) -> Option<Range<usize>> {
+    let mut start = 0;
+    for (number, content) in text.split_inclusive('\n').enumerate() {
+        if number + 1 == line {
+            return Some(start..start + content.trim_end().len());
+        }
+        start += content.len();
+    }
+    None
+}
+
+/// A text in at most so many characters, the last of them `…` where some are missing.
+fn cut(text: &str, width: usize) -> String {
+    if text.chars().count() <= width {
+        return text.to_owned();
+    }
+    let kept: String = text.chars().take(width.saturating_sub(1)).collect();
+    kept.trim_end().to_owned() + "…"
+}
+
+fn environment() -> Environment<'static> {
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_debug(true);
+    let mut syntax = SyntaxConfig::builder();
+    syntax.trim_blocks(true).lstrip_blocks(true).keep_trailing_newline(true);
+    if let Ok(syntax) = syntax.build() {
+        environment.set_syntax(syntax);
+    }
+    environment.add_filter("cut", cut);
+    environment.add_filter("md", |text: &str| markdown::escape(text));
+    environment.add_filter("md_cell", |cell: &Value, page: &str| markdown::cell(cell, page));
+    environment.add_filter("md_table", |grid: &Value, page: &str| markdown::table(grid, page));
+    environment
+}

@@ -1,0 +1,413 @@
+//! What templates see. [`Context`] is the whole of it; its format is described in `docs/templates.md`.
+//!
+//! A table is data: columns, and rows of cells. A template only decides how a table looks, so that every format shows the same.
+
+use serde::Serialize;
+
+/// Version of the format; raised when a template would have to change.
+pub(crate) const FORMAT: u32 = 1;
+
+/// Everything that a document can show.
+#[derive(Debug, Clone, Serialize)]
+pub struct Context {
+    /// Version of this format: 1.
+    pub format: u32,
+    /// Code of the language.
+    pub language: String,
+    /// Fixed words by name, in that language.
+    pub words: std::collections::BTreeMap<&'static str, &'static str>,
+    /// The system.
+    pub system: SystemView,
+    /// Devices, in the order of the specification.
+    pub devices: Vec<DeviceView>,
+    /// Chapters of the manual with their sections and tables.
+    pub chapters: Vec<Chapter>,
+    /// Tables over the whole system: error codes, aliases, units, storage, constraints, errata, index of tables.
+    pub appendices: Vec<Appendix>,
+}
+
+/// Title page.
+#[derive(Debug, Clone, Serialize)]
+pub struct SystemView {
+    /// Title of the product or family.
+    pub title: String,
+    /// Maker.
+    pub vendor: String,
+    /// Title and edition of the printed manual, or nothing.
+    pub source: String,
+    /// What the manual is.
+    pub about: Cell,
+    /// Issue that the specification holds, or nothing.
+    pub revision: String,
+    /// Its date, or nothing.
+    pub date: String,
+}
+
+/// A chapter; it becomes a page of its own where pages are small.
+#[derive(Debug, Clone, Serialize)]
+pub struct Chapter {
+    /// Number, as printed; may be empty.
+    pub number: String,
+    /// Heading.
+    pub title: Cell,
+    /// Name of its page.
+    pub page: String,
+    /// The chapter itself and the sections below it, in order.
+    pub sections: Vec<Section>,
+}
+
+/// A chapter or section.
+#[derive(Debug, Clone, Serialize)]
+pub struct Section {
+    /// Number, as printed; may be empty.
+    pub number: String,
+    /// Heading.
+    pub title: Cell,
+    /// Where links lead.
+    pub anchor: String,
+    /// 1 for a chapter, 2 for `4.1`, and so on.
+    pub level: usize,
+    /// Tables that stand in it.
+    pub tables: Vec<Table>,
+}
+
+/// A table, or several grids under one caption.
+#[derive(Debug, Clone, Serialize)]
+pub struct Table {
+    /// Where links lead: `table-19`.
+    pub anchor: String,
+    /// Number, as printed.
+    pub number: Option<u16>,
+    /// Caption; may be empty.
+    pub title: Cell,
+    /// What fills it: `overview`, `objects`, `bits`, `values`, `errors`, `reactions`, `states`, `transitions`, `commands`,
+    /// `ladder`, `pdos`, `rows`, `glossary`, `history`, or the name of an appendix.
+    pub kind: &'static str,
+    /// Its grids.
+    pub grids: Vec<Grid>,
+    /// The thresholds of a `ladder`, to be drawn.
+    pub ladder: Option<Ladder>,
+    /// Numbers of the errata about it.
+    pub errata: Vec<usize>,
+}
+
+/// Columns and rows.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Grid {
+    /// The object whose entries these are.
+    pub object: Option<ObjectHead>,
+    /// Columns.
+    pub columns: Vec<Column>,
+    /// Rows; each has a cell for every column.
+    pub rows: Vec<Row>,
+    /// A picture of the bits.
+    pub bits: Option<BitPicture>,
+}
+
+/// Index, name and shape above the entries of an object.
+#[derive(Debug, Clone, Serialize)]
+pub struct ObjectHead {
+    /// `6040h`.
+    pub index: String,
+    /// Where links lead: `6040`; empty where the object was shown before.
+    pub anchor: String,
+    /// Name.
+    pub name: String,
+    /// `VAR`, `ARRAY`, `RECORD`, `DOMAIN`.
+    pub kind: &'static str,
+    /// Meaning.
+    pub about: Cell,
+    /// Key of the device, where devices have different objects of this index.
+    pub device: String,
+}
+
+/// A column.
+#[derive(Debug, Clone, Serialize)]
+pub struct Column {
+    /// What it holds, the same in every language: `index`, `access`, …
+    pub key: &'static str,
+    /// Its title.
+    pub title: String,
+    /// `left`, `right` or `center`.
+    pub align: &'static str,
+}
+
+/// A row.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Row {
+    /// Where links lead: `3020.5`; may be empty.
+    pub anchor: String,
+    /// Cells, one for each column.
+    pub cells: Vec<Cell>,
+    /// Whether an entry of the row is stored; such rows are shaded.
+    pub stored: bool,
+    /// Numbers of the errata about the row.
+    pub errata: Vec<usize>,
+}
+
+/// The contents of a cell, or another piece of text.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Cell {
+    /// The text alone; lines are separated by line breaks.
+    pub text: String,
+    /// The same in parts.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a [`Cell`].
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Part {
+    /// `text`, `code`, `link` or `break`.
+    pub kind: &'static str,
+    /// The text; empty for a break.
+    pub text: String,
+    /// Anchor that a link leads to.
+    pub anchor: String,
+    /// Page that has the anchor, where pages are small.
+    pub page: String,
+    /// Language of the text, where it is not that of the document.
+    pub language: String,
+}
+
+/// A device.
+#[derive(Debug, Clone, Serialize)]
+pub struct DeviceView {
+    /// Key in the specification; also the name of its page.
+    pub key: String,
+    /// Full name.
+    pub name: String,
+    /// Meaning.
+    pub about: Cell,
+    /// Facts of `[DeviceInfo]`.
+    pub facts: Table,
+    /// Overview of all objects.
+    pub overview: Table,
+    /// The objects.
+    pub objects: Vec<ObjectView>,
+    /// Factory PDOs.
+    pub pdos: Vec<PdoView>,
+    /// Error codes, aliases, units, storage and constraints of this device alone.
+    pub appendices: Vec<Appendix>,
+    /// Data types, units, groups and accesses that occur, for filters.
+    pub filters: Filters,
+}
+
+/// What a filter can offer.
+#[derive(Debug, Clone, Serialize)]
+pub struct Filters {
+    /// Data types.
+    pub types: Vec<String>,
+    /// Accesses.
+    pub access: Vec<String>,
+    /// Unit symbols.
+    pub units: Vec<String>,
+    /// Storage groups: word of the specification and text.
+    pub stored: Vec<(&'static str, String)>,
+}
+
+/// An object with everything that is known about it.
+#[derive(Debug, Clone, Serialize)]
+pub struct ObjectView {
+    /// `6040h`.
+    pub index: String,
+    /// Where links lead: `6040`.
+    pub anchor: String,
+    /// Name.
+    pub name: String,
+    /// `VAR`, `ARRAY`, `RECORD`, `DOMAIN`.
+    pub kind: &'static str,
+    /// `manual`, `profile` or `pdo`.
+    pub origin: &'static str,
+    /// Meaning.
+    pub about: Cell,
+    /// Lines about the object: standard, category, issue.
+    pub notes: Vec<Cell>,
+    /// Detail table.
+    pub table: Table,
+    /// Bit and value tables of its types.
+    pub types: Vec<Table>,
+    /// What refers to it: heading and lines.
+    pub used: Vec<Used>,
+    /// Where the manual has it.
+    pub places: Vec<Place>,
+    /// Errata about it.
+    pub errata: Vec<ErratumView>,
+    /// What to copy: entry, `index:sub` and the accessor of generated Rust (may be empty).
+    pub paths: Vec<EntryPath>,
+    /// For filters, each once: accesses.
+    pub access: Vec<String>,
+    /// For filters: data types.
+    pub data_types: Vec<String>,
+    /// For filters: units.
+    pub units: Vec<String>,
+    /// For filters: storage groups.
+    pub stored: Vec<String>,
+    /// For filters: `receive`, `transmit`.
+    pub mappable: Vec<String>,
+    /// Lower-case text that a search looks at.
+    pub search: String,
+}
+
+/// A place in the manual.
+#[derive(Debug, Clone, Serialize)]
+pub struct Place {
+    /// `5.8.2.1 Object 6040h: Controlword`.
+    pub text: String,
+    /// Where links lead.
+    pub anchor: String,
+    /// Page that has it, where pages are small.
+    pub page: String,
+}
+
+/// Lines of one kind of use.
+#[derive(Debug, Clone, Serialize)]
+pub struct Used {
+    /// `pdos`, `aliases`, `constraints`, `conditions`, `errors`, `machines`.
+    pub kind: &'static str,
+    /// Heading.
+    pub title: String,
+    /// Lines.
+    pub lines: Vec<Cell>,
+}
+
+/// How an entry is named elsewhere.
+#[derive(Debug, Clone, Serialize)]
+pub struct EntryPath {
+    /// Name.
+    pub name: String,
+    /// Where links lead.
+    pub anchor: String,
+    /// `0x6040:00`.
+    pub entry: String,
+    /// Call of the accessor in generated Rust; empty where there is none.
+    pub rust: String,
+}
+
+/// An erratum.
+#[derive(Debug, Clone, Serialize)]
+pub struct ErratumView {
+    /// Its number, in the order of the specification.
+    pub number: usize,
+    /// What kind of fact.
+    pub kind: &'static str,
+    /// Where the manual prints it.
+    pub place: Cell,
+    /// What it prints.
+    pub prints: Cell,
+    /// What the specification says.
+    pub reads: Cell,
+    /// Why.
+    pub because: Cell,
+}
+
+/// A register, to be drawn.
+#[derive(Debug, Clone, Serialize)]
+pub struct BitPicture {
+    /// Name of the type.
+    pub name: String,
+    /// Rows of up to 16 bits, the highest first.
+    pub rows: Vec<BitPictureRow>,
+}
+
+/// Up to 16 bits.
+#[derive(Debug, Clone, Serialize)]
+pub struct BitPictureRow {
+    /// Highest bit.
+    pub last: u8,
+    /// Lowest bit.
+    pub first: u8,
+    /// Fields, the highest first.
+    pub fields: Vec<BitBox>,
+}
+
+/// A field, or the part of it that lies in one row.
+#[derive(Debug, Clone, Serialize)]
+pub struct BitBox {
+    /// Highest bit in this row.
+    pub last: u8,
+    /// Lowest bit in this row.
+    pub first: u8,
+    /// Bits.
+    pub width: u8,
+    /// Name; empty for bits without use.
+    pub name: String,
+    /// `used`, `reserved` or `unused`.
+    pub usage: &'static str,
+}
+
+/// A PDO.
+#[derive(Debug, Clone, Serialize)]
+pub struct PdoView {
+    /// `RPDO 1`.
+    pub name: String,
+    /// Where links lead: `rpdo-1`.
+    pub anchor: String,
+    /// `receive` or `transmit`.
+    pub direction: &'static str,
+    /// CAN-ID, as `200h + node-ID`.
+    pub cob_id: String,
+    /// Whether the PDO exists after start-up.
+    pub valid: bool,
+    /// Lines about it.
+    pub facts: Table,
+    /// What travels in it.
+    pub fields: Vec<PdoField>,
+    /// Bits in all.
+    pub bits: u32,
+    /// Meaning.
+    pub about: Cell,
+}
+
+/// What travels in a PDO.
+#[derive(Debug, Clone, Serialize)]
+pub struct PdoField {
+    /// First bit in the frame.
+    pub start: u32,
+    /// Bits.
+    pub width: u32,
+    /// `6040h`; empty for a placeholder.
+    pub entry: String,
+    /// Where links lead; empty for a placeholder.
+    pub anchor: String,
+    /// Name.
+    pub name: String,
+}
+
+/// Thresholds in their order.
+#[derive(Debug, Clone, Serialize)]
+pub struct Ladder {
+    /// Symbol of the common unit.
+    pub unit: String,
+    /// From the lowest to the highest.
+    pub rungs: Vec<Rung>,
+}
+
+/// One threshold.
+#[derive(Debug, Clone, Serialize)]
+pub struct Rung {
+    /// Its default, with the unit.
+    pub value: String,
+    /// Where it lies between the lowest (0) and the highest (1000).
+    pub position: u32,
+    /// How it compares with the one below: `<`, `≤`; empty at the lowest.
+    pub relation: &'static str,
+    /// `30FAh.3`; empty for a number.
+    pub entry: String,
+    /// Where links lead.
+    pub anchor: String,
+    /// Name.
+    pub name: String,
+}
+
+/// Tables over the whole system.
+#[derive(Debug, Clone, Serialize)]
+pub struct Appendix {
+    /// `errors`, `aliases`, `units`, `storage`, `constraints`, `errata`, `tables`; also the name of its page.
+    pub page: &'static str,
+    /// Heading.
+    pub title: String,
+    /// What it shows.
+    pub intro: String,
+    /// Its tables.
+    pub tables: Vec<Table>,
+}

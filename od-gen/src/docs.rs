@@ -1,0 +1,57 @@
+//! Reference documentation as files: what the crate `docs-gen` prints, and the index of tables for programs.
+
+pub use docs_gen::{Format, Options, TemplateError, Templates};
+
+use od_spec::model::{Dictionary, System};
+use serde::Serialize;
+
+use crate::{Artifact, rust};
+
+/// What documents of these devices show; no key means all devices.
+pub fn options(system: &System, devices: &[String], language: Option<&str>) -> Options {
+    let chosen = |device: &&Dictionary| devices.is_empty() || devices.contains(&device.key);
+    let mut options =
+        Options { devices: devices.to_vec(), language: language.map(str::to_owned), ..Options::default() };
+    for device in system.devices.iter().filter(chosen) {
+        let accessors = rust::accessors(system, device).into_iter();
+        options.accessors.extend(accessors.map(|(id, call)| ((device.key.clone(), id), call)));
+    }
+    options
+}
+
+/// The documents of a specification by the name of `stem`, below `root`, and `tables.json` where it describes a manual.
+pub fn artifacts(
+    system: &System,
+    root: &str,
+    stem: &str,
+    options: &Options,
+    templates: &[Templates],
+) -> Result<Vec<Artifact>, TemplateError> {
+    let context = docs_gen::context(system, options);
+    let mut list = Vec::new();
+    for templates in templates {
+        for page in templates.print(&context)? {
+            let path = format!("{root}{stem}/{}", page.path);
+            list.push(Artifact { path, bytes: page.text.into_bytes(), purpose: String::new() });
+        }
+    }
+    let index = docs_gen::table_index(system, options);
+    if !index.tables.is_empty() {
+        let path = format!("{root}{stem}/tables.json");
+        let purpose = "what takes the place of each printed table".to_owned();
+        list.push(Artifact { path, bytes: json(&index), purpose });
+    }
+    Ok(list)
+}
+
+/// What templates see, as JSON.
+pub fn dump_context(system: &System, options: &Options) -> Vec<u8> {
+    json(&docs_gen::context(system, options))
+}
+
+fn json(value: &impl Serialize) -> Vec<u8> {
+    // Maps with text keys and plain values only, into memory: this cannot fail.
+    let mut text = serde_json::to_vec_pretty(value).unwrap_or_default();
+    text.push(b'\n');
+    text
+}

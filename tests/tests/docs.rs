@@ -1,0 +1,837 @@
+//! The documents say what the model says: Markdown is read back, cell by cell, by a reader that others wrote.
+
+#![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use od_gen::docs::{self, Format, Templates};
+use od_spec::model::{
+    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index, Object,
+    PatternBit, PdoMapping, PdoTarget, Ratio, StateMachine, Storage, SubIndex, System, TableContent,
+    TypeKind, Unit, Value,
+};
+use od_tests::compile_clean;
+
+#[path = "../shared/markdown.rs"]
+mod markdown;
+
+use markdown::{Page, Table};
+
+const PITCH: &str = "od-spec/devices/pitch-control-system.od.yaml";
+const EVERYTHING: &str = "tests/readers/everything.od.yaml";
+
+/// Whether a file's name ends like this.
+fn is(name: &str, extension: &str) -> bool {
+    Path::new(name).extension().is_some_and(|own| own == extension)
+}
+
+/// All Markdown pages of a specification by name, and the index of tables.
+fn pages(system: &System) -> (BTreeMap<String, Page>, serde_json::Value) {
+    let templates = [Templates::new(Some(Format::Markdown), &[]).unwrap()];
+    let files = docs::artifacts(system, "", "s", &docs::options(system, &[], None), &templates).unwrap();
+    let (mut pages, mut index) = (BTreeMap::new(), serde_json::Value::Null);
+    for file in files {
+        let name = file.path.strip_prefix("s/").unwrap().to_owned();
+        let text = String::from_utf8(file.bytes).unwrap();
+        if is(&name, "json") {
+            index = serde_json::from_str(&text).unwrap();
+        } else {
+            pages.insert(name, markdown::read(&text));
+        }
+    }
+    (pages, index)
+}
+
+/// The tables behind an anchor, up to the next table's anchor.
+fn behind<'a>(page: &'a Page, anchor: &str) -> Vec<&'a Table> {
+    let is_table = |name: &String| name.starts_with("table-") || name.starts_with("section-");
+    let first = page.tables.iter().position(|table| table.anchors.iter().any(|name| name == anchor));
+    let first = first.unwrap_or_else(|| panic!("no table behind {anchor}"));
+    let rest = page.tables[first + 1..].iter().take_while(|table| !table.anchors.iter().any(is_table));
+    std::iter::once(&page.tables[first]).chain(rest).collect()
+}
+
+#[test]
+fn every_table_of_the_pitch_manual_has_its_counterpart() {
+    let system = compile_clean(PITCH).unwrap();
+    let (pages, index) = pages(&system);
+    let tables = index["tables"].as_array().unwrap();
+    let numbers: Vec<u64> = tables.iter().filter_map(|table| table["number"].as_u64()).collect();
+    assert_eq!(numbers, (1..=75).collect::<Vec<u64>>());
+    let unnumbered: Vec<&str> = tables
+        .iter()
+        .filter(|table| table["number"].is_null() && table["kind"] == "overview")
+        .map(|table| table["section"].as_str().unwrap())
+        .collect();
+    assert_eq!(unnumbered, ["4.7.2", "4.7.3", "4.8.1", "4.9.1", "5.8.2", "5.9.1", "5.14.2", "5.16.1"]);
+    let mut seen = BTreeSet::new();
+    for table in tables {
+        let (page, anchor) = (table["page"].as_str().unwrap(), table["anchor"].as_str().unwrap());
+        assert!(seen.insert((page, anchor)), "{anchor} takes the place of two tables");
+        let found = behind(&pages[&format!("{page}.md")], anchor);
+        let rows: usize = found.iter().map(|table| table.rows.len()).sum();
+        assert_eq!(rows as u64, table["rows"].as_u64().unwrap(), "{anchor}");
+        assert!(rows > 0, "{anchor}");
+    }
+}
+
+#[test]
+fn the_index_of_tables_names_the_facts_that_differ() {
+    let system = compile_clean(PITCH).unwrap();
+    let (_, index) = pages(&system);
+    let tables = index["tables"].as_array().unwrap();
+    let of = |anchor: &str| tables.iter().find(|table| table["anchor"] == anchor).unwrap();
+    // 4.1.1.5 prints 3003h at the detail table of 3004h.
+    let differs = of("section-4.1.1.5-objects")["differs"].as_array().unwrap();
+    let index_fact = differs.iter().find(|one| one["column"] == "index").expect("an erratum about the index");
+    assert_eq!(index_fact["entries"], serde_json::json!(["3004h"]));
+    assert!(index_fact["prints"].as_str().unwrap().contains("3003h"));
+    // The statusword is printed as rw in the overview and in its detail table.
+    for anchor in ["section-5.8.2-overview", "section-5.8.2.2-objects"] {
+        let differs = of(anchor)["differs"].as_array().unwrap();
+        assert!(
+            differs
+                .iter()
+                .any(|one| one["column"] == "access" && one["entries"] == serde_json::json!(["6041h"])),
+            "{anchor}: {differs:?}"
+        );
+    }
+    // Every erratum whose words name a numbered table is listed with it, and the others are not.
+    for (at, erratum) in system.errata.iter().enumerate() {
+        for id in &erratum.tables {
+            let section = &system.document.sections[id.section];
+            let Some(number) = section.tables[id.table].number else { continue };
+            let listed = of(&format!("table-{number}"))["errata"].as_array().unwrap();
+            assert!(listed.contains(&serde_json::json!(at + 1)), "erratum {} and Table {number}", at + 1);
+        }
+    }
+    let claimed: usize = tables.iter().map(|table| table["errata"].as_array().unwrap().len()).sum();
+    assert_eq!(claimed, system.errata.iter().map(|erratum| erratum.tables.len()).sum::<usize>());
+}
+
+#[test]
+fn no_link_of_a_page_is_dead() {
+    for path in [PITCH, EVERYTHING] {
+        let system = compile_clean(path).unwrap();
+        let (pages, _) = pages(&system);
+        let mut links = 0;
+        for (name, page) in &pages {
+            for link in &page.links {
+                let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+                let file = if file.is_empty() { name.as_str() } else { file };
+                let target = pages.get(file).unwrap_or_else(|| panic!("{name} links to {link}"));
+                assert!(anchor.is_empty() || target.anchors.contains(anchor), "{name} links to {link}");
+                links += 1;
+            }
+        }
+        assert!(links > 100, "{path}: {links} links");
+    }
+}
+
+/// Reads what a Default cell says back into the raw value; `None` for an empty cell.
+fn default(entry: &Entry, cell: &str) -> Option<Value> {
+    if cell.is_empty() {
+        return None;
+    }
+    if let Some(offset) = cell.strip_suffix("h + node-ID") {
+        return Some(Value::NodeId(u64::from_str_radix(offset, 16).unwrap()));
+    }
+    Some(match entry.data_type {
+        DataType::VisibleString | DataType::UnicodeString => Value::Text(cell.to_owned()),
+        DataType::OctetString => {
+            Value::Bytes(cell.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect())
+        }
+        DataType::Real32 | DataType::Real64 => Value::Real(cell.parse().unwrap()),
+        _ => Value::Integer(number(entry, cell)),
+    })
+}
+
+/// The raw value that a cell gives: behind a physical value in brackets, before the name of an enum's value, or alone.
+fn number(entry: &Entry, cell: &str) -> i128 {
+    if let Some(TypeKind::Bits(_)) = entry.named_type.as_ref().map(|named| &named.kind)
+        && let Some(digits) = cell.strip_suffix('h')
+    {
+        let raw = i128::from_str_radix(digits, 16).unwrap();
+        let bits = entry.data_type.bits().unwrap();
+        assert_eq!(digits.len(), usize::from(bits.div_ceil(4)), "as many digits as the type has");
+        return if entry.data_type.is_signed() && raw >= 1 << (bits - 1) { raw - (1 << bits) } else { raw };
+    }
+    // A mapping parameter in its parts: 6040 00 10h.
+    if let [index, sub, bits] = cell.split(' ').collect::<Vec<_>>()[..]
+        && (index.len(), sub.len(), bits.len()) == (4, 2, 3)
+    {
+        return i128::from_str_radix(&cell.replace([' ', 'h'], ""), 16).unwrap();
+    }
+    let first = cell.split([' ', ':']).next().unwrap();
+    match &entry.unit {
+        Some(unit) if !entry.special.iter().any(|special| special.value.to_string() == first) => {
+            physical(unit, cell)
+        }
+        _ => first.parse().unwrap_or_else(|_| panic!("{cell} of {}", entry.name)),
+    }
+}
+
+/// The raw value of `50.0 °C (500)` or `3000 mAh`, with a look at both numbers.
+fn physical(unit: &Unit, cell: &str) -> i128 {
+    let (shown, raw) = match cell.rsplit_once(" (") {
+        Some((shown, raw)) => (shown, Some(raw.strip_suffix(')').unwrap().parse::<i128>().unwrap())),
+        None => (cell, None),
+    };
+    let value = shown.strip_suffix(&unit.symbol).unwrap_or_else(|| panic!("{cell} in {}", unit.symbol));
+    let steps =
+        decimal(value.trim()).checked_div(unit.scale).unwrap().to_whole().expect("a whole number of steps");
+    assert_eq!(raw.is_none(), unit.scale == Ratio::ONE, "{cell}: the raw value where it is another number");
+    assert!(raw.is_none_or(|raw| raw == steps), "{cell}: {steps}");
+    steps
+}
+
+fn decimal(text: &str) -> Ratio {
+    if let Some((number, step)) = text.split_once(" × ") {
+        return decimal(number).checked_mul(decimal(step)).unwrap();
+    }
+    if let Some((upper, lower)) = text.split_once('/') {
+        return decimal(upper).checked_div(decimal(lower)).unwrap();
+    }
+    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    let digits: i128 = format!("{whole}{fraction}").parse().unwrap();
+    Ratio::new(digits, 10i128.pow(u32::try_from(fraction.len()).unwrap())).unwrap()
+}
+
+/// The limits that a Range cell gives.
+fn range(entry: &Entry, cell: &str) -> (Option<i128>, Option<i128>) {
+    let one = |text: &str| match &entry.unit {
+        Some(unit) => physical(unit, text),
+        None => text.parse().unwrap(),
+    };
+    if let Some((low, high)) = cell.split_once(" to ") {
+        return (Some(one(low)), Some(one(high)));
+    }
+    (cell.strip_prefix("≥ ").map(one), cell.strip_prefix("≤ ").map(one))
+}
+
+fn access(cell: &str) -> (Access, bool) {
+    match cell {
+        "r(w)" => (Access::Rw, true),
+        "(w)" => (Access::Wo, true),
+        word => (Access::from_word(word).unwrap_or_else(|| panic!("access {word}")), false),
+    }
+}
+
+fn mapping(cell: &str) -> PdoMapping {
+    match cell {
+        "N" => PdoMapping::None,
+        "Y (R)" => PdoMapping::Receive,
+        "Y (T)" => PdoMapping::Transmit,
+        "Y (RT)" => PdoMapping::Both,
+        other => panic!("mapping {other}"),
+    }
+}
+
+/// Compares one row of a detail table with an entry.
+fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {
+    let at = EntryId { index: object.index, sub: entry.sub };
+    assert_eq!(table.cell(row, "Name"), entry.name, "{at}");
+    assert_eq!(table.cell(row, "Type"), entry.data_type.name(), "{at}");
+    let shown = access(table.cell(row, "Attr"));
+    let rw = matches!(entry.access, Access::Rw | Access::Rwr | Access::Rww);
+    let own = if entry.locked && rw { Access::Rw } else { entry.access };
+    assert_eq!(shown, (own, entry.locked), "{at}");
+    assert_eq!(mapping(table.cell(row, "Map")), entry.pdo, "{at}");
+    assert_eq!(default(entry, table.cell(row, "Default")), entry.default, "{at}");
+    let unit = entry.unit.as_ref().map_or(String::new(), |unit| {
+        if unit.scale == Ratio::ONE { unit.symbol.clone() } else { format!("{} {}", unit.scale, unit.symbol) }
+    });
+    assert_eq!(table.cell(row, "Unit"), unit, "{at}");
+    // Limits of an enum are its values; a limit that the type has anyhow is not one.
+    if !matches!(entry.named_type.as_ref().map(|named| &named.kind), Some(TypeKind::Enum(_))) {
+        let shown = range(entry, table.cell(row, "Range"));
+        let own = entry.data_type.range();
+        let limits = |limit: Option<i128>, shown: Option<i128>, end: Option<i128>| {
+            assert!(shown == limit || (shown.is_none() && limit == end), "{at}: {shown:?}, not {limit:?}");
+        };
+        limits(entry.low, shown.0, own.map(|(low, _)| low));
+        limits(entry.high, shown.1, own.map(|(_, high)| high));
+    }
+    let description = table.cell(row, "Description");
+    assert!(description.starts_with(&flat(entry.about.get("en").unwrap_or_default())), "{at}: {description}");
+    for special in &entry.special {
+        assert!(description.contains(&format!("{}: {}", special.value, special.name)), "{at}: {description}");
+    }
+    if let Some(alias) = &entry.alias {
+        assert!(description.contains(&format!("View of {}", alias.target)), "{at}: {description}");
+    }
+    assert_eq!(
+        description.contains("Writable while: "),
+        entry.writable_when.is_some(),
+        "{at}: {description}"
+    );
+}
+
+/// A text on one line, as a table has it.
+fn flat(text: &str) -> String {
+    text.replace('\n', " ")
+}
+
+/// The devices' objects of an index, each different one once.
+fn objects(system: &System, index: Index) -> Vec<(&Dictionary, &Object)> {
+    let list = system.devices.iter().filter_map(|device| Some((device, device.objects.get(&index)?)));
+    list.collect()
+}
+
+/// Compares an overview row with one of the objects of its index.
+fn check_overview(table: &Table, row: &[String], object: &Object) {
+    let index = object.index;
+    assert_eq!(table.cell(row, "Object"), object.kind.name(), "{index}");
+    assert_eq!(table.cell(row, "Name"), object.name, "{index}");
+    let entries = if object.is_structured() { &object.entries[1..] } else { &object.entries[..] };
+    let types: BTreeSet<&str> = table.cell(row, "Type").split(", ").collect();
+    assert_eq!(types, entries.iter().map(|entry| entry.data_type.name()).collect(), "{index}");
+    let shown: BTreeSet<(Access, bool)> = table.cell(row, "Attr").split(", ").map(access).collect();
+    assert_eq!(shown, entries.iter().map(|entry| (entry.access, entry.locked)).collect(), "{index}");
+    let stored = object.entries.iter().any(|entry| entry.stored != Storage::No);
+    assert_eq!(table.cell(row, "Mem."), if stored { "Y" } else { "N" }, "{index}");
+}
+
+fn index(cell: &str) -> Index {
+    Index(u16::from_str_radix(cell.strip_suffix('h').unwrap(), 16).unwrap())
+}
+
+/// `3020h.5`
+fn entry_id(cell: &str) -> EntryId {
+    let (object, sub) = cell.split_once('.').unwrap_or((cell, "0"));
+    EntryId { index: index(object), sub: SubIndex(sub.parse().unwrap()) }
+}
+
+fn check_bits(table: &Table, kind: &TypeKind) {
+    let TypeKind::Bits(fields) = kind else { panic!("bits") };
+    assert_eq!(table.rows.len(), fields.len());
+    for (row, field) in table.rows.iter().zip(fields) {
+        let bits = if field.first == field.last {
+            field.first.to_string()
+        } else {
+            format!("{}..{}", field.first, field.last)
+        };
+        assert_eq!(table.cell(row, "Bit"), bits);
+        let name = match field.usage {
+            BitUsage::Used => field.name.as_str(),
+            BitUsage::Reserved => "reserved",
+            BitUsage::Unused => "free",
+        };
+        assert_eq!(table.cell(row, "Name"), name);
+        let meaning = table.cell(row, "Meaning");
+        assert!(meaning.starts_with(&flat(field.about.get("en").unwrap_or_default())), "{meaning}");
+        for value in &field.values {
+            assert!(meaning.contains(&format!("{} = {}", value.value, value.name)), "{meaning}");
+        }
+        for (mode, name, _) in &field.modes {
+            assert!(meaning.contains(&format!("{mode}: {name}")), "{meaning}");
+        }
+        let active = match (field.edge, field.active) {
+            (Some(Edge::Rising), _) => "0→1",
+            (Some(Edge::Falling), _) => "1→0",
+            (Some(Edge::Both), _) => "0↔1",
+            (None, 0) => "0",
+            (None, _) => "",
+        };
+        assert_eq!(table.cell(row, "Active"), active, "{name}");
+        assert_eq!(table.cell(row, "Clamp"), field.clamp.as_deref().unwrap_or_default(), "{name}");
+        assert_eq!(table.cell(row, "Prio."), field.priority.as_deref().unwrap_or_default(), "{name}");
+        let codes = table.cell(row, "Error code").lines().next().unwrap_or_default();
+        let own: Vec<String> = field.errors.iter().map(|code| format!("{code:04X}h")).collect();
+        assert!(codes == own.join(", ") || (own.is_empty() && codes.contains(": ")), "{name}: {codes}");
+    }
+}
+
+fn check_values(table: &Table, kind: &TypeKind) {
+    let TypeKind::Enum(values) = kind else { panic!("values") };
+    assert_eq!(table.rows.len(), values.len());
+    for (row, value) in table.rows.iter().zip(values) {
+        let shown = table.cell(row, "Value");
+        assert_eq!(shown.split(' ').next().unwrap().parse::<i128>().unwrap(), value.value);
+        assert_eq!(table.cell(row, "Name"), value.name);
+        assert_eq!(table.cell(row, "Meaning"), flat(value.about.get("en").unwrap_or_default()));
+        assert_eq!(table.cell(row, "Supported"), if value.supported { "" } else { "no" });
+    }
+}
+
+fn pattern_cell(bit: PatternBit) -> &'static str {
+    match bit {
+        PatternBit::Zero => "0",
+        PatternBit::One => "1",
+        PatternBit::Any => "x",
+        PatternBit::Rising => "0→1",
+        PatternBit::Falling => "1→0",
+    }
+}
+
+/// Compares one table of the manual with the model.
+fn check(system: &System, content: &TableContent, tables: &[&Table]) {
+    let table = tables[0];
+    match content {
+        TableContent::Overview(list) => {
+            let shown: Vec<Index> = table.rows.iter().map(|row| index(table.cell(row, "Index"))).collect();
+            assert_eq!(&shown, list);
+            for (row, index) in table.rows.iter().zip(list) {
+                check_overview(table, row, objects(system, *index)[0].1);
+            }
+        }
+        TableContent::Objects(list) => {
+            let mut found = Vec::new();
+            for table in tables {
+                let vars = table.columns[0] == "Index";
+                let head = (!vars).then(|| index(table.above.split(' ').next().unwrap_or_default()));
+                for row in &table.rows {
+                    let id = match head {
+                        None => EntryId { index: index(&row[0]), sub: SubIndex(0) },
+                        Some(index) => EntryId { index, sub: SubIndex(row[0].parse().unwrap()) },
+                    };
+                    found.push(id);
+                    let (_, object) = objects(system, id.index)[0];
+                    check_entry(table, row, object, object.entry(id.sub).unwrap());
+                }
+            }
+            let all = list.iter().flat_map(|index| {
+                let (_, object) = objects(system, *index)[0];
+                object.entries.iter().map(|entry| EntryId { index: *index, sub: entry.sub })
+            });
+            assert_eq!(found, all.collect::<Vec<_>>());
+        }
+        TableContent::Bits(name) => check_bits(table, &system.types[name].kind),
+        TableContent::Values(name) => check_values(table, &system.types[name].kind),
+        TableContent::Errors(codes) => check_errors(system, table, codes, false),
+        TableContent::Reactions(codes) => check_errors(system, table, codes, true),
+        TableContent::States(name) => check_states(table, &system.machines[name]),
+        TableContent::Transitions(name) => check_transitions(table, &system.machines[name]),
+        TableContent::Commands(name) => check_commands(table, &system.machines[name]),
+        TableContent::Ladder(name) => check_ladder(system, table, name),
+        TableContent::Pdos(pdos) => check_pdos(system, &pdos.device, pdos.direction, table),
+        TableContent::Rows { columns, rows } => {
+            let text = |text: &od_spec::model::Text| flat(text.get("en").unwrap_or_default());
+            assert_eq!(table.columns, columns.iter().map(text).collect::<Vec<_>>());
+            let cells: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(text).collect()).collect();
+            assert_eq!(table.rows, cells);
+        }
+        TableContent::Glossary => {
+            let shown: Vec<&str> = table.rows.iter().map(|row| row[0].as_str()).collect();
+            assert_eq!(shown, system.document.glossary.keys().collect::<Vec<_>>());
+        }
+        TableContent::History => {
+            let history = &system.document.history;
+            assert_eq!(table.rows.len(), history.len());
+            for (row, issue) in table.rows.iter().zip(history) {
+                let date = format!("{:04}-{:02}-{:02}", issue.date.year, issue.date.month, issue.date.day);
+                assert_eq!((row[0].as_str(), row[1].as_str()), (issue.number.as_str(), date.as_str()));
+            }
+        }
+    }
+}
+
+fn check_states(table: &Table, machine: &StateMachine) {
+    assert_eq!(table.rows.len(), machine.states.len());
+    for (row, state) in table.rows.iter().zip(&machine.states) {
+        let bits: Vec<&str> = state.pattern.0.iter().map(|bit| pattern_cell(*bit)).collect();
+        assert_eq!(row[0].replace(' ', ""), bits.concat());
+        assert_eq!(table.cell(row, "State"), state.name);
+        assert_eq!(table.cell(row, "Meaning"), flat(state.about.get("en").unwrap_or_default()));
+    }
+}
+
+fn check_transitions(table: &Table, machine: &StateMachine) {
+    assert_eq!(table.rows.len(), machine.transitions.len());
+    for (row, transition) in table.rows.iter().zip(&machine.transitions) {
+        assert_eq!(table.cell(row, "Transition"), transition.number.to_string());
+        assert_eq!(table.cell(row, "From"), transition.from.join(", "));
+        assert_eq!(table.cell(row, "To"), transition.to);
+        assert_eq!(table.cell(row, "Event"), flat(transition.event.get("en").unwrap_or_default()));
+        assert_eq!(table.cell(row, "Action"), flat(transition.action.get("en").unwrap_or_default()));
+    }
+}
+
+fn check_commands(table: &Table, machine: &StateMachine) {
+    assert_eq!(table.rows.len(), machine.commands.len());
+    for (row, command) in table.rows.iter().zip(&machine.commands) {
+        assert_eq!(table.cell(row, "Command"), command.name);
+        let width = command.pattern.0.len();
+        for (at, bit) in command.pattern.0.iter().enumerate() {
+            let title = format!("Bit {}", width - 1 - at);
+            let column = table
+                .columns
+                .iter()
+                .position(|column| column == &title || column.starts_with(&format!("{title} ")));
+            // A bit without a column is free in every command.
+            let shown = column.map_or("x", |column| row[column].as_str());
+            assert_eq!(shown, pattern_cell(*bit), "{} {title}", command.name);
+        }
+        let send = command.send.map_or(String::new(), |value| format!("{value:04X}h"));
+        assert_eq!(table.cell(row, "Code"), send, "{}", command.name);
+        let transitions: Vec<String> = command.transitions.iter().map(u8::to_string).collect();
+        assert_eq!(table.cell(row, "Transition"), transitions.join(", "), "{}", command.name);
+    }
+}
+
+fn check_errors(system: &System, table: &Table, codes: &[u16], reactions: bool) {
+    let errors = system.errors.iter().filter(|error| codes.is_empty() || codes.contains(&error.code));
+    let errors: Vec<_> = errors.collect();
+    assert_eq!(table.rows.len(), errors.len());
+    for (row, error) in table.rows.iter().zip(errors) {
+        assert_eq!(index(table.cell(row, "Error code")).0, error.code);
+        if reactions {
+            assert_eq!(table.cell(row, "Errors"), error.name);
+            assert_eq!(table.cell(row, "Reaction"), flat(error.reaction.get("en").unwrap_or_default()));
+            continue;
+        }
+        assert_eq!(table.cell(row, "Meaning"), error.name);
+        assert_eq!(table.cell(row, "Prio."), error.priority.as_deref().unwrap_or_default());
+        for device in &system.devices {
+            let has = error.devices.is_empty() || error.devices.contains(&device.key);
+            let shown = table.cell(row, &device.key.to_uppercase());
+            assert_eq!(shown, if has { "X" } else { "" }, "{:04X}h on {}", error.code, device.key);
+        }
+    }
+}
+
+fn check_ladder(system: &System, table: &Table, name: &str) {
+    let constraint = system.constraints.iter().find(|constraint| constraint.name == name).unwrap();
+    let named: Vec<EntryId> = constraint.require.entries().iter().map(|entry| entry.id).collect();
+    let shown: Vec<EntryId> = table.rows.iter().map(|row| entry_id(table.cell(row, "Object"))).collect();
+    assert_eq!(shown, named);
+    for row in &table.rows {
+        let device = system.device(&table.cell(row, "Device").to_lowercase()).unwrap();
+        let id = entry_id(table.cell(row, "Object"));
+        let entry = device.entry(id).unwrap();
+        assert_eq!(table.cell(row, "Name"), device.entry_name(id).unwrap());
+        assert_eq!(default(entry, table.cell(row, "Default")), entry.default, "{id}");
+    }
+}
+
+fn check_pdos(system: &System, device: &str, direction: Direction, table: &Table) {
+    let device = system.device(device).unwrap();
+    let mut rows = table.rows.iter();
+    for pdo in device.pdos_of(direction) {
+        let row = rows.next().unwrap();
+        assert_eq!(table.cell(row, "PDO"), format!("{} {}", direction.pdo(), pdo.number));
+        let cob_id = table.cell(row, "COB-ID");
+        let shown = match cob_id.strip_suffix("h + node-ID") {
+            Some(offset) => Value::NodeId(u64::from_str_radix(offset, 16).unwrap()),
+            None => Value::Integer(i128::from_str_radix(cob_id.strip_suffix('h').unwrap(), 16).unwrap()),
+        };
+        assert_eq!(shown, pdo.cob_id);
+        assert_eq!(table.cell(row, "Active"), if pdo.valid { "yes" } else { "no" });
+        assert_eq!(index(table.cell(row, "Index")).0, pdo.mapping_index());
+        assert_eq!(table.cell(row, "Default"), pdo.map.len().to_string());
+        for mapped in &pdo.map {
+            let row = rows.next().unwrap();
+            let parameter = table.cell(row, "Default").replace([' ', 'h'], "");
+            assert_eq!(u32::from_str_radix(&parameter, 16).unwrap(), mapped.parameter());
+            if let PdoTarget::Entry(id) = mapped.target {
+                assert_eq!(table.cell(row, "Object"), device.entry_name(id).unwrap());
+            }
+        }
+    }
+    assert!(rows.next().is_none());
+}
+
+#[test]
+fn tables_of_the_manual_read_back_as_the_model() {
+    let system = compile_clean(PITCH).unwrap();
+    let (pages, index) = pages(&system);
+    let contents: Vec<&TableContent> = system.document.tables().map(|(.., table)| &table.content).collect();
+    let tables = index["tables"].as_array().unwrap();
+    assert_eq!(tables.len(), contents.len());
+    for (table, content) in tables.iter().zip(contents) {
+        let page = &pages[&format!("{}.md", table["page"].as_str().unwrap())];
+        check(&system, content, &behind(page, table["anchor"].as_str().unwrap()));
+    }
+}
+
+#[test]
+fn the_object_reference_reads_back_as_the_model() {
+    for path in [PITCH, EVERYTHING] {
+        let system = compile_clean(path).unwrap();
+        let (pages, _) = pages(&system);
+        for device in &system.devices {
+            let page = &pages[&format!("{}.md", device.key)];
+            let overview =
+                page.tables.iter().find(|table| table.anchors.iter().any(|name| name == "overview"));
+            let overview = overview.unwrap();
+            assert_eq!(overview.rows.len(), device.objects.len());
+            for (row, object) in overview.rows.iter().zip(device.objects.values()) {
+                assert_eq!(index(&row[0]), object.index);
+                check_overview(overview, row, object);
+            }
+            for object in device.objects.values() {
+                let anchor = format!("{:04X}", object.index.0);
+                let first = page.tables.iter().position(|table| table.anchors.contains(&anchor)).unwrap();
+                let table = &page.tables[first];
+                assert_eq!(table.rows.len(), object.entries.len(), "{}", object.index);
+                for (row, entry) in table.rows.iter().zip(&object.entries) {
+                    check_entry(table, row, object, entry);
+                }
+                // The tables of its types follow.
+                let mut types: Vec<_> =
+                    object.entries.iter().filter_map(|entry| entry.named_type.clone()).collect();
+                types.sort_by(|one, other| one.name.cmp(&other.name));
+                types.dedup_by(|one, other| one.name == other.name);
+                for named in types {
+                    let title = |table: &&Table| table.above.ends_with(&format!(": {}", named.name));
+                    let table = page.tables[first + 1..].iter().find(title);
+                    let table = table.unwrap_or_else(|| panic!("{}: {}", object.index, named.name));
+                    match &named.kind {
+                        TypeKind::Bits(_) => check_bits(table, &named.kind),
+                        TypeKind::Enum(_) => check_values(table, &named.kind),
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// All entries of all devices.
+fn entries(system: &System) -> impl Iterator<Item = (EntryId, &Entry)> {
+    system.devices.iter().flat_map(|device| device.entries().map(|(id, _, entry)| (id, entry)))
+}
+
+#[test]
+fn aliases_and_storage_read_back_as_the_model() {
+    let system = compile_clean(PITCH).unwrap();
+    let (pages, _) = pages(&system);
+    let aliases = &pages["aliases.md"].tables[0];
+    let expected: Vec<(EntryId, EntryId)> =
+        entries(&system).filter_map(|(id, entry)| Some((id, entry.alias.as_ref()?.target))).collect();
+    let shown: Vec<(EntryId, EntryId)> = aliases
+        .rows
+        .iter()
+        .map(|row| (entry_id(aliases.cell(row, "16-bit view")), entry_id(aliases.cell(row, "Shows"))))
+        .collect();
+    assert_eq!(shown, expected);
+
+    let storage = &pages["storage.md"];
+    for device in &system.devices {
+        for group in [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent]
+        {
+            let expected: Vec<EntryId> =
+                device.entries().filter(|(.., entry)| entry.stored == group).map(|(id, ..)| id).collect();
+            let anchor = format!("storage-{}-{}", device.key, group.word());
+            let table = storage.tables.iter().find(|table| table.anchors.contains(&anchor));
+            let shown: Vec<EntryId> =
+                table.iter().flat_map(|table| table.rows.iter().map(|row| entry_id(&row[0]))).collect();
+            assert_eq!(shown, expected, "{anchor}");
+        }
+    }
+}
+
+#[test]
+fn units_read_back_as_the_model() {
+    let system = compile_clean(PITCH).unwrap();
+    let (pages, _) = pages(&system);
+    let units = &pages["units.md"].tables[0];
+    let used: BTreeSet<&str> =
+        entries(&system).filter_map(|(_, entry)| Some(entry.unit.as_ref()?.name.as_str())).collect();
+    let shown: BTreeSet<&str> = units.rows.iter().map(|row| units.cell(row, "Name")).collect();
+    assert_eq!(shown, used);
+    for row in &units.rows {
+        let unit = &system.units[units.cell(row, "Name")];
+        assert_eq!(units.cell(row, "Symbol"), unit.symbol);
+        let (step, symbol) = units.cell(row, "One step").split_once(' ').unwrap();
+        assert_eq!((decimal(step), symbol), (unit.scale, unit.symbol.as_str()));
+        for place in units.cell(row, "Entries").split(", ") {
+            let (_, object) = objects(&system, entry_id(place).index)[0];
+            let whole = entry_id(place).sub.0 == 0 && object.is_structured();
+            let entries = object
+                .entries
+                .iter()
+                .filter(|entry| if whole { entry.sub.0 > 0 } else { entry.sub == entry_id(place).sub });
+            for entry in entries {
+                assert_eq!(
+                    entry.unit.as_ref().map(|unit| unit.name.as_str()),
+                    Some(units.cell(row, "Name")),
+                    "{place}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn errata_read_back_as_the_model() {
+    let system = compile_clean(PITCH).unwrap();
+    let (pages, _) = pages(&system);
+    let errata = &pages["errata.md"].tables[0];
+    assert_eq!(errata.rows.len(), system.errata.len());
+    for (at, (row, erratum)) in errata.rows.iter().zip(&system.errata).enumerate() {
+        assert_eq!(errata.cell(row, "No."), (at + 1).to_string());
+        let places: Vec<String> = erratum
+            .at
+            .iter()
+            .map(|place| match place {
+                ErratumPlace::Object(index) => index.to_string(),
+                ErratumPlace::Entry(id) => format!("{}.{}", id.index, id.sub),
+            })
+            .collect();
+        assert_eq!(errata.cell(row, "Entries"), places.join(", "));
+        assert_eq!(errata.cell(row, "Kind"), erratum.kind.word());
+        for (title, text) in [
+            ("Place", &erratum.place),
+            ("The manual prints", &erratum.prints),
+            ("Read as", &erratum.reads),
+            ("Why", &erratum.because),
+        ] {
+            assert_eq!(
+                errata.cell(row, title),
+                flat(text.get("en").unwrap_or_default()),
+                "erratum {}",
+                at + 1
+            );
+        }
+    }
+}
+
+#[test]
+fn constraints_and_error_codes_read_back_as_the_model() {
+    let system = compile_clean(PITCH).unwrap();
+    let (pages, _) = pages(&system);
+    let constraints = &pages["constraints.md"];
+    assert_eq!(constraints.tables.len(), system.constraints.len());
+    for (table, constraint) in constraints.tables.iter().zip(&system.constraints) {
+        assert_eq!(table.columns[1], constraint.name);
+        for entry in constraint.require.entries() {
+            assert!(
+                table.rows[0][1].contains(&format!("({})", entry.id)),
+                "{}: {}",
+                constraint.name,
+                table.rows[0][1]
+            );
+        }
+    }
+
+    let errors = &pages["errors.md"].tables[0];
+    assert_eq!(errors.rows.len(), system.errors.len());
+    for (row, error) in errors.rows.iter().zip(&system.errors) {
+        let reporting: BTreeSet<(String, u8)> = entries(&system)
+            .flat_map(|(id, entry)| {
+                entry.bits_of_error(error.code).into_iter().map(move |bit| (id.to_string(), bit))
+            })
+            .collect();
+        let shown: BTreeSet<(String, u8)> = errors
+            .cell(row, "Shown by")
+            .lines()
+            .map(|line| {
+                let (place, bit) = line.split_once(" Bit ").unwrap();
+                (place.to_owned(), bit.parse().unwrap())
+            })
+            .collect();
+        assert_eq!(shown, reporting, "{:04X}h", error.code);
+    }
+}
+
+/// `docs/templates.md` names everything that a template can see.
+#[test]
+fn the_description_of_the_context_is_complete() {
+    let description = std::fs::read_to_string(od_tests::root().join("docs/templates.md")).unwrap();
+    let described: BTreeSet<&str> =
+        description.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_').collect();
+    let system = compile_clean(PITCH).unwrap();
+    let context = docs::dump_context(&system, &docs::options(&system, &[], None));
+    let context: serde_json::Value = serde_json::from_slice(&context).unwrap();
+    let mut names = BTreeSet::new();
+    let mut rest = vec![&context];
+    while let Some(value) = rest.pop() {
+        match value {
+            serde_json::Value::Object(map) => {
+                for (name, value) in map {
+                    names.insert(name.as_str());
+                    if name != "words" {
+                        rest.push(value);
+                    }
+                }
+            }
+            serde_json::Value::Array(list) => rest.extend(list),
+            _ => {}
+        }
+    }
+    let missing: Vec<_> = names.difference(&described).collect();
+    assert!(missing.is_empty() && names.len() > 60, "{missing:?}");
+}
+
+/// A writer's own format: the example's templates make AsciiDoc without a line of Rust.
+#[test]
+fn the_asciidoc_example_prints_every_table() {
+    let directory = od_tests::root().join("docs-gen/examples/asciidoc");
+    let mut files: Vec<(String, String)> = std::fs::read_dir(directory)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .map(|path| {
+            (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read_to_string(path).unwrap())
+        })
+        .collect();
+    files.sort();
+    let system = compile_clean(PITCH).unwrap();
+    let templates = [Templates::new(None, &files).unwrap()];
+    let printed = docs::artifacts(&system, "", "s", &docs::options(&system, &[], None), &templates).unwrap();
+    assert_eq!(
+        printed.iter().map(|file| file.path.as_str()).collect::<Vec<_>>(),
+        ["s/manual.adoc", "s/tables.json"]
+    );
+    let text = String::from_utf8(printed[0].bytes.clone()).unwrap();
+    let index: serde_json::Value = serde_json::from_slice(&printed[1].bytes).unwrap();
+    for table in index["tables"].as_array().unwrap() {
+        let anchor = format!("[[od-{}]]\n", table["anchor"].as_str().unwrap());
+        assert_eq!(text.matches(&anchor).count(), 1, "{anchor}");
+    }
+    let grids = text.matches("[cols=").count();
+    assert_eq!(text.matches("|===\n").count(), 2 * grids);
+    assert!(text.contains("| 6041h\n") || text.contains("]]6041h\n"));
+}
+
+#[test]
+fn a_template_changes_nothing_but_itself() {
+    let system = compile_clean(PITCH).unwrap();
+    let options = docs::options(&system, &[], None);
+    let print = |own: &[(String, String)]| {
+        let templates = [Templates::new(Some(Format::Html), own).unwrap()];
+        docs::artifacts(&system, "", "s", &options, &templates).unwrap()
+    };
+    let (before, after) = (print(&[]), print(&[("_style.css".to_owned(), "p { color: red }\n".to_owned())]));
+    for (before, after) in before.iter().zip(&after).filter(|(before, _)| is(&before.path, "html")) {
+        let text = |bytes: &[u8]| {
+            let text = String::from_utf8(bytes.to_vec()).unwrap();
+            let (head, rest) = text.split_once("<style>").unwrap();
+            let (style, rest) = rest.split_once("</style>").unwrap();
+            (style.trim().to_owned(), head.to_owned() + rest)
+        };
+        let (old, new) = (text(&before.bytes), text(&after.bytes));
+        assert_eq!(new.0, "p { color: red }");
+        assert_ne!(old.0, new.0);
+        assert_eq!(old.1, new.1);
+    }
+}
+
+/// Documents of one device show nothing of the others.
+#[test]
+fn one_device_alone() {
+    let system = compile_clean(PITCH).unwrap();
+    let options = docs::options(&system, &["pmc".to_owned()], None);
+    let templates = [Templates::new(Some(Format::Markdown), &[]).unwrap()];
+    let files = docs::artifacts(&system, "", "s", &options, &templates).unwrap();
+    let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+    assert!(names.contains(&"s/pmc.md") && !names.contains(&"s/pmm.md"), "{names:?}");
+    let pages: BTreeMap<&str, Page> = files
+        .iter()
+        .filter(|file| is(&file.path, "md"))
+        .map(|file| {
+            (file.path.strip_prefix("s/").unwrap(), markdown::read(std::str::from_utf8(&file.bytes).unwrap()))
+        })
+        .collect();
+    // Of the PMM's chapter, only the thresholds remain that the PMC shares.
+    let tables = &pages["4-the-pitch-management-module-pmm.md"].tables;
+    assert_eq!(tables.len(), 1);
+    assert!(tables[0].anchors.contains(&"table-19".to_owned()));
+    for (name, page) in &pages {
+        for link in &page.links {
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = &pages[if file.is_empty() { name } else { file }];
+            assert!(anchor.is_empty() || target.anchors.contains(anchor), "{name} links to {link}");
+        }
+    }
+}
