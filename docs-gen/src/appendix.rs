@@ -160,21 +160,17 @@ impl Source<'_> {
         let mut tables = Vec::new();
         for device in &self.devices {
             for (group, word) in groups {
-                let rows =
-                    device.entries().filter(|(.., entry)| entry.stored == group).map(|(id, _, entry)| {
+                let rows = device.entries().filter(|(.., entry)| entry.stored == group).map(
+                    |(id, object, entry)| {
                         Row::of(vec![
                             self.entry_link(id),
                             Cell::plain(device.entry_name(id).unwrap_or_default()),
                             Cell::plain(entry.data_type.name()),
                             Cell::plain(access(entry)),
-                            Cell::plain(
-                                entry
-                                    .default
-                                    .as_ref()
-                                    .map_or_else(String::new, |value| self.value(entry, value)),
-                            ),
+                            Cell::plain(self.default(object, entry)),
                         ])
-                    });
+                    },
+                );
                 let grid = Columns::new()
                     .left(self, "entry", Word::Index)
                     .left(self, "name", Word::Name)

@@ -156,7 +156,8 @@ impl Source<'_> {
 
     /// The entries of one object.
     fn detail(&self, device: &Dictionary, object: &Object) -> Grid {
-        let rows = self.entry_rows(device, object, true);
+        // The card itself is what links to an object lead to.
+        let rows = self.entry_rows(device, object, object.is_structured());
         let grid = self.entry_columns(object).grid(rows, crate::tables::objects::ALWAYS);
         if !object.is_structured() {
             return grid;

@@ -119,7 +119,7 @@ impl Source<'_> {
     }
 
     /// The default; that of a mapping parameter in its parts: index, sub-index, bits.
-    fn default(&self, object: &Object, entry: &Entry) -> String {
+    pub(crate) fn default(&self, object: &Object, entry: &Entry) -> String {
         match &entry.default {
             Some(Value::Integer(raw))
                 if object.origin == Origin::Pdo && is_mapping(object.index) && entry.sub.0 > 0 =>

@@ -4,34 +4,41 @@
 
 use std::process::{Command, ExitCode};
 
+use od_gen::docs;
 use od_gen::eds::{Commissioning, write_dcf};
 use od_gen::files::write_all;
-use od_gen::{Artifact, Selection, artifacts};
+use od_gen::{Artifact, Selection, artifacts, json};
 use od_spec::assign;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::{SourceMap, Spanned};
+use od_tests::generate::SPECS;
 use od_tests::{Failure, compile_clean, generate, root};
 
 const HELP: &str = "\
 cargo xtask TASK
 
-  test [--without-emulator]
+  test [--without-emulator] [--without-browser]
                      run every test; puts what the foreign readers need into target/. The firmware for an emulated
-                     Cortex-M needs QEMU, the linker arm-none-eabi-ld and the target thumbv7em-none-eabi
+                     Cortex-M needs QEMU, the linker arm-none-eabi-ld and the target thumbv7em-none-eabi; the documents
+                     are read in Chromium and printed, which needs pdftotext, too
   generate [--check] rewrite everything that is generated and checked in, or tell what is not current
+  browser            the part of `test` that reads the documents in Chromium
   bench              measure odgen beside other tools
 ";
+
+/// What `test` can leave out, where its programs are not to be had.
+const WITHOUT: [&str; 2] = ["--without-emulator", "--without-browser"];
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = match arguments.as_slice() {
-        ["test"] => test(false),
-        ["test", "--without-emulator"] => test(true),
+        ["test", options @ ..] if options.iter().all(|option| WITHOUT.contains(option)) => test(options),
         ["generate"] => write(),
         ["generate", "--check"] => check(),
+        ["browser"] => browser(),
         ["bench", rest @ ..] => python("tests/bench/run.py", rest),
         ["help" | "--help"] => {
             print!("{HELP}");
@@ -52,7 +59,7 @@ fn main() -> ExitCode {
 }
 
 /// All Rust tests, then the foreign readers.
-fn test(without_emulator: bool) -> Result<(), Failure> {
+fn test(options: &[&str]) -> Result<(), Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     run(Command::new(cargo).args(["test", "--workspace", "--no-fail-fast"]))?;
     python("tests/readers/selftest/selftest.py", &[])?;
@@ -68,12 +75,54 @@ fn test(without_emulator: bool) -> Result<(), Failure> {
     python("tests/readers/run.py", &[&configured[..], &everything[2..]].concat())?;
     python("tests/readers/run.py", &[])?;
     sdo_client()?;
-    if without_emulator {
+    if options.contains(&"--without-browser") {
+        println!("left out: the documents in a browser, tests/browser");
+    } else {
+        browser()?;
+    }
+    if options.contains(&"--without-emulator") {
         println!("left out: the firmware in tests/thumb");
         return Ok(());
     }
     python("tests/thumb/run.py", &["sizes"])?;
     python("tests/thumb/run.py", &["test"])
+}
+
+/// The documents as their readers see them.
+fn browser() -> Result<(), Failure> {
+    const DOCS: &str = "target/browser/docs";
+    let mut directories = Vec::new();
+    let specs = SPECS.iter().map(|stem| (*stem, format!("od-spec/devices/{stem}.od.yaml")));
+    for (stem, path) in specs.chain([("everything", "tests/readers/everything.od.yaml".to_owned())]) {
+        let system = compile_clean(&path)?;
+        let options = docs::options(&system, &[], None);
+        let html = [docs::Templates::new(Some(docs::Format::Html), &[])?];
+        let mut set = docs::artifacts(&system, "", stem, &options, &html)?;
+        let beside = [("dump", json::dump(&system, &[])), ("context", docs::dump_context(&system, &options))];
+        set.extend(beside.map(|(name, bytes)| Artifact {
+            path: format!("{stem}/{name}.json"),
+            bytes,
+            purpose: String::new(),
+        }));
+        let example = [docs::Templates::new(None, &example()?)?];
+        set.extend(docs::artifacts(&system, "", &format!("{stem}-asciidoc"), &options, &example)?);
+        write_all(&root().join(DOCS), &set)?;
+        directories.extend([format!("{DOCS}/{stem}"), format!("{DOCS}/{stem}-asciidoc")]);
+    }
+    let directories: Vec<&str> = directories.iter().map(String::as_str).collect();
+    python("tests/browser/run.py", &directories)
+}
+
+/// The templates of the AsciiDoc example.
+fn example() -> Result<Vec<(String, String)>, Failure> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(root().join("docs-gen/examples/asciidoc"))? {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        files.push((name, std::fs::read_to_string(path)?));
+    }
+    files.sort();
+    Ok(files)
 }
 
 /// A client that others wrote, against the generated Rust.

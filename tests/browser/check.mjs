@@ -1,0 +1,252 @@
+// Opens the HTML documents in Chromium and uses them like a reader: searches, filters, follows links, copies, prints.
+// What the pages show is compared with the dump of the model and with what templates see; axe-core looks for barriers.
+//
+//   node check.mjs DOCS DUMP CONTEXT OUT CHROMIUM
+import { readFileSync, writeFileSync, mkdirSync, statSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const [docs, dumpFile, contextFile, out, executablePath] = process.argv.slice(2).map((path) => resolve(path));
+const dump = JSON.parse(readFileSync(dumpFile));
+const context = JSON.parse(readFileSync(contextFile));
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+mkdirSync(out, { recursive: true });
+
+let passed = 0;
+const failures = [];
+const check = (holds, text) => { if (holds) passed += 1; else failures.push(text); };
+const same = (found, expected, text) => {
+  const [a, b] = [JSON.stringify(found), JSON.stringify(expected)];
+  check(a === b, `${text}: ${a?.slice(0, 300)} instead of ${b?.slice(0, 300)}`);
+};
+
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 } });
+await browserContext.grantPermissions(["clipboard-read", "clipboard-write"]);
+
+// A page with everything that it says on the console or asks from elsewhere.
+const open = async (name, hash = "") => {
+  const page = await browserContext.newPage();
+  page.on("console", (message) => failures.push(`${name}: console: ${message.text()}`));
+  page.on("pageerror", (error) => failures.push(`${name}: ${error.message}`));
+  page.on("request", (request) => {
+    if (!request.url().startsWith("file:") && !request.url().startsWith("data:")) failures.push(`${name} asks for ${request.url()}`);
+  });
+  await page.goto(pathToFileURL(join(docs, name)) + hash);
+  return page;
+};
+const clean = (text) => text.replace(/\s+/g, " ").trim();
+const shownCards = (page) => page.$$eval("article.object", (cards) => cards.filter((card) => card.checkVisibility()).map((card) => card.id));
+const search = async (page, text) => {
+  await page.fill("#search", text);
+  return page.evaluate(() => performance.getEntriesByName("search", "measure").at(-1).duration);
+};
+const key = (index) => index.slice(2);
+
+// ---------------------------------------------------------------- what the tables say
+const rowsOf = (page, selector) => page.$$eval(selector, (tables) => tables.map((table) => ({
+  anchor: table.closest(".table")?.id ?? "",
+  columns: [...table.querySelectorAll("thead th:not(.tool), thead td")].map((cell) => cell.textContent),
+  rows: [...table.querySelectorAll("tbody tr")].map((row) => [...row.querySelectorAll("td:not(.tool)")].map((cell) => {
+    const copy = cell.cloneNode(true);
+    for (const mark of copy.querySelectorAll(".mark, .language")) mark.remove();
+    for (const line of copy.querySelectorAll("br")) line.replaceWith("\n");
+    return copy.textContent;
+  })),
+})));
+const words = (cell) => clean(cell.text);
+
+const accessCell = (entry) => (entry.locked ? (entry.access === "wo" ? "(w)" : "r(w)") : entry.access);
+const mapCell = { none: "N", receive: "Y (R)", transmit: "Y (T)", both: "Y (RT)" };
+
+for (const device of dump.devices) {
+  const page = await open(`${device.key}.html`);
+  const cards = await page.$$eval("article.object", (list) => list.map((card) => ({ id: card.id, heading: card.querySelector("h3").textContent })));
+  same(cards.map((card) => card.id), device.objects.map((object) => key(object.index)), `${device.key}: cards`);
+  for (const [at, object] of device.objects.entries()) {
+    check(clean(cards[at].heading).includes(clean(object.name)), `${object.index}: heading ${cards[at].heading}`);
+  }
+  const tables = await rowsOf(page, "article.object > table.grid");
+  same(tables.length, device.objects.length, `${device.key}: a detail table per object`);
+  for (const [at, object] of device.objects.entries()) {
+    const { columns, rows } = tables[at];
+    same(rows.length, object.entries.length, `${object.index}: rows`);
+    for (const [line, entry] of object.entries.entries()) {
+      const cell = (title) => { const column = columns.indexOf(title); return column < 0 ? "" : clean(rows[line][column]); };
+      const place = `${device.key} ${object.index}.${entry.sub}`;
+      const structured = object.kind === "array" || object.kind === "record";
+      same(structured ? cell("Sub-Index") : cell("Index"), structured ? String(entry.sub) : `${key(object.index)}h`, place);
+      same(cell("Name"), clean(entry.name), `${place} name`);
+      same(cell("Type"), entry.type, `${place} type`);
+      same(cell("Attr"), accessCell(entry), `${place} access`);
+      same(cell("Map"), mapCell[entry.pdo], `${place} mapping`);
+      check(clean(cell("Description")).startsWith(clean(entry.about.en ?? "")), `${place} description`);
+      const unit = dump.units.find((one) => one.name === entry.unit);
+      check(unit ? cell("Unit").endsWith(unit.symbol) : cell("Unit") === "", `${place} unit ${cell("Unit")}`);
+      if (entry.default === null) same(cell("Default"), "", `${place} default`);
+      else if (typeof entry.default.raw === "number" && !entry.default.formula && Number.isSafeInteger(entry.default.raw)) {
+        // A raw number, or hexadecimal digits of it, or a physical value with the raw one behind it.
+        const shown = cell("Default"), raw = entry.default.raw;
+        const numbers = [shown, shown.split(/[ :]/)[0], shown.match(/\((-?\d+)\)$/)?.[1]].map(Number);
+        const digits = /^[0-9A-F ]+h$/.test(shown) ? Number(`0x${shown.replace(/[ h]/g, "")}`) : NaN;
+        check(numbers.includes(raw) || digits === raw || digits - 2 ** (4 * shown.replace(/[ h]/g, "").length) === raw,
+          `${place} default ${shown}, raw ${raw}`);
+      }
+    }
+  }
+
+  // Copying, keyboard, deep links.
+  const first = page.locator("[data-copy]").first();
+  await first.click();
+  same(await page.evaluate(() => navigator.clipboard.readText()), await first.getAttribute("data-copy"), `${device.key}: copied`);
+  await page.locator("body").press("/");
+  same(await page.evaluate(() => document.activeElement.id), "search", `${device.key}: / goes to the search`);
+  const structured = device.objects.find((object) => object.entries.length > 2);
+  const entry = structured.entries.at(-1).sub, hash = `${key(structured.index)}.${entry}`;
+  for (const text of [hash, `${structured.index}:${entry.toString(16).padStart(2, "0")}`]) {
+    await page.fill("#search", text);
+    await page.press("#search", "Enter");
+    same(await page.evaluate(() => decodeURIComponent(location.hash)), `#${hash}`, `${device.key}: Enter on ${text}`);
+    await page.evaluate(() => { location.hash = ""; });
+  }
+  await page.press("#search", "Escape");
+  same((await shownCards(page)).length, device.objects.length, `${device.key}: Escape shows all`);
+  await page.fill("#search", device.objects[3].name);
+  await page.press("#search", "ArrowDown");
+  same(await page.evaluate(() => document.activeElement.closest("nav")?.id), "contents", `${device.key}: arrow goes to the list`);
+  await page.keyboard.press("ArrowUp");
+  same(await page.evaluate(() => document.activeElement.id), "search", `${device.key}: arrow comes back`);
+  await page.fill("#search", "no such thing at all");
+  same([await shownCards(page), await page.isVisible("#nothing")], [[], true], `${device.key}: nothing found`);
+  // A link into a hidden card shows it.
+  await page.evaluate((target) => { location.hash = target; }, hash);
+  await page.waitForFunction((target) => document.getElementById(target).checkVisibility(), hash);
+
+  // Filters.
+  const facts = (object) => (["array", "record"].includes(object.kind) ? object.entries.filter((one) => one.sub > 0) : object.entries);
+  const symbol = (name) => dump.units.find((unit) => unit.name === name)?.symbol;
+  const has = {
+    type: (object, value) => facts(object).some((one) => one.type === value),
+    access: (object, value) => facts(object).some((one) => accessCell(one) === value),
+    pdo: (object, value) => object.entries.some((one) => one.pdo === value || one.pdo === "both"),
+    stored: (object, value) => facts(object).some((one) => one.stored === value),
+    unit: (object, value) => facts(object).some((one) => symbol(one.unit) === value),
+  };
+  for (const [name, fits] of Object.entries(has)) {
+    const values = await page.$$eval(`select[data-filter=${name}] option`, (options) => options.map((one) => one.value).filter(Boolean));
+    check(values.length > 0 || name === "unit", `${device.key}: nothing to filter by ${name}`);
+    for (const value of values) {
+      await page.selectOption(`select[data-filter=${name}]`, value);
+      const expected = device.objects.filter((object) => fits(object, value)).map((object) => key(object.index));
+      same(await shownCards(page), expected, `${device.key}: ${name} ${value}`);
+      check(expected.length > 0, `${device.key}: ${name} ${value} offers nothing`);
+    }
+    await page.selectOption(`select[data-filter=${name}]`, "");
+  }
+  await page.close();
+
+  // A deep link from outside.
+  const linked = await open(`${device.key}.html`, `#${hash}`);
+  await linked.waitForFunction((target) => {
+    const { top, bottom } = document.getElementById(target).getBoundingClientRect();
+    return top >= 0 && bottom <= innerHeight;
+  }, hash, { timeout: 5000 }).catch(() => failures.push(`${device.key}: #${hash} is not in view`));
+  await linked.close();
+}
+
+// ---------------------------------------------------------------- the system's page
+{
+  const page = await open("index.html");
+  const expected = [...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)),
+    ...context.appendices.flatMap((appendix) => appendix.tables)];
+  const grids = expected.flatMap((table) => table.grids.map((grid) => ({ anchor: table.anchor, grid })));
+  const found = await rowsOf(page, "table.grid");
+  same(found.length, grids.length, "index.html: tables");
+  for (const [at, { anchor, grid }] of grids.entries()) {
+    same(found[at].anchor, anchor, "index.html: order of tables");
+    same(found[at].columns.map(clean), grid.columns.map((column) => clean(column.title)), `${anchor}: columns`);
+    same(found[at].rows.map((row) => row.map(clean)), grid.rows.map((row) => row.cells.map(words)), `${anchor}: cells`);
+  }
+  const ids = await page.$$eval("[id]", (all) => all.map((one) => one.id));
+  same(ids.filter((id, at) => ids.indexOf(id) !== at), [], "index.html: ids stand once");
+  const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.hash.slice(1))).filter((id) => id && !document.getElementById(id)));
+  same(dead, [], "index.html: links");
+  const duration = await search(page, "table");
+  check(duration < 50, `index.html: a search took ${duration} ms`);
+  await page.close();
+}
+
+for (const device of dump.devices) {
+  const page = await open(`${device.key}.html`);
+  const ids = await page.$$eval("[id]", (all) => all.map((one) => one.id));
+  same(ids.filter((id, at) => ids.indexOf(id) !== at), [], `${device.key}: ids stand once`);
+  const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.hash.slice(1))).filter((id) => id && !document.getElementById(id)));
+  same([...new Set(dead)], [], `${device.key}: links`);
+  await page.close();
+}
+
+// ---------------------------------------------------------------- the search that the project promises
+if (dump.devices.some((device) => device.key === "pmc")) {
+  const page = await open("pmc.html");
+  await page.waitForTimeout(200);
+  const duration = await search(page, "following error");
+  const cards = await shownCards(page);
+  check(cards.includes("6065") && cards.includes("60F4"), `following error: ${cards}`);
+  check(cards.length < 20, `following error finds ${cards.length} cards`);
+  check(duration < 50, `following error took ${duration} ms`);
+  console.log(`search for "following error": ${duration.toFixed(1)} ms, ${cards.length} objects`);
+  await page.close();
+}
+
+// ---------------------------------------------------------------- both themes, barriers, paper
+const names = ["index.html", ...dump.devices.map((device) => `${device.key}.html`)];
+for (const name of names) {
+  const page = await open(name);
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    await page.screenshot({ path: join(out, `${name}-${colorScheme}.png`) });
+    await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
+    await page.evaluate(axe);
+    const { violations, passes } = await page.evaluate(() => axe.run(document, { resultTypes: ["violations"] }));
+    check(passes.length > 10, `${name}: axe looked at ${passes.length} rules`);
+    for (const one of violations) failures.push(`${name} (${colorScheme}): axe ${one.id}: ${one.help}: ${one.nodes[0].html.slice(0, 160)}`);
+  }
+  const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await page.click("#theme");
+  check(back !== await page.evaluate(() => getComputedStyle(document.body).backgroundColor), `${name}: the button changes the theme`);
+  await page.close();
+
+  // On paper nothing may stick out: A4 less the margins of the style sheet.
+  const paper = await open(name);
+  await paper.emulateMedia({ media: "print" });
+  await paper.setViewportSize({ width: Math.floor((210 - 26) / 25.4 * 96), height: 1000 });
+  const wide = await paper.$$eval("table, .picture", (all) => all.filter((one) => {
+    const { left, right, width } = one.getBoundingClientRect();
+    return width > 0 && (right > innerWidth + 1 || left < -1 || one.scrollWidth > one.clientWidth + 1);
+  }).map((one) => `${one.closest("[id]")?.id}: ${Math.round(one.getBoundingClientRect().right)}`));
+  same(wide, [], `${name}: tables wider than the paper`);
+  const cells = await paper.$$eval("td:not(.tool)", (all) => all.map((one) => one.textContent));
+  await paper.close();
+
+  // The documented command, and what a reader of PDF files finds in its file.
+  const pdf = join(out, name.replace(".html", ".pdf"));
+  execFileSync(executablePath, ["--headless", "--no-sandbox", "--no-pdf-header-footer", `--print-to-pdf=${pdf}`, pathToFileURL(join(docs, name)).href], { stdio: "ignore" });
+  const text = execFileSync("pdftotext", ["-raw", pdf, "-"], { maxBuffer: 1 << 28 }).toString();
+  const pages = text.split("\f").slice(0, -1);
+  for (const [at, one] of pages.entries()) check(one.includes(`${at + 1} / ${pages.length}`), `${name}: page ${at + 1} has no number`);
+  const letters = (part) => part.replace(/[\s\u00ad]+/g, "");
+  const printed = letters(text.replace(/\d+ \/ \d+\s*\f/g, ""));
+  // A cell that runs over the end of a page is found in its halves.
+  const missing = cells.filter((cell) => letters(cell) && !printed.includes(letters(cell)));
+  check(missing.length <= cells.length / 200, `${name}: ${missing.length} of ${cells.length} cells are not in the PDF, such as ${missing[0]}`);
+  console.log(`${name}: ${(statSync(join(docs, name)).size / 1024).toFixed(0)} kB, ${cells.length} cells, ${pages.length} pages of PDF, ${missing.length} cells over the end of a page`);
+}
+await browser.close();
+
+for (const failure of failures.slice(0, 40)) console.error(`FAILED ${failure}`);
+writeFileSync(join(out, "result.json"), JSON.stringify({ passed, failed: failures.length }));
+console.log(`${passed} passed, ${failures.length} failed`);
+process.exit(failures.length ? 1 : 0);

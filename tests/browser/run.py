@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Use the generated documents like a reader: in Chromium, on paper, and through Asciidoctor.
+
+    run.py DOCS...
+
+DOCS are directories with HTML pages, `dump.json` and `context.json`, or with `manual.adoc`. What npm brings is installed
+below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+CACHE = HERE.parent.parent / "target" / "browser"
+FILES = ["package.json", "package-lock.json", ".npmrc"]
+SCRIPTS = ["check.mjs", "asciidoc.mjs"]
+BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
+
+
+def program(names: list[str], package: str) -> str:
+    for name in names:
+        if found := shutil.which(name):
+            return found
+    sys.exit(f"error: {' or '.join(names)} is missing; install {package}")
+
+
+def install() -> Path:
+    """Node modules as the lock file names them; the scripts beside them, as Node looks for modules from there."""
+    folder = CACHE / "npm"
+    stamp = folder / "stamp"
+    digest = hashlib.sha256(b"".join((HERE / name).read_bytes() for name in FILES)).hexdigest()
+    if not stamp.is_file() or stamp.read_text() != digest:
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        for name in FILES:
+            shutil.copy(HERE / name, folder)
+        npm = program(["npm"], "npm")
+        subprocess.run([npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"], cwd=folder, check=True)
+        stamp.write_text(digest)
+    for name in SCRIPTS:
+        shutil.copy(HERE / name, folder)
+    return folder
+
+
+def main() -> int:
+    node, browser = program(["node"], "nodejs"), os.environ.get("CHROMIUM") or program(BROWSERS, "chromium")
+    program(["pdftotext"], "poppler-utils")
+    folder = install()
+    failed = 0
+    for argument in sys.argv[1:]:
+        docs = Path(argument).resolve()
+        print(f"== {docs.name}", flush=True)
+        if (docs / "manual.adoc").exists():
+            command = [node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")]
+        else:
+            command = [node, str(folder / "check.mjs"), str(docs), str(docs / "dump.json"), str(docs / "context.json")]
+            command += [str(CACHE / "seen" / docs.name), browser]
+        failed += subprocess.run(command, check=False).returncode != 0
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
