@@ -33,6 +33,7 @@ NODE = "5"  # dcfchk and python-canopen want a node-ID for the formulas in the f
 LEAST_RUNS = 3
 DCF2C = "lely dcf2c (C), EDS to C"
 EXE = ".exe" if sys.platform == "win32" else ""
+FORMS = {"md": "Markdown", "html": "HTML"}
 VISIBLE_STRING = "DataType=0x0009"
 
 # Whole process, median of 5, on the EDS files of another study with about as many entries. Used
@@ -149,6 +150,9 @@ def own(odgen: Path, work: Path, sizes: list[int]) -> Iterator[Measured]:
         yield Measured("odgen build", [program, "build", str(spec), "--out", str(out)], size, fresh=out)
         one_file = ["--device", "controller", "--node", NODE, "--out", str(dcf / "controller.dcf")]
         yield Measured("odgen dcf", [program, "dcf", str(spec), *one_file], size, fresh=dcf)
+        for form in ("md", "html"):
+            docs = work / f"docs-{form}-{size}"
+            yield Measured(f"odgen docs, {FORMS[form]}", [program, "docs", str(spec), "--format", form, "--out", str(docs)], size, fresh=docs)
         # what the peers read: made once and kept
         output([program, "build", str(spec), "--out", str(work / f"eds-{size}")])
 
@@ -165,7 +169,8 @@ def peers(cache: Path, work: Path, sizes: list[int]) -> tuple[list[Measured], li
         for size in sizes:
             eds = work / f"eds-{size}" / "eds" / "controller.eds"
             for name, command, environment in tools:
-                words = [word.format(eds=eds, plain=without_texts(eds), out=eds.with_suffix(".c")) for word in command]
+                places = {"eds": eds, "plain": without_texts(eds), "out": eds.with_suffix(".c"), "md": eds.with_suffix(".md")}
+                words = [word.format(**places) for word in command]
                 found.append(Measured(name, words, size, peer=True, environment=environment))
     return found, missing
 
@@ -194,6 +199,7 @@ def python_tools(cache: Path) -> list[Tool]:
     return [
         ("lely dcfchk (Python), checks the EDS", [str(programs / f"dcfchk{EXE}"), "-n", NODE, "{eds}"], strict),
         ("lely dcf2dev (Python), EDS to C", [str(programs / f"dcf2dev{EXE}"), "-o", "{out}", "{plain}", "device"], {}),
+        ("eds-utils eds2md (Python), EDS to Markdown", [str(programs / f"eds2md{EXE}"), "-o", "{md}", "{eds}"], {}),
         ("python-canopen, reads the EDS", [str(programs / f"python{EXE}"), "-c", read, "{eds}", NODE], {}),
     ]
 
@@ -255,8 +261,23 @@ def report(odgen: Path, measured: list[Measured], missing: list[str]) -> str:
         times = f"{1000 * one.median:.1f} | {1000 * min(one.seconds):.1f}"
         lines.append(f"| {one.name} | {one.size or ''} | {len(one.seconds)} | {times} | {memory} | {ratio} |")
     lines += (f"\nNot measured: {reason}." for reason in missing)
+    lines += documents(measured)
     lines += goals(measured, builds)
     return "\n".join(lines)
+
+
+def documents(measured: list[Measured]) -> Iterator[str]:
+    """How large the documents are, and the time of a peer as a ratio."""
+    yield ""
+    for one in measured:
+        if one.fresh and one.name.startswith("odgen docs"):
+            sizes = {file.name: file.stat().st_size for file in one.fresh.rglob("*") if file.is_file()}
+            name, largest = max(sizes.items(), key=lambda item: item[1])
+            yield f"{one.name}, {one.size} objects: {sum(sizes.values()) / 1e6:.2f} MB in {len(sizes)} files, {name} {largest / 1e6:.2f} MB."
+        if one.name.startswith("eds-utils"):
+            md = next(other.median for other in measured if other.name == "odgen docs, Markdown" and other.size == one.size)
+            written = Path(one.command[2]).stat().st_size
+            yield f"eds2md, {one.size} objects: {one.median / md:.1f} times odgen docs, Markdown; {written / 1e6:.2f} MB."
 
 
 def goals(measured: list[Measured], builds: dict[int, Measured]) -> Iterator[str]:

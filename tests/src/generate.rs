@@ -125,7 +125,21 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "eds", &format!("```ini\n{}\n```", excerpt.join("\n\n")))?;
     let text =
         block(&text, "api", &format!("```rust\nimpl Valve {{\n{}\n    // …\n}}\n```", api.join("\n\n")))?;
-    block(&text, "firmware", &format!("```rust\n{firmware}```"))
+    let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
+    block(&text, "docs", &tables(&system)?)
+}
+
+/// The detail tables of the example's own objects, from its Markdown.
+fn tables(system: &System) -> Result<String, Failure> {
+    let files = documents(system, "valve")?;
+    let page = files.iter().find(|file| file.path.ends_with("valve.md")).ok_or("the example has no page")?;
+    let page = std::str::from_utf8(&page.bytes)?;
+    let objects = page.split("\n### ").filter(|part| part.starts_with("200"));
+    let parts = objects.map(|part| {
+        let part = part.split("\n<a id=").next().unwrap_or(part);
+        format!("#### {}", without_links(part.trim()))
+    });
+    Ok(parts.collect::<Vec<_>>().join("\n\n"))
 }
 
 /// A method with its documentation.
@@ -142,4 +156,17 @@ fn block(text: &str, name: &str, content: &str) -> Result<String, Failure> {
     let (before, rest) = text.split_once(&open).ok_or_else(|| format!("README.md lacks {open}"))?;
     let (_, after) = rest.split_once(&close).ok_or_else(|| format!("README.md lacks {close}"))?;
     Ok(format!("{before}{open}\n{content}\n{close}{after}"))
+}
+
+/// Markdown whose links are plain text: they lead into a document that the reader of an excerpt does not have.
+fn without_links(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("](") {
+        let (words, label) = before.rsplit_once('[').unwrap_or((before, ""));
+        plain.push_str(words);
+        plain.push_str(label);
+        rest = after.split_once(')').map_or("", |(_, after)| after);
+    }
+    plain + rest
 }
