@@ -216,7 +216,7 @@ fn key_pattern(kind: KeyKind) -> Option<String> {
         KeyKind::Name => return None,
         KeyKind::DeviceKey => "[a-z0-9][a-z0-9-]{0,31}".to_owned(),
         KeyKind::Language => "[A-Za-z0-9-]{2,}".to_owned(),
-        KeyKind::Index => unsigned(4, 5),
+        KeyKind::Indices => run(&unsigned(4, 5)),
         KeyKind::SubIndex | KeyKind::Number => unsigned(2, 3),
         KeyKind::PdoNumber => unsigned(3, 3),
         KeyKind::Integer => any_integer(),

@@ -83,8 +83,8 @@ pub enum KeyKind {
     DeviceKey,
     /// A language code.
     Language,
-    /// An index.
-    Index,
+    /// An index, or a run of them: `0x3511..0x3519`.
+    Indices,
     /// A sub-index from 1 to 254.
     SubIndex,
     /// A bit, or bits `0..3`.
@@ -154,7 +154,7 @@ keys! {
         "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
         "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
         "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
-        "objects": Shape::MapOf(KeyKind::Index, &Shape::Map(&OBJECT)), "the objects, by index";
+        "objects": Shape::MapOf(KeyKind::Indices, &Shape::Map(&OBJECT)), "the objects, by index or indices";
         "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
         "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
         "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";

@@ -159,7 +159,7 @@ const fn key_kind(kind: KeyKind) -> &'static str {
         KeyKind::Name => "name",
         KeyKind::DeviceKey => "short key of lower-case letters, digits and `-`",
         KeyKind::Language => "language code",
-        KeyKind::Index => "index",
+        KeyKind::Indices => "index or indices",
         KeyKind::SubIndex => "sub-index, 1 to 254",
         KeyKind::Bits => "bit or bits",
         KeyKind::Integer => "integer",
@@ -351,7 +351,7 @@ YAML itself would misread a text: one that holds `: ` or ` #`, or starts with a 
 | text by language | a map such as `{en: speed, de: Drehzahl}`; a plain text is in the first of the file's `languages:` |
 | integer | decimal, or `0x`, `0b` or `0o` and digits, with `_` between digits and a sign if need be: `-40`, `0x1F`, `100_000`. A decimal number does not start with `0` |
 | date; date and time | `2009-05-27`; `2009-05-27 09:00` |
-| index | an integer from 1 to 0xFFFF: `0x6040` |
+| index or indices | an integer from 1 to 0xFFFF, or a run: `0x6040`, `0x3511..0x3519` |
 | bit or bits | an integer from 0 to 63, or a run: `4`, `0..3` |
 | error code or codes | a 16-bit integer, or a run: `0x3210`, `0x3281..0x3288` |
 | entry | see [how entries are named](#how-entries-are-named) |
@@ -441,6 +441,9 @@ taken as a whole.
 (`special`, `bit-errors`, `capacity`) have a meaning at a VAR only; `category`, `since` and `about` are about the object itself.
 
 An array needs `count:` or `elements:`, and its elements are of one type.
+
+Objects that are alike but for their number are written once, as a run of indices: `0x3511..0x3519: {name: 'input functions {n}', …}` makes nine
+objects; in their `name` and `identifier`, `{n}` stands for 1, 2, and so on. A run needs `{n}` in its name.
 ";
 
 const SUB0: &str = r"

@@ -48,6 +48,13 @@ pub(crate) fn error_codes(text: &str) -> Option<(u16, u16)> {
     (first <= last).then_some((first, last))
 }
 
+/// `0x6040`, or `0x3511..0x3519`.
+pub(crate) fn indices(text: &str) -> Option<(Index, Index)> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let (first, last) = (index(first.trim())?, index(last.trim())?);
+    (first <= last).then_some((first, last))
+}
+
 /// `2009-05-27`, a day that exists.
 pub(crate) fn date(text: &str) -> Option<Date> {
     let mut parts = text.split('-');

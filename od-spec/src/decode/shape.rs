@@ -135,7 +135,7 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
             KeyKind::Language => {
                 text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
             }
-            KeyKind::Index => lexical::index(text).is_some(),
+            KeyKind::Indices => lexical::indices(text).is_some(),
             KeyKind::SubIndex => integer().is_some_and(|sub| (1..=254).contains(&sub)),
             KeyKind::Bits => lexical::bits(text).is_some(),
             KeyKind::Integer => integer().is_some(),
@@ -162,7 +162,7 @@ const fn key_words(kind: KeyKind) -> &'static str {
         KeyKind::Name => "names",
         KeyKind::DeviceKey => "short keys of lower-case letters, digits and `-`, such as `pmc`",
         KeyKind::Language => "language codes such as `en`",
-        KeyKind::Index => "indices such as `0x6040`, 0001h to FFFFh",
+        KeyKind::Indices => "indices such as `0x6040`, 0001h to FFFFh, or runs such as `0x3511..0x3519`",
         KeyKind::SubIndex => "sub-indices, 1 to 254",
         KeyKind::Bits => "bits such as `4`, or runs such as `0..3`",
         KeyKind::Integer => "integers",

@@ -14,7 +14,7 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::expr::Expr;
 use crate::keys::{self, Keys};
 use crate::model::{
-    Access, BitUsage, Category, Direction, Edge, ErratumKind, Outside, PdoMapping, Rounding, Storage,
+    Access, BitUsage, Category, Direction, Edge, ErratumKind, Index, Outside, PdoMapping, Rounding, Storage,
     SubIndex,
 };
 use crate::source::{Span, Spanned};
@@ -50,16 +50,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         units: top.entries("units").map(|(name, r)| unit(name, r)).collect(),
         types: top.entries("types").map(|(name, r)| named_type(name, r, diagnostics)).collect(),
         features: top.entries("features").map(|(name, r)| feature(name, r)).collect(),
-        objects: numbered(
-            top.entries("objects"),
-            lexical::index,
-            diagnostics,
-            Code::DuplicateIndex,
-            |index| index.to_string(),
-        )
-        .into_iter()
-        .map(|(index, r)| object(index, r, diagnostics))
-        .collect(),
+        objects: objects(top.entries("objects"), diagnostics),
         pdos: top.entries("pdos").map(|(key, r)| (owned(key), pdos(r, diagnostics))).collect(),
         errors: top.entries("errors").filter_map(|(codes, r)| error(codes, r)).collect(),
         machines: top.entries("state-machines").map(|(name, r)| machine(name, r, diagnostics)).collect(),
@@ -93,20 +84,69 @@ fn numbered<'a, K: Ord + Copy>(
     for (name, reader) in entries {
         let Some(number) = read(name.value) else { continue };
         if let Some(before) = first.get(&number) {
-            diagnostics.push(
-                Diagnostic::new(code, name.span, format!("{} is defined twice", show(number)))
-                    .label(if before.value == name.value {
-                        "again here".to_owned()
-                    } else {
-                        format!("again here (`{}` is {})", name.value, show(number))
-                    })
-                    .with(before.span, "first here")
-                    .help("remove one of the two, or give it its own number"),
-            );
+            diagnostics.push(twice(code, &show(number), name, *before));
             continue;
         }
         first.insert(number, name);
         list.push((Spanned::new(number, name.span), reader));
+    }
+    list
+}
+
+/// Two keys stand for one number.
+fn twice(code: Code, number: &str, name: Spanned<&str>, before: Spanned<&str>) -> Diagnostic {
+    Diagnostic::new(code, name.span, format!("{number} is defined twice"))
+        .label(if before.value == name.value {
+            "again here".to_owned()
+        } else {
+            format!("again here (`{}` is {number})", name.value)
+        })
+        .with(before.span, "first here")
+        .help("remove one of the two, or give it its own number")
+}
+
+/// Reads the objects; a run of indices makes one object for each of them.
+fn objects<'a>(
+    entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ObjectDecl> {
+    let mut before: BTreeMap<Index, Spanned<&str>> = BTreeMap::new();
+    let mut list = Vec::new();
+    for (key, r) in entries {
+        let Some((first, last)) = lexical::indices(key.value) else { continue };
+        if let Some((index, other)) = before.range(first..=last).next() {
+            diagnostics.push(twice(Code::DuplicateIndex, &index.to_string(), key, *other));
+            continue;
+        }
+        before.extend((first.0..=last.0).map(|index| (Index(index), key)));
+        let one = object(Spanned::new(first, key.span), r, diagnostics);
+        if first == last {
+            list.push(one);
+            continue;
+        }
+        if let Some(name) = one.entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::BadNotation,
+                    name.span,
+                    "the objects of a run would all have this name",
+                )
+                .help("write `{n}` into the name; it stands for 1, 2, and so on"),
+            );
+        }
+        for (number, index) in (1..).zip(first.0..=last.0) {
+            let numbered = |text: &Option<Name>| {
+                let text = text.as_ref()?;
+                let whole = text.value.replace("{n}", &i32::to_string(&number));
+                // A name without `{n}` was reported; its copies do not have to be reported, too.
+                let whole = if whole == text.value { format!("{whole} {number}") } else { whole };
+                Some(Spanned::new(whole, text.span))
+            };
+            let mut copy = ObjectDecl { index: Spanned::new(Index(index), key.span), ..one.clone() };
+            copy.entry.name = numbered(&one.entry.name);
+            copy.entry.identifier = numbered(&one.entry.identifier);
+            list.push(copy);
+        }
     }
     list
 }
@@ -250,7 +290,7 @@ fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {
     }
 }
 
-fn object(index: Spanned<crate::model::Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
+fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
     ObjectDecl {
         index,
         on: r.optional_texts("on"),
