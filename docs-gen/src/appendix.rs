@@ -1,9 +1,8 @@
 //! Tables over the whole system: what a manual has no place for, or scatters.
 
-use od_spec::model::{Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit};
+use od_spec::model::{Constraint, Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit};
 
-use crate::cell::{entry_anchor, slug};
-use crate::device::constraint_anchor;
+use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
@@ -31,6 +30,7 @@ impl Source<'_> {
             ("units", Word::Units, Some(Word::UnitsIntro), vec![self.units()]),
             ("storage", Word::Storage, Some(Word::StorageIntro), self.storage()),
             ("constraints", Word::Constraints, Some(Word::ConstraintsIntro), self.constraints()),
+            ("machines", Word::Machines, None, self.machines()),
         ])
     }
 
@@ -68,10 +68,10 @@ impl Source<'_> {
             let alias = entry.alias.as_ref()?;
             let target = device.entry(alias.target)?;
             Some(Row::of(vec![
-                self.entry_link(id),
+                self.entry_link_on(device, id),
                 Cell::plain(device.entry_name(id).unwrap_or_default()),
                 Cell::plain(entry.data_type.name()),
-                self.entry_link(alias.target),
+                self.entry_link_on(device, alias.target),
                 Cell::plain(device.entry_name(alias.target).unwrap_or_default()),
                 Cell::plain(target.data_type.name()),
                 Cell::plain(self.language.number(&alias.factor.to_string())),
@@ -106,11 +106,11 @@ impl Source<'_> {
                 )
             });
             (!entries.is_empty()).then(|| Row {
-                anchor: format!("unit-{}", slug(&unit.name)),
+                anchor: format!("unit-{}", unique(self.system.units.keys(), &unit.name)),
                 ..Row::of(vec![
                     Cell::plain(&unit.name),
                     Cell::plain(&unit.symbol),
-                    Cell::plain(self.language.number(&format!("{} {}", unit.scale, unit.symbol))),
+                    Cell::plain(format!("{} {}", self.language.number(&unit.scale.to_string()), unit.symbol)),
                     base.map_or_else(Cell::default, Cell::plain),
                     self.text(&unit.about),
                     entries,
@@ -163,7 +163,7 @@ impl Source<'_> {
                 let rows = device.entries().filter(|(.., entry)| entry.stored == group).map(
                     |(id, object, entry)| {
                         Row::of(vec![
-                            self.entry_link(id),
+                            self.entry_link_on(device, id),
                             Cell::plain(device.entry_name(id).unwrap_or_default()),
                             Cell::plain(entry.data_type.name()),
                             Cell::plain(access(entry)),
@@ -192,6 +192,11 @@ impl Source<'_> {
             if let Some(when) = &constraint.when {
                 rows.push((Word::OnlyThere, self.condition(when, &constraint.devices)));
             }
+            if self.system.devices.len() > 1 {
+                let on: Vec<String> = constraint.devices.iter().map(|key| key.to_uppercase()).collect();
+                let on = if on.is_empty() { self.word(Word::All).to_owned() } else { on.join(", ") };
+                rows.push((Word::On, Cell::plain(on)));
+            }
             rows.push((Word::Because, self.text(&constraint.about)));
             let rows = rows
                 .into_iter()
@@ -204,14 +209,40 @@ impl Source<'_> {
             Table {
                 ladder: self.ladder(constraint),
                 ..Table::unnumbered(
-                    constraint_anchor(&constraint.name),
+                    self.constraint_anchor(constraint),
                     "constraint",
-                    Cell::plain(&constraint.name),
+                    Cell::default(),
                     vec![grid],
                 )
             }
         });
         tables.collect()
+    }
+
+    /// States, transitions and commands of every machine.
+    fn machines(&self) -> Vec<Table> {
+        let mut tables = Vec::new();
+        for (name, machine) in &self.system.machines {
+            if self.machine(name).is_none() {
+                continue;
+            }
+            let anchor = |kind: &str| format!("machine-{}-{kind}", unique(self.system.machines.keys(), name));
+            for (kind, word, grid) in [
+                ("states", Word::States, self.states(machine)),
+                ("transitions", Word::Transitions, self.transitions(machine)),
+                ("commands", Word::Commands, self.commands(machine)),
+            ] {
+                let title = Cell::plain(format!("{name}: {}", self.word(word)));
+                tables.push(Table::unnumbered(anchor(kind), kind, title, vec![grid]));
+            }
+        }
+        tables
+    }
+
+    /// Where links to a constraint lead.
+    pub(crate) fn constraint_anchor(&self, constraint: &Constraint) -> String {
+        let names = self.system.constraints.iter().map(|constraint| &constraint.name);
+        format!("constraint-{}", unique(names, &constraint.name))
     }
 
     /// One erratum.
@@ -235,9 +266,12 @@ impl Source<'_> {
             for (place, one) in erratum.at.iter().enumerate() {
                 entries = if place == 0 { entries } else { entries.text(", ") };
                 entries = entries.and(match one {
-                    ErratumPlace::Object(index) => self.object_link(*index),
+                    ErratumPlace::Object(index) => {
+                        self.link_on(&erratum.devices, *index, index.to_string(), object_anchor(*index))
+                    }
                     ErratumPlace::Entry(id) => {
-                        self.link(id.index, format!("{}.{}", id.index, id.sub), entry_anchor(*id))
+                        let text = format!("{}.{}", id.index, id.sub);
+                        self.link_on(&erratum.devices, id.index, text, entry_anchor(*id))
                     }
                 });
             }
@@ -275,12 +309,18 @@ impl Source<'_> {
                 errata = if at == 0 { errata } else { errata.text(", ") };
                 errata = errata.link(number.to_string(), format!("erratum-{number}"), "errata");
             }
+            let place = match printed.number {
+                Some(number) => format!("{} {number}", self.word(Word::Table)),
+                None if printed.section.is_empty() && printed.title.is_empty() => printed.anchor.clone(),
+                None if printed.section.is_empty() => printed.title.text.clone(),
+                None => printed.section.clone(),
+            };
             Row::of(vec![
                 number,
                 printed.title,
                 Cell::plain(printed.section),
                 Cell::plain(printed.kind),
-                Cell::default().link(printed.anchor.clone(), printed.anchor, printed.page),
+                Cell::default().link(place, printed.anchor, printed.page),
                 errata,
             ])
         });
@@ -294,4 +334,11 @@ impl Source<'_> {
             .full(rows.collect());
         Table::unnumbered("tables-all", "tables", Cell::default(), vec![grid])
     }
+}
+
+/// A name as part of an anchor, with a number where an earlier name would give the same.
+fn unique<'b>(names: impl Iterator<Item = &'b String>, name: &str) -> String {
+    let own = slug(name);
+    let before = names.take_while(|other| *other != name).filter(|other| slug(other) == own).count();
+    if before == 0 && !own.is_empty() { own } else { format!("{own}-no-{}", before + 1) }
 }

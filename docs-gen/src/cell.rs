@@ -16,6 +16,11 @@ impl Cell {
         Self::default().and_words(text, language)
     }
 
+    /// The same as the word of a standard that the maker does not repeat.
+    pub(crate) fn standard(self, standard: bool) -> Self {
+        Self { standard, ..self }
+    }
+
     /// Nothing to show.
     pub(crate) fn is_empty(&self) -> bool {
         self.parts.is_empty()
@@ -77,9 +82,17 @@ impl Cell {
     pub(crate) fn and_words(self, text: &Text, language: Language<'_>) -> Self {
         let Some(words) = text.get(language.code) else { return self };
         let other = text.iter().all(|(code, _)| code != language.code);
-        let code = if other { text.iter().next().map_or("", |(code, _)| code) } else { "" };
+        let code =
+            if other && has_words(words) { text.iter().next().map_or("", |(code, _)| code) } else { "" };
         self.push("text", words.to_owned(), String::new(), String::new(), code.to_owned())
     }
+}
+
+/// Whether a text has words: three letters in a row, of which one is small. `0..3`, `6040h` and `PDO` are the same in every
+/// language.
+fn has_words(text: &str) -> bool {
+    text.split(|sign: char| !sign.is_alphabetic())
+        .any(|word| word.chars().count() >= 3 && word.chars().any(char::is_lowercase))
 }
 
 /// Where links to an object lead: `6040`.

@@ -22,7 +22,7 @@ impl Source<'_> {
                 views.push(Section {
                     number: section.number.clone(),
                     title: self.text(&section.title),
-                    anchor: section_anchor(section),
+                    anchor: section_anchor(self.document(), at),
                     level,
                     tables,
                 });

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Category, Dictionary, Entry, EntryId, Object, ObjectKind, Origin, PdoMapping, PdoTarget, Storage,
-    TableContent, TypeKind,
+    Category, Dictionary, Direction, Entry, EntryId, Object, ObjectKind, Origin, PdoMapping, PdoTarget,
+    Storage, TableContent, TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -14,13 +14,11 @@ use crate::tables::bits::types_of;
 use crate::tables::overview::{access, among};
 use crate::tables::{Columns, errors, pdos};
 use crate::view::{
-    Cell, DeviceView, EntryPath, Filters, Grid, ObjectHead, ObjectView, Place, Row, Table, Used,
+    Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, Place, Row, Table, Used,
 };
 
-/// Uses that more lines would not make clearer.
-const MOST_LINES: usize = 40;
-
 impl Source<'_> {
+    /// The page of a device: all links stay on it. The source is that of the device alone.
     pub(crate) fn device(&self, device: &Dictionary) -> DeviceView {
         let uses = Uses::new(self, device);
         let objects: Vec<ObjectView> =
@@ -50,6 +48,13 @@ impl Source<'_> {
                 })
                 .map(|(group, word)| (group.word(), self.word(*word).to_owned()))
                 .collect(),
+            mappable: [Direction::Receive, Direction::Transmit]
+                .into_iter()
+                .map(|direction| (direction.word(), direction.pdo()))
+                .filter(|(word, _)| {
+                    objects.iter().any(|object| object.mappable.iter().any(|one| one == word))
+                })
+                .collect(),
         };
         DeviceView {
             key: device.key.clone(),
@@ -59,7 +64,7 @@ impl Source<'_> {
             overview,
             objects,
             pdos: device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect(),
-            appendices: self.only(device).device_appendices(),
+            appendices: self.device_appendices(),
             filters,
         }
     }
@@ -92,28 +97,18 @@ impl Source<'_> {
     }
 
     fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {
-        let id = |entry: &Entry| EntryId { index: object.index, sub: entry.sub };
         let types = types_of(object).into_iter().map(|named| {
             let (kind, grid) = match &named.kind {
                 TypeKind::Bits(fields) => ("bits", self.bits(named, fields)),
                 TypeKind::Enum(values) => ("values", self.values(named.base, values)),
             };
-            let anchor = format!("{}-{}", object_anchor(object.index), slug(&named.name));
+            let anchor = format!("{}-type-{}", object_anchor(object.index), slug(&named.name));
             let word = if kind == "bits" { Word::Bits } else { Word::Values };
             let title = Cell::plain(format!("{}: {}", self.word(word), named.name));
-            Table::unnumbered(anchor, kind, title, vec![grid])
+            Table { about: self.text(&named.about), ..Table::unnumbered(anchor, kind, title, vec![grid]) }
         });
         let types = types.collect();
-        let paths: Vec<EntryPath> = object
-            .entries
-            .iter()
-            .map(|entry| EntryPath {
-                name: entry.name.clone(),
-                anchor: entry_anchor(id(entry)),
-                entry: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
-                rust: self.accessors.get(&(device.key.clone(), id(entry))).cloned().unwrap_or_default(),
-            })
-            .collect();
+        let entries = object.entries.iter().map(|entry| self.entry(device, object, entry)).collect();
         let table = Table::unnumbered(
             format!("{}-entries", object_anchor(object.index)),
             "objects",
@@ -142,8 +137,8 @@ impl Source<'_> {
                 })
                 .map(|at| self.erratum(*at))
                 .collect(),
-            paths,
-            access: among(object, access),
+            entries,
+            access: accesses(object),
             data_types: data_types.into_iter().map(str::to_owned).collect(),
             units,
             stored: among(object, |entry| entry.stored.word().to_owned()),
@@ -152,6 +147,32 @@ impl Source<'_> {
         };
         view.search = search(object, &view);
         view
+    }
+
+    /// An entry as plain facts.
+    fn entry(&self, device: &Dictionary, object: &Object, entry: &Entry) -> EntryView {
+        let id = EntryId { index: object.index, sub: entry.sub };
+        let limit = |limit: Option<i128>| limit.map_or_else(String::new, |raw| raw.to_string());
+        EntryView {
+            index: object.index.to_string(),
+            sub: entry.sub.0,
+            name: entry.name.clone(),
+            anchor: entry_anchor(id),
+            data_type: entry.data_type.name(),
+            access: access(entry),
+            pdo: entry.pdo.word(),
+            default: match &entry.default {
+                Some(Value::Integer(raw)) => raw.to_string(),
+                Some(other) => self.value(entry, other),
+                None => String::new(),
+            },
+            low: limit(entry.low),
+            high: limit(entry.high),
+            unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.step(unit)),
+            stored: entry.stored.word(),
+            path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
+            rust: self.accessors.get(&(device.key.clone(), id)).cloned().unwrap_or_default(),
+        }
     }
 
     /// The entries of one object.
@@ -201,7 +222,8 @@ impl Source<'_> {
         if let Some(since) = &object.since {
             notes.push(Cell::plain(format!("{} {since}.", self.word(Word::Since))));
         }
-        if object.entries.iter().any(|entry| entry.locked) {
+        let writable = || object.entries.iter().filter(|entry| entry.access.is_writable());
+        if writable().next().is_some() && writable().all(|entry| entry.locked) {
             notes.push(Cell::plain(self.word(Word::LockedNote)));
         }
         notes
@@ -225,12 +247,27 @@ impl Source<'_> {
                 if shows {
                     let title = self.text(&section.title).text;
                     let text = format!("{} {title}", section.number).trim().to_owned();
-                    places.push(Place { text, anchor: section_anchor(section), page: page.clone() });
+                    places.push(Place {
+                        text,
+                        anchor: section_anchor(self.document(), at),
+                        page: page.clone(),
+                    });
                 }
             }
         }
         places
     }
+}
+
+/// Accesses of an object's entries, each once; that of sub-index 0 where it can be written.
+fn accesses(object: &Object) -> Vec<String> {
+    let mut all = among(object, access);
+    for entry in object.entries.iter().filter(|entry| entry.access.is_writable()) {
+        if !all.contains(&access(entry)) {
+            all.push(access(entry));
+        }
+    }
+    all
 }
 
 /// Unit symbols of an object's entries, each once.
@@ -319,11 +356,14 @@ impl Uses {
         }
         for constraint in &source.system.constraints {
             let conditions = std::iter::once(&constraint.require).chain(&constraint.when);
+            let applies = constraint.devices.is_empty() || constraint.devices.contains(&device.key);
             for named in conditions.flat_map(od_spec::expr::Expr::entries) {
-                let owner = source.device_of(&constraint.devices, named);
-                if owner.is_some_and(|owner| owner.key == device.key) {
-                    let anchor = constraint_anchor(&constraint.name);
-                    let line = Cell::default().link(&constraint.name, anchor, "constraints");
+                if named.device.as_ref().map_or(applies, |key| *key == device.key) {
+                    let line = Cell::default().link(
+                        &constraint.name,
+                        source.constraint_anchor(constraint),
+                        "constraints",
+                    );
                     uses.add(named.id, "constraints", source.word(Word::Constraints), line);
                 }
             }
@@ -346,7 +386,7 @@ impl Uses {
             uses.len() - 1
         });
         let lines = &mut uses[at].lines;
-        if !lines.contains(&line) && lines.len() < MOST_LINES {
+        if !lines.contains(&line) {
             lines.push(line);
         }
     }
@@ -354,11 +394,6 @@ impl Uses {
     fn of(&self, index: od_spec::model::Index) -> Vec<Used> {
         self.0.get(&index).cloned().unwrap_or_default()
     }
-}
-
-/// Where links to a constraint lead.
-pub(crate) fn constraint_anchor(name: &str) -> String {
-    format!("constraint-{}", slug(name))
 }
 
 /// Error codes that come with the bits of an entry.

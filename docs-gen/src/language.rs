@@ -24,12 +24,28 @@ macro_rules! words {
 }
 
 words! {
+    KeysHint "keys_hint":
+        "/ search, ↓ ↑ results, Enter best result, Esc clear",
+        "/ Suche, ↓ ↑ Treffer, Enter bester Treffer, Esc leeren";
+    Shaded "shaded":
+        "Shaded rows are kept over power-off.",
+        "Schattierte Zeilen überdauern das Ausschalten.";
+    Transitions "transitions": "transitions", "Übergänge";
+    States "states": "states", "Zustände";
+    Commands "commands": "commands", "Befehle";
+    On "on": "Devices", "Geräte";
+    Remanent "remanent": "by itself", "von selbst";
+    Manufacturer "manufacturer": "manufacturer", "Hersteller";
+    Communication "communication": "communication", "Kommunikation";
+    Capacity "capacity": "At most {n} bytes.", "Höchstens {n} Byte.";
+    Application "application": "application", "Anwendung";
+    And "and": "and", "und";
     Abbreviation "abbreviation": "Abbreviation", "Abkürzung";
     Access "access": "Attr", "Zugriff";
     Action "action": "Action", "Aktion";
     Active "active": "Active", "Aktiv";
     AlarmCode "alarm_code": "Error code", "Fehlercode";
-    Alias "alias": "16-bit view", "16-Bit-Abbild";
+    Alias "alias": "View", "Abbild";
     AliasOf "alias_of": "View of", "Abbild von";
     Aliases "aliases": "Aliases", "Abbilder";
     AliasesIntro "aliases_intro":
@@ -54,8 +70,8 @@ words! {
     CobId "cob_id": "COB-ID", "COB-ID";
     Command "command": "Command", "Befehl";
     Condition "condition": "Condition", "Bedingung";
-    Constraint "constraint": "Constraint", "Randbedingung";
-    Constraints "constraints": "Constraints", "Randbedingungen";
+    Constraint "constraint": "Constraint", "Bedingung";
+    Constraints "constraints": "Constraints", "Bedingungen";
     ConstraintsIntro "constraints_intro":
         "Conditions between entries that every configuration has to meet.",
         "Bedingungen zwischen Einträgen, die jede Parametrierung erfüllen muss.";
@@ -77,7 +93,7 @@ words! {
     ErrorCodes "error_codes": "Error codes", "Fehlercodes";
     Errors "errors": "Errors", "Fehler";
     Event "event": "Event", "Ereignis";
-    EventTimer "event_timer": "Event timer", "Ereigniszeit";
+    EventTimer "event_timer": "Event timer", "Event-Timer";
     Facts "facts": "Device", "Gerät";
     Factor "factor": "Factor", "Faktor";
     From "from": "From", "Von";
@@ -89,8 +105,8 @@ words! {
     Issue "issue": "Issue", "Ausgabe";
     Kind "kind": "Kind", "Art";
     Legend "legend":
-        "Attr: ro can be read, wo written, rw both; r(w) can be read, and written once the device is unlocked for service; const never changes. Map: N not mappable, Y (R) into RPDOs, Y (T) into TPDOs. Mem.: Y can be stored, N not. A default in a unit is followed by its raw value where the two differ.",
-        "Zugriff: ro ist lesbar, wo schreibbar, rw beides; r(w) ist lesbar und, wenn das Gerät für den Service entsperrt ist, schreibbar; const ändert sich nie. Map: N nicht abbildbar, Y (R) in RPDOs, Y (T) in TPDOs. Sp.: Y speicherbar, N nicht. Einer Vorgabe mit Einheit folgt ihr Rohwert, wo beide sich unterscheiden.";
+        "Attr: ro can be read, wo written, rw both; rwr and rww are rw for TPDOs and RPDOs alone; r(w) can be read, and written once the device is unlocked for service, (w) only the latter; const never changes. Map: N not mappable, Y (R) into RPDOs, Y (T) into TPDOs, Y (RT) into both. Mem.: Y can be stored, N not. Behind a value in a unit stands the raw value where the two differ; special values are raw. What is in italics is the word of a standard that the manual does not repeat.",
+        "Zugriff: ro ist lesbar, wo schreibbar, rw beides; rwr und rww sind rw nur für TPDOs und nur für RPDOs; r(w) ist lesbar und, wenn das Gerät für den Service entsperrt ist, schreibbar, (w) nur das Letztere; const ändert sich nie. Map: N nicht mappbar, Y (R) in RPDOs, Y (T) in TPDOs, Y (RT) in beide. Sp.: Y speicherbar, N nicht. Hinter einem Wert mit Einheit steht der Rohwert, wo beide sich unterscheiden; besondere Werte sind Rohwerte. Was kursiv steht, sagt ein Standard und nicht das Handbuch.";
     LockedNote "locked": "Writable only when the device is unlocked for service.", "Nur schreibbar, wenn das Gerät für den Service entsperrt ist.";
     Machines "machines": "State machines", "Zustandsmaschinen";
     Manual "manual": "Manual", "Handbuch";
@@ -100,7 +116,9 @@ words! {
     Description "description": "Description", "Beschreibung";
     Name "name": "Name", "Name";
     No "no": "no", "nein";
-    NoMatch "no_match": "Nothing fits. Escape clears the search.", "Nichts passt. Escape löscht die Suche.";
+    NoMatch "no_match":
+        "Nothing fits. Escape clears the search.",
+        "Nichts passt. Esc leert die Suche.";
     NodeId "node_id": "node-ID", "Node-ID";
     NotStored "not_stored": "not stored", "nicht gespeichert";
     NotSupported "not_supported": "not supported", "nicht unterstützt";
@@ -111,15 +129,19 @@ words! {
     OnlyThere "only_there": "Only while", "Nur solange";
     OrderCode "order_code": "Order code", "Bestellnummer";
     OutsideAbort "outside_abort": "outside its range: abort", "außerhalb seines Bereichs: Abbruch";
-    OutsideSaturate "outside_saturate": "outside its range: the nearest value", "außerhalb seines Bereichs: der nächste Wert";
+    OutsideSaturate "outside_saturate":
+        "outside its range: the nearest value",
+        "außerhalb seines Bereichs: der nächstgelegene Wert";
     OutsideWrap "outside_wrap": "outside its range: the low bits", "außerhalb seines Bereichs: die unteren Bits";
     Parameter "parameter": "Parameter", "Parameter";
     Pattern "pattern": "Bits", "Bits";
     Pdo "pdo": "PDO", "PDO";
     Pdos "pdos": "PDOs", "PDOs";
-    PdosIntro "pdos_intro": "Factory mapping. Bit 0 of byte 0 is sent first.", "Abbildung ab Werk. Bit 0 von Byte 0 wird zuerst gesendet.";
+    PdosIntro "pdos_intro":
+        "Factory mapping. Byte 0 is sent first; bit 0 is the least significant bit of a byte.",
+        "PDO-Mapping ab Werk. Byte 0 wird zuerst gesendet; Bit 0 ist das niederwertigste Bit eines Bytes.";
     Place "place": "Place", "Stelle";
-    Prints "prints": "The manual prints", "Das Handbuch druckt";
+    Prints "prints": "The manual prints", "Im Handbuch steht";
     Printed "printed": "Printed table", "Gedruckte Tabelle";
     Priority "priority": "Prio.", "Prio.";
     Product "product": "Product code", "Produktcode";
@@ -135,9 +157,9 @@ words! {
     ReportedBy "reported_by": "Shown by", "Angezeigt von";
     Reserved "reserved": "reserved", "reserviert";
     Revision "revision": "Issue", "Ausgabe";
-    RoundedDown "rounded_down": "rounded down", "abgerundet";
-    RoundedNearest "rounded_nearest": "rounded to the nearest step", "auf den nächsten Schritt gerundet";
-    RoundedUp "rounded_up": "rounded up", "aufgerundet";
+    RoundedDown "rounded_down": "rounded down", "nach unten gerundet";
+    RoundedNearest "rounded_nearest": "rounded to the nearest step", "auf den nächstgelegenen Schritt gerundet";
+    RoundedUp "rounded_up": "rounded up", "nach oben gerundet";
     RoundedZero "rounded_zero": "rounded towards zero", "zur Null hin gerundet";
     Search "search": "Search", "Suche";
     SearchHint "search_hint": "index, name or word", "Index, Name oder Wort";
@@ -151,7 +173,7 @@ words! {
     Storage "storage": "Storage", "Speicherung";
     StorageIntro "storage_intro":
         "What is kept over power-off: the entries that each command of store parameters (1010h) saves and that restore default parameters (1011h) sets back, and what the device keeps by itself.",
-        "Was das Ausschalten überdauert: die Einträge, die jeder Befehl von 1010h speichert und 1011h zurücksetzt, und was das Gerät von sich aus hält.";
+        "Was das Ausschalten überdauert: die Einträge, die jeder Befehl von 1010h (Parameter speichern) sichert und 1011h (Vorgaben wiederherstellen) zurücksetzt, und was das Gerät von sich aus hält.";
     Stored "stored": "Stored", "Gespeichert";
     StoredApplication "stored_application": "1010h.3, application parameters", "1010h.3, Anwendungsparameter";
     StoredCommunication "stored_communication": "1010h.2, communication parameters", "1010h.2, Kommunikationsparameter";
@@ -165,8 +187,8 @@ words! {
     SyncStart "sync_start": "SYNC start value", "SYNC-Startwert";
     Table "table": "Table", "Tabelle";
     TablesIntro "tables_intro":
-        "Every table of the printed manual, the table of this document that takes its place, and how many of its facts differ on purpose. The file tables.json lists them for programs, fact by fact.",
-        "Jede Tabelle des gedruckten Handbuchs, die Tabelle dieses Dokuments, die an ihre Stelle tritt, und wie viele ihrer Angaben mit Absicht abweichen. Die Datei tables.json führt sie für Programme einzeln auf.";
+        "Every table of the printed manual, the table of this document that takes its place, and the errata about it. The file tables.json lists them for programs, fact by fact.",
+        "Jede Tabelle des gedruckten Handbuchs, die Tabelle dieses Dokuments, die an ihre Stelle tritt, und die Errata dazu. Die Datei tables.json führt sie für Programme einzeln auf.";
     DiffersCount "differs_count": "Errata", "Errata";
     Target "target": "Shows", "Zeigt";
     Theme "theme": "Light or dark", "Hell oder dunkel";

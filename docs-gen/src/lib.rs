@@ -53,7 +53,7 @@ pub fn context(system: &System, options: &Options) -> Context {
             revision: issue.map_or_else(String::new, |issue| issue.number.clone()),
             date: issue.map_or_else(String::new, |issue| source.language.date(issue.date)),
         },
-        devices: source.devices.iter().map(|device| source.device(device)).collect(),
+        devices: source.devices.iter().map(|device| source.only(device).device(device)).collect(),
         chapters: source.chapter_views(),
         appendices: source.appendices(),
     }

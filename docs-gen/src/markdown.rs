@@ -32,9 +32,21 @@ pub(crate) fn escape(text: &str) -> String {
     escaped
 }
 
+/// A cell as a paragraph of its own: what would begin a heading, a list or a quotation is escaped.
+pub(crate) fn paragraph(one: &Value, page: &str) -> Result<String, Error> {
+    let text = cell(one, page)?.replace("<br>", "\\\n");
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    if digits > 0 && text[digits..].starts_with(['.', ')']) {
+        return Ok(format!("{}\\{}", &text[..digits], &text[digits..]));
+    }
+    Ok(if text.starts_with(['#', '>', '-', '+', '=']) { format!("\\{text}") } else { text })
+}
+
 /// A cell on a page: links to the same page are short.
 pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
     let mut text = String::new();
+    // The word of a standard is in italics; a line break ends them.
+    let italics = if cell.get_attr("standard")?.is_true() { "*" } else { "" };
     for part in cell.get_attr("parts")?.try_iter()? {
         let own = part.get_attr("text")?.to_string();
         match part.get_attr("kind")?.as_str() {
@@ -47,10 +59,16 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
                 let file =
                     if target == page || target.is_empty() { String::new() } else { format!("{target}.md") };
                 let anchor = part.get_attr("anchor")?.to_string();
-                let _ = write!(text, "[{}]({file}#{})", escape(&own), heading(&anchor));
+                let _ = write!(text, "[{}]({file}#{})", escape(&own).replace('\n', " "), heading(&anchor));
             }
             _ => {
-                text.push_str(&escape(&own).replace('\n', " "));
+                let own = escape(&own).replace('\n', " ");
+                let inner = own.trim();
+                if italics.is_empty() || inner.is_empty() {
+                    text.push_str(&own);
+                } else {
+                    text.push_str(&own.replace(inner, &format!("{italics}{inner}{italics}")));
+                }
                 let language = part.get_attr("language")?.to_string();
                 if !language.is_empty() {
                     let _ = write!(text, " *({language})*");
@@ -75,7 +93,7 @@ fn heading(anchor: &str) -> &str {
 pub(crate) fn table(grid: &Value, page: &str) -> Result<String, Error> {
     let (mut titles, mut aligns) = (Vec::new(), Vec::new());
     for column in grid.get_attr("columns")?.try_iter()? {
-        titles.push(escape(&column.get_attr("title")?.to_string()));
+        titles.push(escape(&column.get_attr("title")?.to_string()).replace('\n', " "));
         aligns.push(column.get_attr("align")?.to_string());
     }
     let mut rows: Vec<Vec<String>> = vec![titles];

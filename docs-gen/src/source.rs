@@ -4,16 +4,30 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::expr::{EntryRef, Expr, Term};
 use od_spec::model::{
-    DataType, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index, Object, System,
+    DataType, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index, Object, Ratio, System,
     TableContent, TableId, Text, TypeKind, Unit, Value,
 };
 
 use crate::Options;
-use crate::cell::{entry_anchor, object_anchor, slug};
+use crate::cell::{entry_anchor, slug};
 use crate::language::{Language, Word};
 use crate::view::Cell;
 
-/// Name of the page of a chapter.
+/// Names of pages that chapters leave to others.
+const PAGES: [&str; 10] = [
+    "readme",
+    "index",
+    "errors",
+    "aliases",
+    "units",
+    "storage",
+    "constraints",
+    "machines",
+    "errata",
+    "tables",
+];
+
+/// Name of the page of a chapter; may be empty.
 pub(crate) fn chapter_page(number: &str, title: &str) -> String {
     slug(&format!("{number} {title}"))
 }
@@ -28,7 +42,7 @@ pub(crate) struct Source<'a> {
     pub accessors: &'a BTreeMap<(String, EntryId), String>,
     /// The page, where pages are small, that shows an object in detail.
     homes: BTreeMap<Index, String>,
-    /// Position of an erratum by entry or object, ascending.
+    /// Positions of the errata about each object, ascending.
     errata: BTreeMap<Index, Vec<usize>>,
 }
 
@@ -51,10 +65,10 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// The same for one device alone.
+    /// The same for the page of one device, which shows every object of the device itself.
     pub(crate) fn only(&self, device: &'a Dictionary) -> Self {
-        let (homes, errata) = (self.homes.clone(), self.errata.clone());
-        Self { devices: vec![device], homes, errata, ..*self }
+        let homes = device.objects.keys().map(|index| (*index, device.key.clone())).collect();
+        Self { devices: vec![device], homes, errata: self.errata.clone(), ..*self }
     }
 
     fn find_errata(&self) -> BTreeMap<Index, Vec<usize>> {
@@ -92,12 +106,20 @@ impl<'a> Source<'a> {
     pub(crate) fn chapters(&self) -> Vec<(String, Vec<(usize, usize)>)> {
         let mut chapters: Vec<(String, Vec<(usize, usize)>)> = Vec::new();
         for (at, section) in self.system.document.sections.iter().enumerate() {
-            let level = if section.number.is_empty() { 1 } else { section.number.split('.').count() };
+            let level = section.number.split('.').filter(|part| !part.is_empty()).count().max(1);
             match chapters.last_mut() {
                 Some((_, sections)) if level > 1 => sections.push((at, level)),
                 _ => {
                     let title = section.title.get(self.system.language()).unwrap_or_default();
-                    chapters.push((chapter_page(&section.number, title), vec![(at, level)]));
+                    let page = chapter_page(&section.number, title);
+                    let taken = |name: &str| {
+                        PAGES.contains(&name)
+                            || self.system.devices.iter().any(|device| device.key == name)
+                            || chapters.iter().any(|(page, _)| page == name)
+                    };
+                    let page =
+                        if page.is_empty() || taken(&page) { format!("chapter-{}", at + 1) } else { page };
+                    chapters.push((page, vec![(at, level)]));
                 }
             }
         }
@@ -128,22 +150,30 @@ impl<'a> Source<'a> {
         self.link(id.index, id.to_string(), entry_anchor(id))
     }
 
-    /// A link to an object; of a device that is not shown, the index alone.
-    pub(crate) fn object_link(&self, index: Index) -> Cell {
-        self.link(index, index.to_string(), object_anchor(index))
-    }
-
     /// A link to something of an object, if a device shown has the object.
     pub(crate) fn link(&self, index: Index, text: String, anchor: String) -> Cell {
-        if self.devices.iter().all(|device| !device.objects.contains_key(&index)) {
-            return Cell::plain(text);
-        }
-        Cell::default().link(text, anchor, self.home(index))
+        self.link_on(&[], index, text, anchor)
+    }
+
+    /// A link to something of an object of these devices; none means any.
+    pub(crate) fn link_on(&self, devices: &[String], index: Index, text: String, anchor: String) -> Cell {
+        let meant = |device: &&&Dictionary| devices.is_empty() || devices.contains(&device.key);
+        let has = |device: &&&Dictionary| device.objects.contains_key(&index);
+        let Some(device) = self.devices.iter().filter(meant).find(has) else { return Cell::plain(text) };
+        // What no chapter details stands on the page of its device: each device has one.
+        let home = self.home(index);
+        let is_device = self.devices.iter().any(|device| device.key == home);
+        Cell::default().link(text, anchor, if is_device { &device.key } else { home })
+    }
+
+    /// A link to an entry of a device.
+    pub(crate) fn entry_link_on(&self, device: &Dictionary, id: EntryId) -> Cell {
+        self.link_on(std::slice::from_ref(&device.key), id.index, id.to_string(), entry_anchor(id))
     }
 
     /// A link to an entry with its name.
     pub(crate) fn named_entry(&self, device: &Dictionary, id: EntryId) -> Cell {
-        self.entry_link(id).text(format!(" {}", device.entry_name(id).unwrap_or_default()))
+        self.entry_link_on(device, id).text(format!(" {}", device.entry_name(id).unwrap_or_default()))
     }
 
     /// Whether an erratum is about one of the devices shown.
@@ -176,7 +206,8 @@ impl<'a> Source<'a> {
             Some(number) => format!("table-{number}"),
             None => {
                 let before = section.tables[..id.table].iter().filter(|table| table.number.is_none()).count();
-                let anchor = format!("{}-{}", section_anchor(section), kind_of(&table.content));
+                let section = section_anchor(self.document(), id.section);
+                let anchor = format!("{section}-{}", kind_of(&table.content));
                 if before == 0 { anchor } else { format!("{anchor}-{}", before + 1) }
             }
         }
@@ -190,6 +221,7 @@ impl<'a> Source<'a> {
                 format!("{} + {}", hex(u128::from(*offset), 3), self.word(Word::NodeId))
             }
             Value::Real(number) => self.language.number(&format!("{number:?}")),
+            Value::Text(text) if text.is_empty() => "\"\"".to_owned(),
             Value::Text(text) => text.clone(),
             Value::Bytes(bytes) => {
                 bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
@@ -215,11 +247,7 @@ impl<'a> Source<'a> {
                 || raw.to_string(),
                 |unit| {
                     let physical = self.physical(unit, raw);
-                    if unit.scale == od_spec::model::Ratio::ONE {
-                        physical
-                    } else {
-                        format!("{physical} ({raw})")
-                    }
+                    if unit.scale == Ratio::ONE { physical } else { format!("{physical} ({raw})") }
                 },
             ),
         }
@@ -227,12 +255,20 @@ impl<'a> Source<'a> {
 
     /// A raw value in its unit: `50.0 °C`.
     pub(crate) fn physical(&self, unit: &Unit, raw: i128) -> String {
-        self.language.number(&unit.show(raw))
+        self.localized(unit, &unit.show(raw))
+    }
+
+    /// A number with the symbol of a unit, which itself stays as it is.
+    fn localized(&self, unit: &Unit, text: &str) -> String {
+        match text.strip_suffix(&unit.symbol) {
+            Some(number) => self.language.number(number) + &unit.symbol,
+            None => self.language.number(text),
+        }
     }
 
     /// What one raw step is worth: `0.1 °C`.
     pub(crate) fn step(&self, unit: &Unit) -> String {
-        self.language.number(&unit.step_text())
+        self.localized(unit, &unit.step_text())
     }
 
     /// The limits of an entry: `0 to 100`, `≤ 90.0 °C (900)`.
@@ -244,7 +280,7 @@ impl<'a> Source<'a> {
             entry.high.filter(|high| own.is_none_or(|(_, highest)| *high != highest)),
         );
         let one = |raw: i128| match &entry.unit {
-            Some(unit) if unit.scale != od_spec::model::Ratio::ONE => {
+            Some(unit) if unit.scale != Ratio::ONE => {
                 format!("{} ({raw})", self.physical(unit, raw))
             }
             Some(unit) => self.physical(unit, raw),
@@ -261,32 +297,30 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The device of an entry that a condition names.
+    /// The device of an entry that a condition names: the one it says, or else one that is shown.
     pub(crate) fn device_of(&self, devices: &[String], entry: &EntryRef) -> Option<&'a Dictionary> {
-        let has = |device: &&Dictionary| device.entry(entry.id).is_some();
-        match &entry.device {
-            Some(key) => self.system.devices.iter().find(|device| &device.key == key),
-            None => self
-                .system
-                .devices
-                .iter()
-                .filter(|device| devices.is_empty() || devices.contains(&device.key))
-                .find(has),
-        }
+        let meant = |device: &&Dictionary| match &entry.device {
+            Some(key) => &device.key == key,
+            None => (devices.is_empty() || devices.contains(&device.key)) && device.entry(entry.id).is_some(),
+        };
+        self.devices.iter().copied().find(meant).or_else(|| self.system.devices.iter().find(meant))
     }
 
-    /// A condition in words: names with links instead of bare indices.
+    /// A condition in words: names with links instead of bare indices, numbers with the unit they are compared in.
     pub(crate) fn condition(&self, condition: &Expr, devices: &[String]) -> Cell {
         let mut cell = Cell::default();
         for (at, comparison) in condition.comparisons.iter().enumerate() {
             if at > 0 {
-                cell = cell.text(if self.language.code.starts_with("de") { " und " } else { " and " });
+                cell = cell.text(format!(" {} ", self.word(Word::And)));
             }
-            cell = self.term(cell, &comparison.first, devices, 0);
+            let rest = comparison.rest.iter().map(|(_, term)| term);
+            let terms = std::iter::once(&comparison.first).chain(rest);
+            let symbol = terms.into_iter().find_map(|term| self.symbol(term, devices)).unwrap_or_default();
+            cell = self.term(cell, &comparison.first, devices, 0, &symbol);
             let mut left = &comparison.first;
             for (operator, term) in &comparison.rest {
                 cell = cell.text(format!(" {} ", relation(*operator)));
-                cell = self.term(cell, term, devices, 0);
+                cell = self.term(cell, term, devices, 0, &symbol);
                 if let Some(name) = self.value_name(left, term, devices) {
                     cell = cell.text(format!(" ({name})"));
                 }
@@ -294,6 +328,30 @@ impl<'a> Source<'a> {
             }
         }
         cell
+    }
+
+    /// The symbol in which a term is compared: that of its unit's base.
+    pub(crate) fn symbol(&self, term: &Term, devices: &[String]) -> Option<String> {
+        use od_spec::expr::ArithmeticOp as Op;
+        match term {
+            Term::Number(_) | Term::Bit(..) => None,
+            Term::Entry(entry) => {
+                let unit = self.device_of(devices, entry)?.entry(entry.id)?.unit.as_ref()?;
+                Some(unit.base_symbol().to_owned())
+            }
+            Term::Binary(left, Op::Add | Op::Subtract, right) => {
+                self.symbol(left, devices).or_else(|| self.symbol(right, devices))
+            }
+            Term::Binary(left, Op::Multiply, right) => {
+                match (self.symbol(left, devices), self.symbol(right, devices)) {
+                    (Some(symbol), None) | (None, Some(symbol)) => Some(symbol),
+                    _ => None,
+                }
+            }
+            Term::Binary(left, Op::Divide, right) => {
+                self.symbol(left, devices).filter(|_| self.symbol(right, devices).is_none())
+            }
+        }
     }
 
     /// The name of the number that an enum is compared with.
@@ -305,19 +363,35 @@ impl<'a> Source<'a> {
         Some(&value.name)
     }
 
-    fn term(&self, cell: Cell, term: &Term, devices: &[String], around: u8) -> Cell {
-        use od_spec::expr::ArithmeticOp as Op;
-        let named = |cell: Cell, entry: &EntryRef| {
-            let device = self.device_of(devices, entry);
-            let name = device.and_then(|device| device.entry_name(entry.id)).unwrap_or_default();
-            cell.text(format!("{name} (")).and(self.entry_link(entry.id)).text(")")
+    /// An entry of a condition: its name and its id, with the device where the condition names one.
+    fn operand(&self, cell: Cell, entry: &EntryRef, devices: &[String]) -> Cell {
+        let device = self.device_of(devices, entry);
+        let name = device.and_then(|device| device.entry_name(entry.id)).unwrap_or_default();
+        let said = entry.device.as_ref().filter(|_| self.system.devices.len() > 1);
+        let text = match said {
+            Some(key) => format!("{} {}", key.to_uppercase(), entry.id),
+            None => entry.id.to_string(),
         };
+        let meant: &[String] = entry.device.as_ref().map_or(devices, std::slice::from_ref);
+        let link = self.link_on(meant, entry.id.index, text, entry_anchor(entry.id));
+        cell.text(format!("{name} (")).and(link).text(")")
+    }
+
+    /// A term; a number that is compared or added is in the unit of `symbol`.
+    pub(crate) fn term(&self, cell: Cell, term: &Term, devices: &[String], around: u8, symbol: &str) -> Cell {
+        use od_spec::expr::ArithmeticOp as Op;
         match term {
-            Term::Number(number) => cell.text(self.language.number(&number.to_string())),
-            Term::Entry(entry) => named(cell, entry),
+            Term::Number(number) => {
+                let number = self.language.number(&number.to_string());
+                cell.text(if symbol.is_empty() { number } else { format!("{number} {symbol}") })
+            }
+            Term::Entry(entry) => self.operand(cell, entry, devices),
             Term::Bit(entry, bit) => {
                 let words = self.word(Word::BitOf).replace("{n}", &bit.to_string());
-                named(cell.text(format!("{words} ")), entry)
+                self.operand(cell.text(format!("{words} ")), entry, devices)
+            }
+            Term::Binary(left, Op::Subtract, right) if **left == Term::Number(Ratio::whole(0)) => {
+                self.term(cell.text("−"), right, devices, 3, symbol)
             }
             Term::Binary(left, operator, right) => {
                 let (sign, level) = match operator {
@@ -326,12 +400,14 @@ impl<'a> Source<'a> {
                     Op::Multiply => ("×", 2),
                     Op::Divide => ("/", 2),
                 };
+                // A factor is a bare number.
+                let symbol = if level == 2 { "" } else { symbol };
                 let brackets = level < around;
                 let cell = if brackets { cell.text("(") } else { cell };
-                let cell = self.term(cell, left, devices, level).text(format!(" {sign} "));
+                let cell = self.term(cell, left, devices, level, symbol).text(format!(" {sign} "));
                 // The right side of `-` and `/` needs brackets at its own level, too.
                 let right_level = level + u8::from(matches!(operator, Op::Subtract | Op::Divide));
-                let cell = self.term(cell, right, devices, right_level);
+                let cell = self.term(cell, right, devices, right_level, symbol);
                 if brackets { cell.text(")") } else { cell }
             }
         }
@@ -351,12 +427,18 @@ pub(crate) const fn relation(operator: od_spec::expr::CompareOp) -> &'static str
     }
 }
 
-/// The anchor of a section.
-pub(crate) fn section_anchor(section: &od_spec::model::Section) -> String {
-    if section.number.is_empty() {
-        slug(section.title.iter().next().map_or("section", |(_, title)| title))
+/// The anchor of a section: its number, or else its title and, where another has the same, its place.
+pub(crate) fn section_anchor(document: &Document, section: usize) -> String {
+    let own = |section: &od_spec::model::Section| match section.number.as_str() {
+        "" => slug(section.title.iter().next().map_or("", |(_, title)| title)),
+        number => number.trim_end_matches('.').replace(char::is_whitespace, "-"),
+    };
+    let name = own(&document.sections[section]);
+    let before = document.sections[..section].iter().filter(|other| own(other) == name).count();
+    if before == 0 && !name.is_empty() {
+        format!("section-{name}")
     } else {
-        format!("section-{}", section.number)
+        format!("section-{name}-no-{section}")
     }
 }
 

@@ -48,6 +48,8 @@ const HTML: &[(&str, &str)] = files!(
     "html/_pictures.html",
     "html/_style.css",
     "html/_script.js",
+    "html/_user.css",
+    "html/_footer.html",
     "html/index.html",
     "html/device.html",
 );
@@ -127,6 +129,14 @@ impl Templates {
             all.get_attr(key).and_then(|list| list.try_iter()).map_or_else(|_| Vec::new(), Iterator::collect)
         };
         let mut pages = Vec::new();
+        if self.files.keys().all(|name| name.starts_with('_')) {
+            return Err(TemplateError {
+                template: String::new(),
+                source: String::new(),
+                range: 0..0,
+                message: "no template is printed: the names of all begin with `_`".to_owned(),
+            });
+        }
         for name in self.files.keys().filter(|name| !name.starts_with('_')) {
             let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
             let (many, key) = match stem {
@@ -222,6 +232,7 @@ fn environment() -> Environment<'static> {
     environment.add_filter("cut", cut);
     environment.add_filter("md", |text: &str| markdown::escape(text));
     environment.add_filter("md_cell", |cell: &Value, page: &str| markdown::cell(cell, page));
+    environment.add_filter("md_paragraph", |cell: &Value, page: &str| markdown::paragraph(cell, page));
     environment.add_filter("md_table", |grid: &Value, page: &str| markdown::table(grid, page));
     environment
 }

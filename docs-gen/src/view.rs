@@ -80,6 +80,8 @@ pub struct Table {
     pub number: Option<u16>,
     /// Caption; may be empty.
     pub title: Cell,
+    /// More about what it shows; may be empty.
+    pub about: Cell,
     /// What fills it: `overview`, `objects`, `bits`, `values`, `errors`, `reactions`, `states`, `transitions`, `commands`,
     /// `ladder`, `pdos`, `rows`, `glossary`, `history`, or the name of an appendix.
     pub kind: &'static str,
@@ -152,6 +154,8 @@ pub struct Cell {
     pub text: String,
     /// The same in parts.
     pub parts: Vec<Part>,
+    /// Whether a standard says it, and the maker does not.
+    pub standard: bool,
 }
 
 /// A part of a [`Cell`].
@@ -203,6 +207,8 @@ pub struct Filters {
     pub units: Vec<String>,
     /// Storage groups: word of the specification and text.
     pub stored: Vec<(&'static str, String)>,
+    /// Directions of mapping: word of the specification and text.
+    pub mappable: Vec<(&'static str, &'static str)>,
 }
 
 /// An object with everything that is known about it.
@@ -232,8 +238,8 @@ pub struct ObjectView {
     pub places: Vec<Place>,
     /// Errata about it.
     pub errata: Vec<ErratumView>,
-    /// What to copy: entry, `index:sub` and the accessor of generated Rust (may be empty).
-    pub paths: Vec<EntryPath>,
+    /// Its entries, in the order of the detail table.
+    pub entries: Vec<EntryView>,
     /// For filters, each once: accesses.
     pub access: Vec<String>,
     /// For filters: data types.
@@ -270,15 +276,36 @@ pub struct Used {
     pub lines: Vec<Cell>,
 }
 
-/// How an entry is named elsewhere.
+/// An entry as plain facts, for lists of one's own.
 #[derive(Debug, Clone, Serialize)]
-pub struct EntryPath {
+pub struct EntryView {
+    /// Index, `6040h`.
+    pub index: String,
+    /// Sub-index.
+    pub sub: u8,
     /// Name.
     pub name: String,
     /// Where links lead.
     pub anchor: String,
-    /// `0x6040:00`.
-    pub entry: String,
+    /// Data type, as a specification writes it.
+    #[serde(rename = "type")]
+    pub data_type: &'static str,
+    /// `ro`, `wo`, `rw`, `r(w)`, …
+    pub access: String,
+    /// `none`, `receive`, `transmit`, `both`.
+    pub pdo: &'static str,
+    /// Raw default: a number, or a text; empty where there is none.
+    pub default: String,
+    /// Raw limits; empty where there are none.
+    pub low: String,
+    /// The other one.
+    pub high: String,
+    /// One raw step: `0.1 °C`; may be empty.
+    pub unit: String,
+    /// `no`, `communication`, `application`, `manufacturer`, `remanent`.
+    pub stored: &'static str,
+    /// `0x6040:00`, both hexadecimal.
+    pub path: String,
     /// Call of the accessor in generated Rust; empty where there is none.
     pub rust: String,
 }

@@ -206,8 +206,25 @@ fn two_devices_of_one_key_are_refused() {
 #[test]
 fn check_says_nothing_when_all_is_well() {
     let scratch = Scratch::new("check");
-    let output = odgen(&scratch.0, &["check", PITCH]);
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["check", "lamp.od.yaml"]);
     assert_eq!((code(&output), stdout(&output), stderr(&output)), (0, String::new(), String::new()));
+}
+
+/// What departs from a standard is no mistake; people are told how much there is, and get the list when they ask.
+#[test]
+fn departures_from_a_standard_are_notes() {
+    let scratch = Scratch::new("notes");
+    let output = odgen(&scratch.0, &["check", PITCH, "--deny-warnings"]);
+    assert_eq!((code(&output), stdout(&output)), (0, String::new()));
+    let said = stderr(&output);
+    assert!(said.starts_with("note: ") && said.lines().count() == 1, "{said}");
+    let output = odgen(&scratch.0, &["check", PITCH, "--notes"]);
+    let list = stderr(&output);
+    assert_eq!(said.split(' ').nth(1).unwrap(), list.lines().count().to_string());
+    assert!(list.contains("note[OD0811]: 1003h pre defined error field departs from cia301: name"), "{list}");
+    let output = odgen(&scratch.0, &["check", PITCH, "--format", "json"]);
+    assert_eq!(stderr(&output), "");
 }
 
 #[test]

@@ -29,6 +29,7 @@ pub(crate) struct Spec {
     pub devices: Vec<DeviceDecl>,
     pub units: Vec<UnitDecl>,
     pub types: Vec<TypeDecl>,
+    pub axes: Option<Axes>,
     pub features: Vec<FeatureDecl>,
     pub objects: Vec<ObjectDecl>,
     pub pdos: Vec<(Name, Vec<PdoDecl>)>,
@@ -37,6 +38,33 @@ pub(crate) struct Spec {
     pub constraints: Vec<ConstraintDecl>,
     pub errata: Vec<ErratumDecl>,
     pub sections: Vec<SectionDecl>,
+}
+
+/// Objects of a library that repeat for every axis.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Axes {
+    pub first: Index,
+    pub last: Index,
+    pub count: u16,
+}
+
+impl Axes {
+    /// Axis (from 1) and index on axis 1 of an index on a further axis.
+    pub(crate) fn locate(self, index: Index) -> Option<(u16, Index)> {
+        let size = self.last.0.checked_sub(self.first.0)?.checked_add(1)?;
+        let offset = index.0.checked_sub(self.first.0)?;
+        let axis = offset / size + 1;
+        (2..=self.count).contains(&axis).then_some((axis, Index(self.first.0 + offset % size)))
+    }
+
+    /// The index on an axis (from 1) of an index on axis 1; indices outside the axes are the same on all.
+    pub(crate) fn shift(self, index: Index, axis: u16) -> Option<Index> {
+        if !(self.first..=self.last).contains(&index) {
+            return Some(index);
+        }
+        let size = self.last.0.checked_sub(self.first.0)?.checked_add(1)?;
+        Some(Index(index.0.checked_add(size.checked_mul(axis.checked_sub(1)?)?)?))
+    }
 }
 
 #[derive(Debug)]
@@ -200,6 +228,15 @@ macro_rules! entry_decl {
                 }
             }
 
+            /// Names of the facts that stand in another file than this one.
+            pub(crate) fn not_from(&self, file: FileId) -> Vec<&'static str> {
+                let mut names = Vec::new();
+                $(if self.$field.as_ref().is_some_and(|fact| fact.span.file != file) {
+                    names.push(stringify!($field));
+                })+
+                names
+            }
+
             /// Names of the facts written here that differ from those below.
             pub(crate) fn differences(&self, below: &EntryDecl) -> Vec<&'static str> {
                 let mut names = Vec::new();
@@ -275,16 +312,22 @@ pub(crate) struct PdoDecl {
 #[derive(Debug)]
 pub(crate) struct ErrorDecl {
     pub codes: Spanned<(u16, u16)>,
+    /// Something here was refused.
+    pub unsure: bool,
     pub name: Option<Name>,
+    pub from: Option<Name>,
     pub on: Option<Vec<Name>>,
     pub priority: Option<Name>,
     pub reaction: Words,
     pub about: Words,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct MachineDecl {
     pub name: Name,
+    /// Something here was refused.
+    pub unsure: bool,
+    pub from: Option<Name>,
     pub on: Option<Vec<Name>>,
     pub status: Option<Name>,
     pub command: Option<Name>,
@@ -293,7 +336,7 @@ pub(crate) struct MachineDecl {
     pub commands: Vec<CommandDecl>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct TransitionDecl {
     pub number: Spanned<i128>,
     pub from: Vec<Name>,
@@ -302,7 +345,7 @@ pub(crate) struct TransitionDecl {
     pub action: Words,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct CommandDecl {
     pub name: Name,
     pub pattern: Option<Spanned<BitPattern>>,

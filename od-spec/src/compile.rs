@@ -9,7 +9,10 @@ use crate::source::{FileId, SourceMap, Span};
 use crate::yaml::{self, shorten};
 
 /// Libraries that come with the compiler: name and text.
-pub const LIBRARIES: &[(&str, &str)] = &[("cia301", include_str!("../profiles/cia301.od.yaml"))];
+pub const LIBRARIES: &[(&str, &str)] = &[
+    ("cia301", include_str!("../profiles/cia301.od.yaml")),
+    ("cia402", include_str!("../profiles/cia402.od.yaml")),
+];
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: usize = 64 << 20;
@@ -128,11 +131,12 @@ fn load(
 ) -> Result<FileId, Box<Diagnostic>> {
     let missing = |reason: &str| {
         let known = LIBRARIES.iter().map(|(name, _)| *name);
-        let help =
-            match nearest(path, known).filter(|word| !path.starts_with("cia") || path.len() != word.len()) {
-                Some(word) => format!("did you mean `{word}`?"),
-                None => "name a built-in library (`cia301`), or a file relative to this one".to_owned(),
-            };
+        let help = match nearest(path, known)
+            .filter(|word| !path.starts_with("cia") || path.len() != word.len())
+        {
+            Some(word) => format!("did you mean `{word}`?"),
+            None => "name a built-in library (`cia301`, `cia402`), or a file relative to this one".to_owned(),
+        };
         Box::new(
             Diagnostic::new(
                 Code::MissingLibrary,

@@ -148,11 +148,12 @@ keys! {
         "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
         "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
         "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
-        "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, or the path of a library file", "[cia301]";
+        "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia402`, or the path of a library file", "[cia301, cia402]";
         "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
         "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
         "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
         "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
+        "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
         "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
         "objects": Shape::MapOf(KeyKind::Indices, &Shape::Map(&OBJECT)), "the objects, by index or indices";
         "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
@@ -161,6 +162,15 @@ keys! {
         "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
         "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
         "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
+    }
+}
+
+keys! {
+    /// `axes:`.
+    AXES = "axes" {
+        "first" required: Shape::Index, "first index of axis 1", "0x6000";
+        "last" required: Shape::Index, "last index of axis 1; axis 2 begins behind it", "0x67FF";
+        "count" required: Shape::Integer(2, 16), "number of axes";
     }
 }
 
@@ -209,7 +219,7 @@ keys! {
         "dummies": Shape::List(&Shape::Text), "data types that may stand in an RPDO as placeholders", "[unsigned8, unsigned16]";
         "features": Shape::List(&Shape::Text), "features of the used libraries that the device has", "[heartbeat producer, emergency]";
         "eds": Shape::Map(&FILE), "what the EDS says about itself";
-        "eds-defaults": Shape::Choice(&["safe", "all"]), "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `all` writes every default; safe unless given";
+        "eds-defaults": Shape::Choice(&["safe", "own", "all"]), "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `own` withholds also those that only a library states; `all` writes every default; safe unless given";
     }
 }
 
@@ -570,7 +580,8 @@ keys! {
 keys! {
     /// An error code.
     ERROR = "an error code" {
-        "name" required: Shape::Text, "name; `{n}` counts through a range from 1", "\"Voltage at battery block {n} too low\"";
+        "name": Shape::Text, "name; `{n}` counts through a range from 1; needed without `from`", "\"Voltage at battery block {n} too low\"";
+        "from": Shape::Text, "library that defines the code; the other keys go before it", "cia402";
         "on": NAMES, "devices that report it; all unless given";
         "priority": Shape::Text, "priority, as the manual classes it";
         "reaction": Shape::Words, "what the device does";
@@ -581,10 +592,11 @@ keys! {
 keys! {
     /// A state machine.
     MACHINE = "a state machine" {
+        "from": Shape::Text, "library that defines a machine of this name; states, transitions and commands of one name or number go before the library's", "cia402";
         "on": NAMES, "devices that have it; all unless given";
-        "status" required: Shape::Entry, "entry that shows the state", "0x6041";
-        "command" required: Shape::Entry, "entry that takes the commands", "controlword";
-        "states" required: Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)), "states by name";
+        "status": Shape::Entry, "entry that shows the state; needed without `from`", "0x6041";
+        "command": Shape::Entry, "entry that takes the commands; needed without `from`", "controlword";
+        "states": Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)), "states by name";
         "transitions": Shape::MapOf(KeyKind::Number, &Shape::Map(&TRANSITION)), "transitions by number";
         "commands": Shape::MapOf(KeyKind::Name, &Shape::Map(&COMMAND)), "commands by name";
     }
@@ -593,7 +605,7 @@ keys! {
 keys! {
     /// A state.
     STATE = "a state" {
-        "pattern" required: Shape::Pattern, "bits of the status entry, most significant first; `x` either", "\"xxxx xxxx x01x 0001\"";
+        "pattern": Shape::Pattern, "bits of the status entry, most significant first; `x` either", "\"xxxx xxxx x01x 0001\"";
         "about": Shape::Words, "meaning";
     }
 }
@@ -601,9 +613,9 @@ keys! {
 keys! {
     /// A transition.
     TRANSITION = "a transition" {
-        "from" required: Shape::OneOrMore(&Shape::Text), "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
-        "to" required: Shape::Text, "state it enters";
-        "event" required: Shape::Words, "what causes it";
+        "from": Shape::OneOrMore(&Shape::Text), "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
+        "to": Shape::Text, "state it enters";
+        "event": Shape::Words, "what causes it";
         "action": Shape::Words, "what the device does";
     }
 }
@@ -611,7 +623,7 @@ keys! {
 keys! {
     /// A command.
     COMMAND = "a command" {
-        "pattern" required: Shape::Pattern, "bits of the command entry, most significant first; `x` either, `r` rising, `f` falling edge", "\"xxxx xxxx 0xxx x110\"";
+        "pattern": Shape::Pattern, "bits of the command entry, most significant first; `x` either, `r` rising, `f` falling edge", "\"xxxx xxxx 0xxx x110\"";
         "send": U32, "a value that gives the command", "0x0006";
         "transitions": Shape::List(&U8), "transitions it causes", "[2, 6, 8]";
         "about": Shape::Words, "meaning";

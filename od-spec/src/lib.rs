@@ -27,6 +27,7 @@ mod ast;
 mod check;
 mod compile;
 mod decode;
+mod departures;
 pub mod diag;
 pub mod expr;
 mod json_schema;
@@ -39,6 +40,7 @@ pub mod source;
 pub mod yaml;
 
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
+pub use departures::departures;
 pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign, eds_text_problem};
 pub use reference::reference;

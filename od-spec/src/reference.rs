@@ -34,8 +34,11 @@ pub fn reference() -> String {
 
 /// The features of the built-in libraries, in the words of the libraries.
 fn features() -> String {
-    let mut out = String::from("| Feature | Objects | Meaning |\n| --- | --- | --- |\n");
+    let mut out = String::new();
     for (name, text) in LIBRARIES {
+        out.push_str(if out.is_empty() { "" } else { "\n" });
+        let _ =
+            write!(out, "Of the library `{name}`:\n\n| Feature | Objects | Meaning |\n| --- | --- | --- |\n");
         let mut sources = SourceMap::new();
         let id = sources.add(*name, *text);
         let library = yaml::parse(id, sources.file(id), &mut Diagnostics::new());
@@ -300,7 +303,10 @@ static CHAPTERS: &[Chapter] = &[
     Chapter {
         title: "Libraries",
         text: USES,
-        sections: &[Section { keys: &keys::FEATURE, rules: FEATURES }],
+        sections: &[
+            Section { keys: &keys::FEATURE, rules: FEATURES },
+            Section { keys: &keys::AXES, rules: AXES },
+        ],
     },
     Chapter {
         title: "PDOs",
@@ -547,9 +553,10 @@ const OUTSIDE: &[(&str, &str)] = &[
 ];
 
 const USES: &str = r"
-A library is a specification with `profile:` and without `uses:`. The library `cia301`, which comes with the compiler, holds the objects
-of the communication profile; other libraries are files, named by a path relative to the file that uses them. What a library gives are
-its units, its types, and its objects. A type is defined once in a file and its libraries; a unit may be defined again if it is the same.
+A library is a specification with `profile:` and without `uses:`. Two come with the compiler: `cia301` holds the objects of the
+communication profile, `cia402` those of drives. Others are files, named by a path relative to the file that uses them. What a library gives are
+its units, its types, its objects, its error codes and its state machines. A type is defined once in a file and its libraries; a unit may be
+defined again if it is the same.
 
 Objects of a library come into a device in two ways. A feature brings its objects just as the library defines them. An object of the
 file's own with `from:` takes the library's object of the same index and changes it: each key that is written goes before the library's,
@@ -567,12 +574,33 @@ objects:
 ```
 
 An object of the file's own always goes before that of a feature, with `from:` or without.
+
+What is written is the maker's word, what is taken from the library the standard's: the documentation tells the two apart, and
+`odgen check --notes` lists the objects whose own facts depart from the library's. So a fact that a manual states is worth writing even where the
+library says the same.
+
+An error code with `from:` takes its name, priority, reaction and description from the library, as far as it does not give its own. A state
+machine with `from:` takes the library's machine of the same name; its own states, transitions and commands go before the library's of the
+same name or number, key by key.
+
+```yaml
+errors:
+  0x2310: {from: cia402, about: The current at the output was too high for too long.}
+state-machines:
+  power drive system: {from: cia402}
+```
 ";
 
 const FEATURES: &str = r"
-A device has the features that its `features:` names, those they need, and those that are implied. The library `cia301` has these:
+A device has the features that its `features:` names, those they need, and those that are implied.
 
 {FEATURES}
+";
+
+const AXES: &str = r"
+The objects between `first:` and `last:` are those of axis 1; axis 2 begins behind `last:`, and so on. `0x6864: {from: cia402}` takes 6064h for axis
+2; without a name of its own it is called `Position actual value axis 2`. A feature of a further axis has the axis behind its name:
+`features: [drive, homing mode, drive axis 2, homing mode axis 2]`.
 ";
 
 const PDOS: &str = r"

@@ -4,6 +4,23 @@ use std::collections::BTreeSet;
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
+/// Columns that a table may lack.
+const OPTIONAL: [&str; 13] = [
+    "Active",
+    "Clamp",
+    "Code",
+    "Device",
+    "Error code",
+    "Meaning",
+    "Prio.",
+    "Range",
+    "Stored",
+    "Supported",
+    "Transition",
+    "Unit",
+    "Base unit",
+];
+
 /// One page.
 #[derive(Debug, Default)]
 pub(crate) struct Page {
@@ -28,9 +45,11 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// The cell of a row in the column of this title; empty where the table has no such column.
+    /// The cell of a row in the column of this title; empty where a column is left out that nothing fills.
     pub(crate) fn cell<'a>(&self, row: &'a [String], title: &str) -> &'a str {
-        self.columns.iter().position(|column| column == title).map_or("", |at| &row[at])
+        let column = self.columns.iter().position(|column| column == title);
+        assert!(column.is_some() || OPTIONAL.contains(&title), "{title} is none of {:?}", self.columns);
+        column.map_or("", |at| &row[at])
     }
 }
 

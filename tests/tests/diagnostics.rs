@@ -24,6 +24,7 @@ const ELSEWHERE: &[(Code, &str)] = &[
     (Code::BitRateUnsupported, "`odgen dcf --bit-rate`: tests of the command line"),
     (Code::BadTemplate, "`odgen docs`, when it prints templates: tests of the command line"),
     (Code::WriteFailed, "`odgen`, when it writes files: tests of the command line"),
+    (Code::Departure, "`odgen check --notes`: tests of the command line"),
     (Code::IdentifierClash, "the Rust backend: `tests/macros/names_clash.rs`"),
     (Code::NoIdentifier, "the Rust backend: `tests/macros/names_clash.rs`"),
     (Code::NoCapacity, "the Rust backend: `tests/macros/names_clash.rs`"),
@@ -298,7 +299,7 @@ fn explanations_are_sentences() {
         let explanation = code.explanation();
         assert!(explanation.ends_with(['.', '?', '}']), "{code}: {explanation}");
         assert_eq!(
-            matches!(code.severity(), Severity::Warning),
+            matches!(code.severity(), Severity::Warning | Severity::Note),
             code.id().starts_with("OD08") || *code == Code::ConditionUnmet
         );
     }
@@ -375,7 +376,7 @@ fn libraries_from_files() {
         3 | uses: [cia301, ../lamps.od.yaml]
           |                ^^^^^^^^^^^^^^^^
           |
-        help: name a built-in library (`cia301`), or a file relative to this one
+        help: name a built-in library (`cia301`, `cia402`), or a file relative to this one
         "#);
     insta::assert_snapshot!(with_libraries(&LAMP.replace("cia301, ../lamps.od.yaml", "cia31"), &[]), @r#"
         error[OD0113]: cannot read library `cia31`: no such file

@@ -1,8 +1,9 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
-use od_spec::model::{BitField, BitUsage, DataType, Edge, EnumValue, NamedType, Object};
+use od_spec::model::{BitField, BitUsage, DataType, Dictionary, Edge, Entry, EnumValue, NamedType, Object};
 
 use super::Columns;
+use super::objects::keys;
 use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::{Source, enum_number, hex};
@@ -74,21 +75,40 @@ impl Source<'_> {
         cell
     }
 
-    /// Error codes of a bit: those of the type, then those of each entry that has the type.
+    /// Error codes of a bit: those of the type, then those of each entry that has the type. Where devices differ, they are
+    /// named.
     fn codes(&self, named: &NamedType, field: &BitField) -> Cell {
         let mut cell = Cell::plain(list(&field.errors));
+        let of = |entry: &Entry| -> Vec<u16> {
+            let own = entry.bit_errors.iter().filter(|(bit, _)| (field.first..=field.last).contains(bit));
+            own.flat_map(|(_, codes)| codes.iter().copied()).collect()
+        };
         let mut seen = Vec::new();
-        for device in &self.devices {
-            for (id, object, entry) in device.entries() {
+        for (id, object, _) in self.devices.iter().flat_map(|device| device.entries()) {
+            let entry = |device: &Dictionary| {
+                let entry = device.entry(id)?;
                 let shares = entry.named_type.as_ref().is_some_and(|other| other.name == named.name);
-                let own = entry.bit_errors.iter().find(|(bit, _)| (field.first..=field.last).contains(bit));
-                let Some((_, codes)) = own.filter(|_| shares && !seen.contains(&id)) else { continue };
-                seen.push(id);
+                shares.then(|| of(entry))
+            };
+            if seen.contains(&id) {
+                continue;
+            }
+            seen.push(id);
+            let mut variants = self.variants(id.index, |device, _| entry(device));
+            let several = variants.len() > 1;
+            variants.retain(|devices| {
+                devices.first().and_then(|device| entry(device)).is_some_and(|own| !own.is_empty())
+            });
+            for devices in variants {
+                let Some(device) = devices.first() else { continue };
                 let place = if object.is_structured() { id.to_string() } else { object.index.to_string() };
+                let place = if several { format!("{} {place}", keys(&devices)) } else { place };
+                let key = std::slice::from_ref(&device.key);
+                let codes = list(&entry(device).unwrap_or_default());
                 cell = cell
                     .line()
-                    .link(place, entry_anchor(id), self.home(id.index))
-                    .text(format!(": {}", list(codes)));
+                    .and(self.link_on(key, id.index, place, entry_anchor(id)))
+                    .text(format!(": {codes}"));
             }
         }
         cell

@@ -1,8 +1,9 @@
 //! Error codes and what the devices do about them.
 
-use od_spec::model::ErrorCode;
+use od_spec::model::{Dictionary, ErrorCode};
 
 use super::Columns;
+use super::objects::keys;
 use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::{Source, hex};
@@ -110,19 +111,29 @@ impl Source<'_> {
             .grid(rows, &["code", "name"])
     }
 
-    /// The bits that are set together with a code.
+    /// The bits that are set together with a code. Where devices differ, they are named.
     fn reported_by(&self, code: u16) -> Cell {
         let mut cell = Cell::default();
         let mut seen = Vec::new();
-        for (id, object, entry) in self.devices.iter().flat_map(|device| device.entries()) {
-            for bit in entry.bits_of_error(code) {
-                if seen.contains(&(id, bit)) {
-                    continue;
+        for (id, object, _) in self.devices.iter().flat_map(|device| device.entries()) {
+            if seen.contains(&id) {
+                continue;
+            }
+            seen.push(id);
+            let bits = |device: &Dictionary| {
+                device.entry(id).map_or_else(Vec::new, |entry| entry.bits_of_error(code))
+            };
+            let variants = self.variants(id.index, |device, _| bits(device));
+            for devices in &variants {
+                let Some(device) = devices.first() else { continue };
+                for bit in bits(device) {
+                    let place =
+                        if object.is_structured() { id.to_string() } else { object.index.to_string() };
+                    let place = if variants.len() > 1 { format!("{} {place}", keys(devices)) } else { place };
+                    let key = std::slice::from_ref(&device.key);
+                    cell = cell.line().and(self.link_on(key, id.index, place, entry_anchor(id)));
+                    cell = cell.text(format!(" {} {bit}", self.word(Word::Bit)));
                 }
-                seen.push((id, bit));
-                let place = if object.is_structured() { id.to_string() } else { object.index.to_string() };
-                cell = cell.line().link(place, entry_anchor(id), self.home(id.index));
-                cell = cell.text(format!(" {} {bit}", self.word(Word::Bit)));
             }
         }
         cell

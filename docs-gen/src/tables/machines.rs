@@ -1,6 +1,6 @@
 //! States, transitions and commands of a state machine.
 
-use od_spec::model::{BitPattern, EntryId, PatternBit, StateMachine, TypeKind};
+use od_spec::model::{BitPattern, Dictionary, Entry, EntryId, PatternBit, StateMachine, TypeKind};
 
 use super::Columns;
 use crate::language::Word;
@@ -47,7 +47,8 @@ impl Source<'_> {
                 ])
             })
             .collect();
-        let title = self.entry_name(machine.status).unwrap_or_else(|| self.word(Word::Pattern).to_owned());
+        let title =
+            self.name_of(machine, machine.status).unwrap_or_else(|| self.word(Word::Pattern).to_owned());
         Columns::new()
             .with("pattern", title, "left")
             .left(self, "state", Word::State)
@@ -93,7 +94,7 @@ impl Source<'_> {
             .collect();
         let mut columns = Columns::new().left(self, "command", Word::Command);
         for bit in &bits {
-            let name = self.bit_name(machine.command, *bit).unwrap_or_default();
+            let name = self.bit_name(machine, *bit).unwrap_or_default();
             columns =
                 columns.with("bit", format!("{} {bit} {name}", self.word(Word::Bit)).trim_end(), "center");
         }
@@ -101,7 +102,7 @@ impl Source<'_> {
             .left(self, "send", Word::Send)
             .left(self, "transitions", Word::Transition)
             .left(self, "meaning", Word::Meaning);
-        let data_type = self.entry_type(machine.command);
+        let data_type = self.entry_of(machine, machine.command).map(|entry| entry.data_type);
         let rows = machine
             .commands
             .iter()
@@ -121,20 +122,24 @@ impl Source<'_> {
         columns.grid(rows, &["command", "bit"])
     }
 
-    fn entry_name(&self, id: EntryId) -> Option<String> {
-        self.devices.iter().find_map(|device| device.entry_name(id))
+    /// The devices shown that have the machine.
+    fn having<'b>(&'b self, machine: &'b StateMachine) -> impl Iterator<Item = &'b Dictionary> {
+        let has = |device: &&Dictionary| machine.devices.is_empty() || machine.devices.contains(&device.key);
+        self.devices.iter().copied().filter(has)
     }
 
-    fn entry_type(&self, id: EntryId) -> Option<od_spec::model::DataType> {
-        self.devices.iter().find_map(|device| device.entry(id)).map(|entry| entry.data_type)
+    fn name_of(&self, machine: &StateMachine, id: EntryId) -> Option<String> {
+        self.having(machine).find_map(|device| device.entry_name(id))
     }
 
-    fn bit_name(&self, id: EntryId, bit: usize) -> Option<String> {
-        let entry = self.devices.iter().find_map(|device| device.entry(id))?;
-        let TypeKind::Bits(fields) = &entry.named_type.as_ref()?.kind else { return None };
-        let field = fields
-            .iter()
-            .find(|field| (field.first..=field.last).contains(&u8::try_from(bit).unwrap_or(255)))?;
-        Some(field.name.clone())
+    fn entry_of<'b>(&'b self, machine: &'b StateMachine, id: EntryId) -> Option<&'b Entry> {
+        self.having(machine).find_map(|device| device.entry(id))
+    }
+
+    fn bit_name(&self, machine: &StateMachine, bit: usize) -> Option<String> {
+        let named = self.entry_of(machine, machine.command)?.named_type.as_ref()?;
+        let TypeKind::Bits(fields) = &named.kind else { return None };
+        let bit = u8::try_from(bit).ok()?;
+        Some(fields.iter().find(|field| (field.first..=field.last).contains(&bit))?.name.clone())
     }
 }

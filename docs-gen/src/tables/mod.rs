@@ -80,7 +80,16 @@ impl Table {
         title: Cell,
         grids: Vec<Grid>,
     ) -> Self {
-        Self { anchor: anchor.into(), number: None, title, kind, grids, ladder: None, errata: Vec::new() }
+        Self {
+            anchor: anchor.into(),
+            number: None,
+            title,
+            about: Cell::default(),
+            kind,
+            grids,
+            ladder: None,
+            errata: Vec::new(),
+        }
     }
 }
 
@@ -88,12 +97,13 @@ impl Source<'_> {
     /// A table of the manual; `None` when the devices shown have nothing of it.
     pub(crate) fn table(&self, id: TableId) -> Option<Table> {
         let table = &self.document().sections[id.section].tables[id.table];
-        let mut ladder = None;
+        let (mut ladder, mut about) = (None, Cell::default());
         let grids = match &table.content {
             TableContent::Overview(list) => vec![self.overview(list)],
             TableContent::Objects(list) => self.details(list, |index| self.first_detail(id, index)),
             TableContent::Bits(name) | TableContent::Values(name) => {
                 let named = self.system.types.get(name).filter(|_| self.shows_type(name))?;
+                about = self.text(&named.about);
                 match &named.kind {
                     TypeKind::Bits(fields) => vec![self.bits(named, fields)],
                     TypeKind::Enum(values) => vec![self.values(named.base, values)],
@@ -108,6 +118,7 @@ impl Source<'_> {
                 let constraint =
                     self.system.constraints.iter().find(|constraint| &constraint.name == name)?;
                 ladder = self.ladder(constraint);
+                about = self.text(&constraint.about);
                 vec![self.ladder_rows(constraint)]
             }
             TableContent::Pdos(pdos) => {
@@ -126,6 +137,7 @@ impl Source<'_> {
             anchor: self.table_anchor(id),
             number: table.number,
             title: self.text(&table.title),
+            about,
             kind: kind_of(&table.content),
             grids,
             ladder,
@@ -168,7 +180,7 @@ impl Source<'_> {
         tables.next().is_some_and(|(first, ..)| first == id)
     }
 
-    fn machine(&self, name: &str) -> Option<&od_spec::model::StateMachine> {
+    pub(crate) fn machine(&self, name: &str) -> Option<&od_spec::model::StateMachine> {
         let machine = self.system.machines.get(name)?;
         let shown = machine.devices.is_empty()
             || self.devices.iter().any(|device| machine.devices.contains(&device.key));

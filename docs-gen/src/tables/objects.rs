@@ -1,14 +1,15 @@
 //! Detail tables: one row per entry.
 
 use od_spec::model::{
-    Alias, Dictionary, Entry, EntryId, Index, Object, Origin, Outside, Ratio, Rounding, Storage, Value,
+    Alias, DataType, Dictionary, Entry, EntryId, Index, Object, Origin, Outside, Ratio, Rounding, Storage,
+    Value,
 };
 
 use super::overview::{access, mapping};
 use super::{Columns, pdos};
 use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
-use crate::source::Source;
+use crate::source::{Source, bit_pattern};
 use crate::view::{Cell, Grid, ObjectHead, Row};
 
 impl Source<'_> {
@@ -18,46 +19,63 @@ impl Source<'_> {
         let mut grids: Vec<Grid> = Vec::new();
         let mut simple: Vec<Row> = Vec::new();
         for index in indices {
-            let mut shown: Vec<Vec<Vec<Cell>>> = Vec::new();
-            let owners: Vec<&Dictionary> =
-                self.devices.iter().copied().filter(|device| device.objects.contains_key(index)).collect();
-            for device in &owners {
-                let Some(object) = device.objects.get(index) else { continue };
-                let rows = self.entry_rows(device, object, first(*index) && shown.is_empty());
-                let cells: Vec<Vec<Cell>> = rows.iter().map(|row| row.cells.clone()).collect();
-                // Devices share most of their common objects; what is equal stands once.
-                if shown.contains(&cells) {
+            let variants = self.variants(*index, |device, object| {
+                let head =
+                    object.is_structured().then(|| (object.name.clone(), object.kind, object.about.clone()));
+                let rows = self.entry_rows(device, object, false);
+                let texts =
+                    rows.iter().map(|row| row.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>());
+                (head, texts.collect::<Vec<_>>())
+            });
+            let several = variants.len() > 1;
+            for (number, devices) in variants.iter().enumerate() {
+                let Some((device, object)) =
+                    devices.first().and_then(|one| Some((*one, one.objects.get(index)?)))
+                else {
                     continue;
-                }
-                let several = owners.len() > 1
-                    && owners.iter().any(|other| {
-                        let other =
-                            other.objects.get(index).map(|object| self.entry_rows(device, object, false));
-                        other.is_some_and(|rows| rows.iter().map(|row| &row.cells).ne(cells.iter()))
-                    });
-                shown.push(cells);
+                };
+                let anchors = first(*index) && number == 0;
+                let mut rows = self.entry_rows(device, object, anchors);
+                let label = if several { keys(devices) } else { String::new() };
                 if object.is_structured() {
                     grids.extend(self.simple_grid(std::mem::take(&mut simple)));
                     let head = ObjectHead {
                         index: object.index.to_string(),
-                        anchor: if first(*index) && shown.len() == 1 {
-                            object_anchor(*index)
-                        } else {
-                            String::new()
-                        },
+                        anchor: if anchors { object_anchor(*index) } else { String::new() },
                         name: object.name.clone(),
                         kind: object.kind.name(),
                         about: self.text(&object.about),
-                        device: if several { device.key.clone() } else { String::new() },
+                        device: label,
                     };
                     grids.push(Grid { object: Some(head), ..self.entry_columns(object).grid(rows, ALWAYS) });
                 } else {
+                    for cell in rows.iter_mut().filter_map(|row| row.cells.last_mut()) {
+                        *cell = Cell::plain(&label);
+                    }
                     simple.extend(rows);
                 }
             }
         }
         grids.extend(self.simple_grid(simple));
         grids
+    }
+
+    /// The devices shown that have an object, in groups for which it is the same.
+    pub(crate) fn variants<T: PartialEq>(
+        &self,
+        index: Index,
+        of: impl Fn(&Dictionary, &Object) -> T,
+    ) -> Vec<Vec<&Dictionary>> {
+        let mut variants: Vec<(T, Vec<&Dictionary>)> = Vec::new();
+        for device in self.devices.iter().copied() {
+            let Some(object) = device.objects.get(&index) else { continue };
+            let own = of(device, object);
+            match variants.iter_mut().find(|(other, _)| *other == own) {
+                Some((_, devices)) => devices.push(device),
+                None => variants.push((own, vec![device])),
+            }
+        }
+        variants.into_iter().map(|(_, devices)| devices).collect()
     }
 
     fn simple_grid(&self, rows: Vec<Row>) -> Option<Grid> {
@@ -85,7 +103,9 @@ impl Source<'_> {
             .left(self, "default", Word::Default)
             .left(self, "unit", Word::Unit)
             .left(self, "range", Word::Range)
+            .left(self, "stored", Word::Stored)
             .left(self, "description", Word::Description)
+            .left(self, "device", Word::Device)
     }
 
     /// The rows of an object's entries; the first cell is the index of a VAR, or the sub-index.
@@ -98,18 +118,28 @@ impl Source<'_> {
                 let place =
                     if object.is_structured() { entry.sub.to_string() } else { object.index.to_string() };
                 let anchored = anchors && (entry.sub.0 > 0 || !object.is_structured());
+                // Of an object that a feature brings as a whole, nothing is the maker's word.
+                let taken = object.origin == Origin::Manual;
+                let cell = |text: String, facts: &[&str]| {
+                    let standard = taken && facts.iter().any(|fact| entry.standard.contains(fact));
+                    Cell::plain(text).standard(standard)
+                };
+                let unit = entry.unit.as_ref().map_or_else(String::new, |unit| self.step(unit));
+                let about = taken && entry.standard.contains(&"about");
                 Row {
                     anchor: if anchored { entry_anchor(id) } else { String::new() },
                     cells: vec![
                         Cell::plain(place),
-                        Cell::plain(&entry.name),
-                        Cell::plain(entry.data_type.name()),
-                        Cell::plain(access(entry)),
-                        Cell::plain(mapping(entry.pdo)),
-                        Cell::plain(self.default(object, entry)),
-                        Cell::plain(entry.unit.as_ref().map_or_else(String::new, |unit| self.step(unit))),
-                        Cell::plain(self.range(entry)),
-                        self.description(device, object, entry),
+                        cell(entry.name.clone(), &["name"]),
+                        cell(entry.data_type.name().to_owned(), &["type"]),
+                        cell(access(entry), &["access"]),
+                        cell(mapping(entry.pdo).to_owned(), &["pdo"]),
+                        cell(self.default(object, entry), &["default"]),
+                        cell(unit, &["unit"]),
+                        cell(self.range(entry), &["min", "max"]),
+                        cell(self.stored(entry), &["stored"]),
+                        self.description(device, object, entry).standard(about),
+                        Cell::default(),
                     ],
                     stored: entry.stored != Storage::No,
                     errata: self.errata_of_entry(object, entry).iter().map(|at| at + 1).collect(),
@@ -126,25 +156,52 @@ impl Source<'_> {
             {
                 pdos::parameter(u32::try_from(*raw).unwrap_or_default())
             }
+            // Identities, COB-IDs and the like: people know them in hexadecimal.
+            Some(Value::Integer(raw))
+                if (0x1000..0x2000).contains(&object.index.0)
+                    && entry.data_type == DataType::Unsigned32
+                    && entry.named_type.is_none()
+                    && entry.unit.is_none() =>
+            {
+                bit_pattern(entry.data_type, *raw)
+            }
             Some(value) => self.value(entry, value),
             None => String::new(),
         }
+    }
+
+    /// What keeps an entry over power-off, in a word.
+    fn stored(&self, entry: &Entry) -> String {
+        let word = match entry.stored {
+            Storage::No => return String::new(),
+            Storage::Communication => Word::Communication,
+            Storage::Application => Word::Application,
+            Storage::Manufacturer => Word::Manufacturer,
+            Storage::Remanent => Word::Remanent,
+        };
+        self.word(word).to_owned()
     }
 
     /// Meaning of an entry and what else is to be known about it.
     fn description(&self, device: &Dictionary, object: &Object, entry: &Entry) -> Cell {
         let mut cell = self.text(&entry.about);
         for special in &entry.special {
-            let mut line = cell.line().text(format!("{}: {}", special.value, special.name));
+            let number = special_number(entry.data_type, special.value);
+            let mut line = cell.line().text(format!("{number}: {}", special.name));
             if !special.about.is_empty() {
                 line = line.text("; ").and_words(&special.about, self.language);
             }
             cell = line;
         }
         if let Some(alias) = &entry.alias {
-            cell =
-                cell.line().text(format!("{} ", self.word(Word::AliasOf))).and(self.entry_link(alias.target));
+            cell = cell
+                .line()
+                .text(format!("{} ", self.word(Word::AliasOf)))
+                .and(self.entry_link_on(device, alias.target));
             cell = cell.text(format!("; {}.", self.conversion(alias)));
+        }
+        if let Some(capacity) = entry.capacity {
+            cell = cell.line().text(self.word(Word::Capacity).replace("{n}", &capacity.to_string()));
         }
         if let Some(condition) = &entry.writable_when {
             let devices = std::slice::from_ref(&device.key);
@@ -175,6 +232,16 @@ impl Source<'_> {
         });
         format!("× {}, {rounding}; {outside}", self.language.number(&alias.factor.to_string()))
     }
+}
+
+/// Keys of devices, as they stand in tables.
+pub(crate) fn keys(devices: &[&Dictionary]) -> String {
+    devices.iter().map(|device| device.key.to_uppercase()).collect::<Vec<_>>().join(", ")
+}
+
+/// A special value; a large one also as its bits, by which people know it.
+fn special_number(data_type: DataType, raw: i128) -> String {
+    if raw < 0x1_0000 { raw.to_string() } else { format!("{raw} ({})", bit_pattern(data_type, raw)) }
 }
 
 /// Whether an object holds mapping parameters.

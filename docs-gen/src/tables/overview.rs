@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use od_spec::model::{Access, Entry, Index, Object, PdoMapping};
 
 use super::Columns;
+use super::objects::keys;
 use crate::cell::object_anchor;
 use crate::language::Word;
 use crate::source::Source;
@@ -47,14 +48,20 @@ impl Source<'_> {
     pub(crate) fn overview(&self, indices: &[Index]) -> Grid {
         let mut rows: Vec<Row> = Vec::new();
         for index in indices {
-            let mut same: Vec<Row> = Vec::new();
-            for object in self.devices.iter().filter_map(|device| device.objects.get(index)) {
+            let variants = self.variants(*index, |_, object| {
                 let row = self.overview_row(object);
-                if same.iter().all(|before| before.cells != row.cells) {
-                    same.push(row);
+                row.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>()
+            });
+            for devices in &variants {
+                let Some(object) = devices.first().and_then(|device| device.objects.get(index)) else {
+                    continue;
+                };
+                let mut row = self.overview_row(object);
+                if let Some(cell) = row.cells.last_mut().filter(|_| variants.len() > 1) {
+                    *cell = Cell::plain(keys(devices));
                 }
+                rows.push(row);
             }
-            rows.extend(same);
         }
         self.overview_grid(rows)
     }
@@ -67,7 +74,8 @@ impl Source<'_> {
             .left(self, "type", Word::Type)
             .left(self, "access", Word::Access)
             .center(self, "mem", Word::Mem)
-            .full(rows)
+            .left(self, "device", Word::Device)
+            .grid(rows, &["index", "object", "name", "type", "access", "mem"])
     }
 
     pub(crate) fn overview_row(&self, object: &Object) -> Row {
@@ -85,6 +93,7 @@ impl Source<'_> {
                 Cell::plain(among(object, |entry| entry.data_type.name()).join(", ")),
                 Cell::plain(among(object, access).join(", ")),
                 Cell::plain(if stored { "Y" } else { "N" }),
+                Cell::default(),
             ],
             stored,
             ..Row::default()

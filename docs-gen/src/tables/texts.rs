@@ -1,9 +1,10 @@
 //! Tables of text, abbreviations, issues; constraints as ladders.
 
-use od_spec::expr::{Comparison, Term};
-use od_spec::model::{Constraint, Ratio, Text};
+use od_spec::expr::{Comparison, EntryRef, Term};
+use od_spec::model::{Constraint, Dictionary, EntryId, Ratio, Text};
 
 use super::Columns;
+use super::objects::keys;
 use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::{Source, relation};
@@ -50,44 +51,74 @@ impl Source<'_> {
             for (relation, term) in steps(comparison) {
                 let mut cells = vec![Cell::plain(relation)];
                 if let Term::Entry(entry) = term {
-                    let device = self.device_of(&constraint.devices, entry);
-                    let found = device.and_then(|device| Some((device, device.entry(entry.id)?)));
-                    let default = found.and_then(|(_, one)| Some(self.value(one, one.default.as_ref()?)));
-                    let name = device.and_then(|device| device.entry_name(entry.id));
-                    cells.push(Cell::plain(default.unwrap_or_default()));
+                    let devices = self.devices_of(constraint, entry);
+                    let name = devices.first().and_then(|device| device.entry_name(entry.id));
+                    cells.push(Cell::plain(self.defaults(&devices, entry.id)));
                     cells.push(Cell::plain(name.unwrap_or_default()));
-                    cells.push(self.entry_link(entry.id));
-                    cells.push(Cell::plain(
-                        device.map_or_else(String::new, |device| device.key.to_uppercase()),
+                    let meant: Vec<String> = devices.iter().map(|device| device.key.clone()).collect();
+                    cells.push(self.link_on(
+                        &meant,
+                        entry.id.index,
+                        entry.id.to_string(),
+                        entry_anchor(entry.id),
                     ));
+                    let several = self.system.devices.len() > 1;
+                    cells.push(Cell::plain(if several { keys(&devices) } else { String::new() }));
                 } else {
-                    cells.push(Cell::plain(term.to_string()));
+                    let symbol = self.symbol_of(constraint, comparison);
+                    cells.push(self.term(Cell::default(), term, &constraint.devices, 0, &symbol));
                     cells.extend(vec![Cell::default(); 3]);
                 }
                 rows.push(Row::of(cells));
             }
         }
-        let always: &[&str] = if self.system.devices.len() > 1 {
-            &["default", "name", "object", "device"]
-        } else {
-            &["default", "name", "object"]
-        };
-        let mut grid = Columns::new()
+        Columns::new()
             .center(self, "relation", Word::Relation)
             .right(self, "default", Word::Default)
             .left(self, "name", Word::Name)
             .left(self, "object", Word::Object)
             .left(self, "device", Word::Device)
-            .grid(rows, always);
-        if self.system.devices.len() == 1
-            && let Some(at) = grid.columns.iter().position(|column| column.key == "device")
-        {
-            grid.columns.remove(at);
-            for row in &mut grid.rows {
-                row.cells.remove(at);
+            .grid(rows, &["default", "name", "object"])
+    }
+
+    /// The devices whose entry a constraint means: those that are shown, or else any.
+    fn devices_of(&self, constraint: &Constraint, entry: &EntryRef) -> Vec<&Dictionary> {
+        let meant = |device: &&Dictionary| match &entry.device {
+            Some(key) => device.key == *key,
+            None => constraint.devices.is_empty() || constraint.devices.contains(&device.key),
+        };
+        let has = |device: &&Dictionary| device.entry(entry.id).is_some();
+        let shown: Vec<&Dictionary> = self.devices.iter().copied().filter(meant).filter(has).collect();
+        if shown.is_empty() {
+            self.device_of(&constraint.devices, entry).into_iter().collect()
+        } else {
+            shown
+        }
+    }
+
+    /// The default of an entry; of each device where they differ.
+    fn defaults(&self, devices: &[&Dictionary], id: EntryId) -> String {
+        let one = |device: &Dictionary| {
+            device
+                .entry(id)
+                .and_then(|entry| Some(self.value(entry, entry.default.as_ref()?)))
+                .unwrap_or_default()
+        };
+        let all: Vec<String> = devices.iter().map(|device| one(device)).collect();
+        match all.as_slice() {
+            [first, rest @ ..] if rest.iter().all(|other| other == first) => first.clone(),
+            _ => {
+                let pairs =
+                    all.iter().zip(devices).map(|(value, device)| format!("{value} ({})", keys(&[*device])));
+                pairs.collect::<Vec<_>>().join(", ")
             }
         }
-        grid
+    }
+
+    /// The symbol in which a comparison is made.
+    fn symbol_of(&self, constraint: &Constraint, comparison: &Comparison) -> String {
+        let terms = std::iter::once(&comparison.first).chain(comparison.rest.iter().map(|(_, term)| term));
+        terms.into_iter().find_map(|term| self.symbol(term, &constraint.devices)).unwrap_or_default()
     }
 
     /// The constraint as a picture: a chain of at least three entries of one unit that all have defaults.
@@ -100,8 +131,16 @@ impl Source<'_> {
         let (mut symbol, mut rungs, mut values) = (None, Vec::new(), Vec::new());
         for (relation, term) in steps {
             let Term::Entry(entry) = term else { return None };
-            let device = self.device_of(&constraint.devices, entry)?;
+            let devices = self.devices_of(constraint, entry);
+            let (device, others) = devices.split_first()?;
             let one = device.entry(entry.id)?;
+            // Devices with other defaults would have other ladders.
+            if others
+                .iter()
+                .any(|other| other.entry(entry.id).is_none_or(|entry| entry.default != one.default))
+            {
+                return None;
+            }
             let raw = one.default.as_ref()?.integer()?;
             let unit = one.unit.as_ref()?;
             if *symbol.get_or_insert_with(|| unit.base_symbol().to_owned()) != unit.base_symbol() {

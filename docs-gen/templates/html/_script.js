@@ -1,36 +1,57 @@
 "use strict";
 (() => {
   const byId = (id) => document.getElementById(id);
-  const root = document.documentElement, search = byId("search"), count = byId("count");
+  const root = document.documentElement, search = byId("ui_search"), count = byId("ui_count");
 
   // Light or dark: as the system says, until the button is used.
   const remember = (theme) => { try { localStorage.setItem("od-theme", theme); } catch { /* not from file:// everywhere */ } };
   try { const theme = localStorage.getItem("od-theme"); if (theme) root.dataset.theme = theme; } catch { /* the same */ }
-  byId("theme").addEventListener("click", () => {
+  byId("ui_theme").addEventListener("click", () => {
     const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
     root.dataset.theme = dark ? "light" : "dark";
     remember(root.dataset.theme);
   });
 
+  // What is linked to stops below the bar, which is as high as its lines.
+  const measure = () => root.style.setProperty("--bar", `${document.querySelector(".bar").offsetHeight}px`);
+  measure();
+  addEventListener("resize", measure);
+
   // Every card or section with its line of the contents; texts are read once.
   const cards = [...document.querySelectorAll("[data-search], .part")];
-  const links = new Map([...document.querySelectorAll("#contents a")].map((link) => [link.hash.slice(1), link.parentElement]));
+  const links = new Map([...document.querySelectorAll("#ui_contents a")].map((link) => [link.hash.slice(1), link.parentElement]));
   const items = cards.map((card) => ({
     card,
     link: links.get(card.id),
     text: (card.dataset.search ?? card.textContent).toLowerCase(),
+    name: (card.querySelector("h2, h3, h4, h5, h6")?.textContent ?? "").toLowerCase().replace(/\s+/g, " ").trim(),
     facts: Object.fromEntries(["access", "type", "pdo", "stored", "unit"].map((key) => [key, (card.dataset[key] ?? "").split("|")])),
     shown: true,
   }));
   const filters = [...document.querySelectorAll("select[data-filter]")];
 
-  // `3020.5`, `3020:05` and `0x3020/5` name an entry; its card is found by the index.
+  // `3020.5`, `3020:05` and `0x3020/0x05` name an entry; its card is found by the index. Behind `:` and `0x` digits are hexadecimal.
   const entry = (text) => {
-    const parts = /^(?:0x)?([0-9a-f]{4})h?[.:/](?:0x)?([0-9a-f]{1,2})h?$/i.exec(text.trim());
-    return parts && `${parts[1].toUpperCase()}.${text.includes(":") ? parseInt(parts[2], 16) : Number(parts[2])}`;
+    const parts = /^(?:0x)?([0-9a-f]{4})h?([.:/])(0x)?([0-9a-f]{1,3})(h?)$/i.exec(text.trim());
+    if (!parts) return null;
+    const [, index, mark, prefix, digits, suffix] = parts;
+    const sub = parseInt(digits, mark === ":" || prefix || suffix ? 16 : 10);
+    return Number.isNaN(sub) ? null : `${index.toUpperCase()}.${sub}`;
+  };
+
+  // The best of what is shown: the index itself, the name itself, a name that begins so, a name that holds it, anything.
+  const best = () => {
+    const text = search.value.toLowerCase().replace(/\s+/g, " ").trim();
+    const index = /^(?:0x)?([0-9a-f]{4})h?$/.exec(text)?.[1].toUpperCase();
+    const rank = ({ card, name }) => {
+      const own = name.replace(/^[0-9a-f]{4}h /, "").replace(/ (var|array|record|domain)$/, "");
+      return card.id === index ? 0 : own === text ? 1 : own.startsWith(text) ? 2 : name.includes(text) ? 3 : 4;
+    };
+    return items.filter((item) => item.shown).reduce((one, other) => (one && rank(one) <= rank(other) ? one : other), null);
   };
 
   const apply = () => {
+    performance.clearMeasures("search");
     performance.mark("search");
     const named = entry(search.value);
     const text = named ? named.slice(0, 4) : search.value;
@@ -49,8 +70,9 @@
     }
     const searching = words.length > 0 || wanted.length > 0;
     root.classList.toggle("searching", searching);
+    if (searching) scrollTo(0, 0);
     count.textContent = searching ? `${found} / ${items.length}` : "";
-    byId("nothing").hidden = found > 0;
+    byId("ui_nothing").hidden = found > 0;
     performance.measure("search", "search");
   };
   const clear = () => {
@@ -64,15 +86,16 @@
   const visible = () => items.filter((item) => item.shown && item.link).map((item) => item.link.firstElementChild);
   search.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
-      const named = entry(search.value), first = items.find((item) => item.shown);
+      const named = entry(search.value), found = best();
       if (named && byId(named)) location.hash = named;
-      else if (first) location.hash = first.card.id;
+      else if (found && (!named || found.card.id === named.slice(0, 4))) location.hash = found.card.id;
+      if (found) reveal();
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
       visible()[0]?.focus();
     }
   });
-  byId("contents").addEventListener("keydown", (event) => {
+  byId("ui_contents").addEventListener("keydown", (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!step || event.target.tagName !== "A") return;
     event.preventDefault();
@@ -87,11 +110,18 @@
 
   // A link into something that the search has hidden shows it again.
   const reveal = () => {
-    const target = byId(decodeURIComponent(location.hash.slice(1)));
-    const card = target?.closest("[data-search], .part");
-    if (card?.hidden) { clear(); target.scrollIntoView(); }
+    let name = location.hash.slice(1);
+    try { name = decodeURIComponent(name); } catch { /* a `%` of its own */ }
+    const target = byId(name) ?? byId(name.toUpperCase());
+    if (!target) return;
+    const card = target.closest("[data-search], .part");
+    if (card?.hidden) clear();
+    if (card?.hidden === false && (target.id !== name || root.classList.contains("searching"))) target.scrollIntoView();
   };
   addEventListener("hashchange", reveal);
+  if (location.hash) reveal();
+  // On paper, everything.
+  addEventListener("beforeprint", clear);
   document.addEventListener("click", (event) => { if (event.target.closest?.("a[href^='#']")) setTimeout(reveal); });
 
   const copy = async (text) => {
@@ -108,9 +138,8 @@
     const button = event.target.closest?.("[data-copy]");
     if (!button) return;
     await copy(button.dataset.copy);
-    byId("said").textContent = `${button.dataset.copy} ${byId("said").dataset.copied}`;
-    const before = button.textContent;
-    button.textContent = "✓";
-    setTimeout(() => { button.textContent = before; }, 900);
+    byId("ui_said").textContent = `${button.dataset.copy} ${byId("ui_said").dataset.copied}`;
+    button.classList.add("copied");
+    setTimeout(() => button.classList.remove("copied"), 900);
   });
 })();

@@ -58,7 +58,9 @@ fn facts(device: &Dictionary, entry: &Entry) -> Option<String> {
         facts.push(format!("writable only while {}", condition.text));
     }
     if let (Some(default), false) = (&entry.default, entry.eds.default) {
-        facts.push(format!("factory default {}", format_value(entry, default)));
+        let whose =
+            if entry.standard.contains(&"default") { "default of the standard" } else { "factory default" };
+        facts.push(format!("{whose} {}", format_value(entry, default)));
     }
     (!facts.is_empty()).then(|| facts.join("; "))
 }

@@ -149,6 +149,8 @@ struct EntryView<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     bit_errors: Vec<Json>,
     eds: Json,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    standard: &'a [&'static str],
     about: Words<'a>,
 }
 
@@ -201,6 +203,7 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
             "default": if entry.eds.default { "written" } else { "withheld" },
             "flags": entry.eds.flags(),
         }),
+        standard: &entry.standard,
         about: words(&entry.about),
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::read::Reader;
 use super::{lexical, shape};
 use crate::ast::{
-    ArrayDecl, BitDecl, BitErrorDecl, CommandDecl, ConstraintDecl, ContentDecl, DeviceDecl, EdsDecl,
+    ArrayDecl, Axes, BitDecl, BitErrorDecl, CommandDecl, ConstraintDecl, ContentDecl, DeviceDecl, EdsDecl,
     EntryDecl, ErratumDecl, ErrorDecl, FeatureDecl, FileDecl, IssueDecl, MachineDecl, Name, ObjectDecl,
     PdoDecl, RecordDecl, SectionDecl, SourceDecl, Spec, SpecialDecl, TableDecl, TransitionDecl, TypeDecl,
     UnitDecl, ValueDecl, VendorDecl,
@@ -49,6 +49,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         devices: top.entries("devices").map(|(key, r)| device(key, r)).collect(),
         units: top.entries("units").map(|(name, r)| unit(name, r)).collect(),
         types: top.entries("types").map(|(name, r)| named_type(name, r, diagnostics)).collect(),
+        axes: top.child("axes").and_then(axes),
         features: top.entries("features").map(|(name, r)| feature(name, r)).collect(),
         objects: objects(top.entries("objects"), diagnostics),
         pdos: top.entries("pdos").map(|(key, r)| (owned(key), pdos(r, diagnostics))).collect(),
@@ -281,6 +282,12 @@ fn edge(word: &str) -> Option<Edge> {
     }
 }
 
+fn axes(r: Reader<'_>) -> Option<Axes> {
+    let (first, last) = (r.value("first", lexical::index)?.value, r.value("last", lexical::index)?.value);
+    let count = u16::try_from(r.integer("count")?.value).ok()?;
+    (first < last).then_some(Axes { first, last, count })
+}
+
 fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {
     FeatureDecl {
         name: owned(name),
@@ -429,7 +436,9 @@ fn place_of_list(key: Span, list: &Node) -> Span {
 fn error(codes: Spanned<&str>, r: Reader<'_>) -> Option<ErrorDecl> {
     Some(ErrorDecl {
         codes: Spanned::new(lexical::error_codes(codes.value)?, codes.span),
+        unsure: has_unknown_key(r.node, &keys::ERROR),
         name: r.text("name"),
+        from: r.text("from"),
         on: r.optional_texts("on"),
         priority: r.text("priority"),
         reaction: r.words("reaction"),
@@ -445,6 +454,8 @@ fn machine(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) ->
         });
     MachineDecl {
         name: owned(name),
+        unsure: has_unknown_key(r.node, &keys::MACHINE),
+        from: r.text("from"),
         on: r.optional_texts("on"),
         status: r.text("status"),
         command: r.text("command"),

@@ -65,7 +65,7 @@ codes! {
     BadKey Error "OD0112" "a key that cannot be one":
         "The keys of this map have a fixed form: indices under `objects:`, bits under `bits:`, and so on; YAML merge keys (`<<`) and lists or maps as keys are not part of the language."
     MissingLibrary Error "OD0113" "a used library cannot be read":
-        "`uses:` names a built-in library (`cia301`) or the path of a library file, relative to the file that names it. There is no such library."
+        "`uses:` names a built-in library (`cia301`, `cia402`) or the path of a library file, relative to the file that names it. There is no such library."
     NotALibrary Error "OD0114" "a used file is no library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
 
@@ -246,6 +246,8 @@ codes! {
         "Reserved bits are written as 0. Correct the default, or say what the bits mean."
     UnlistedErrorCode Warning "OD0808" "an error code that is not listed":
         "A bit refers to an error code that `errors:` does not have."
+    Departure Note "OD0811" "a departure from a standard":
+        "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
     IdentifierClash Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NoIdentifier Error "OD0902" "a name without an identifier":

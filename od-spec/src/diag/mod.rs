@@ -14,14 +14,17 @@ pub enum Severity {
     Error,
     /// The result can be used, but is probably not what was meant.
     Warning,
+    /// Nothing is wrong; the reader may want to know.
+    Note,
 }
 
 impl Severity {
-    /// `error` or `warning`.
+    /// `error`, `warning` or `note`.
     pub const fn word(self) -> &'static str {
         match self {
             Severity::Error => "error",
             Severity::Warning => "warning",
+            Severity::Note => "note",
         }
     }
 }
@@ -143,8 +146,8 @@ impl Diagnostics {
 
     /// Number of errors and of warnings.
     pub fn count(&self) -> (usize, usize) {
-        let errors = self.list.iter().filter(|d| d.severity() == Severity::Error).count();
-        (errors, self.list.len() - errors)
+        let of = |severity| self.list.iter().filter(|d| d.severity() == severity).count();
+        (of(Severity::Error), of(Severity::Warning))
     }
 
     /// The messages, in order.

@@ -157,6 +157,8 @@ pub struct Entry {
     pub bit_errors: Vec<(u8, Vec<u16>)>,
     /// What the EDS shows of it.
     pub eds: EdsPolicy,
+    /// Facts that a library states and the specification does not: `type`, `access`, `default`, …
+    pub standard: Vec<&'static str>,
     /// Meaning.
     pub about: Text,
     /// Where it is written.

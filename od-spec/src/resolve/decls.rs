@@ -4,11 +4,12 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::scope::unknown;
+use super::libraries;
+use super::scope::{Scope, unknown};
 use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
 use crate::check::keys_have_effect;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::model::{Index, Origin, SubIndex};
+use crate::model::{DataType, Index, Origin, SubIndex};
 use crate::source::Spanned;
 
 /// A declaration that is ready to be resolved for one device.
@@ -24,13 +25,14 @@ pub(super) fn of_device<'a>(
     root: &'a Spec,
     libraries: &'a [Spec],
     device: &DeviceDecl,
+    scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
     let here = |decl: &ObjectDecl| {
         decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value))
     };
-    let mut declared = own(root, libraries, here, diagnostics);
-    for (library, feature) in features(libraries, device, diagnostics) {
+    let mut declared = own(root, libraries, here, scope, diagnostics);
+    for (library, feature, axis) in features(libraries, device, diagnostics) {
         for index in &feature.objects {
             let Some(decl) = library.objects.iter().find(|decl| decl.index == *index) else {
                 diagnostics.push(
@@ -46,8 +48,13 @@ pub(super) fn of_device<'a>(
                 );
                 continue;
             };
-            declared.entry(index.value).or_insert_with(|| Declared {
-                decl: Cow::Borrowed(decl),
+            let decl = match library.axes.filter(|_| axis > 1) {
+                Some(axes) => libraries::on_axis(decl, axes, axis).map(Cow::Owned),
+                None => Some(Cow::Borrowed(decl)),
+            };
+            let Some(decl) = decl else { continue };
+            declared.entry(decl.index.value).or_insert_with(|| Declared {
+                decl,
                 origin: Origin::Profile,
                 profile: library.profile.as_ref().map(|name| name.value.clone()),
                 differs: Vec::new(),
@@ -61,9 +68,10 @@ pub(super) fn of_device<'a>(
 pub(super) fn of_library<'a>(
     root: &'a Spec,
     libraries: &'a [Spec],
+    scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    own(root, libraries, |_| true, diagnostics)
+    own(root, libraries, |_| true, scope, diagnostics)
 }
 
 /// The declarations that stand in the specification itself.
@@ -71,12 +79,13 @@ fn own<'a>(
     root: &'a Spec,
     libraries: &'a [Spec],
     wanted: impl Fn(&ObjectDecl) -> bool,
+    scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
     let mut declared = BTreeMap::new();
     for decl in root.objects.iter().filter(|decl| wanted(decl)) {
         let one = match &decl.from {
-            Some(from) => from_library(decl, from, libraries, diagnostics),
+            Some(from) => from_library(decl, from, libraries, scope, diagnostics),
             None => {
                 let (origin, decl) = (Origin::Manual, Cow::Borrowed(decl));
                 Some(Declared { decl, origin, profile: None, differs: Vec::new() })
@@ -89,12 +98,12 @@ fn own<'a>(
     declared
 }
 
-/// The features of a device: those that every device has, those it names, and those they need.
+/// The features of a device: those that every device has, those it names, and those they need; each with its axis.
 fn features<'a>(
     libraries: &'a [Spec],
     device: &DeviceDecl,
     diagnostics: &mut Diagnostics,
-) -> Vec<(&'a Spec, &'a FeatureDecl)> {
+) -> Vec<(&'a Spec, &'a FeatureDecl, u16)> {
     let all = || {
         libraries.iter().flat_map(|library| library.features.iter().map(move |feature| (library, feature)))
     };
@@ -109,10 +118,20 @@ fn features<'a>(
         if !seen.insert(name.value.clone()) {
             continue;
         }
-        match all().find(|(_, feature)| feature.name.value == name.value) {
-            Some((library, feature)) => {
-                wanted.extend(feature.needs.iter().cloned());
-                found.push((library, feature));
+        let named = |name: &str| all().find(|(_, feature)| feature.name.value == name);
+        let on_axis = || {
+            let (plain, axis) = axis_of(&name.value)?;
+            let (library, feature) = named(plain)?;
+            library.axes.filter(|axes| axis <= axes.count).map(|_| (library, feature, axis))
+        };
+        match named(&name.value).map(|(library, feature)| (library, feature, 1)).or_else(on_axis) {
+            Some((library, feature, axis)) => {
+                // What a feature of a further axis needs, it needs on that axis.
+                wanted.extend(feature.needs.iter().map(|need| match axis {
+                    1 => need.clone(),
+                    _ => Spanned::new(format!("{} axis {axis}", need.value), need.span),
+                }));
+                found.push((library, feature, axis));
             }
             None => {
                 let known = all().map(|(_, feature)| feature.name.value.as_str());
@@ -128,38 +147,26 @@ fn features<'a>(
     found
 }
 
+/// `homing mode axis 2` is the feature `homing mode` on axis 2.
+fn axis_of(name: &str) -> Option<(&str, u16)> {
+    let (plain, axis) = name.rsplit_once(" axis ")?;
+    Some((plain, axis.parse().ok().filter(|axis| *axis >= 1)?))
+}
+
 fn from_library<'a>(
     decl: &ObjectDecl,
     from: &Name,
     libraries: &[Spec],
+    scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> Option<Declared<'a>> {
-    let names = libraries.iter().filter_map(|library| library.profile.as_ref());
-    let Some(library) =
-        libraries.iter().find(|l| l.profile.as_ref().is_some_and(|name| name.value == from.value))
-    else {
-        let known = names.map(|name| name.value.as_str());
-        diagnostics.push(unknown(
-            Code::UnknownLibrary,
-            from,
-            "library",
-            known,
-            "name the library in `uses:` at the top of the file",
-        ));
+    let library = libraries::library(from, libraries, diagnostics)?;
+    let Some(below) = libraries::object(library, decl.index.value) else {
+        let what = decl.index.value.to_string();
+        diagnostics.push(libraries::not_there(from, &what).help("write the object in full, without `from:`"));
         return None;
     };
-    let Some(below) = library.objects.iter().find(|below| below.index == decl.index) else {
-        diagnostics.push(
-            Diagnostic::new(
-                Code::NotInLibrary,
-                from.span,
-                format!("library `{}` does not define {}", from.value, decl.index.value),
-            )
-            .help("write the object in full, without `from:`"),
-        );
-        return None;
-    };
-    let (merged, differs) = lay_over(decl, below);
+    let (merged, differs) = lay_over(decl, &below, scope);
     check_own_keys(decl, &merged, diagnostics);
     let merged = Cow::Owned(merged);
     Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), differs })
@@ -216,8 +223,9 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
 }
 
 /// The declaration over the library's, and the facts in which they differ.
-fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) {
+fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl, Vec<String>) {
     let mut differs = Vec::new();
+    let differences = |over: &EntryDecl, below: &EntryDecl| differences(over, below, scope);
     let mut note = |prefix: &str, facts: Vec<&'static str>| {
         for fact in facts
             .into_iter()
@@ -227,10 +235,10 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
             differs.push(format!("{prefix}{fact}"));
         }
     };
-    note("", over.entry.differences(&below.entry));
+    note("", differences(&over.entry, &below.entry));
     let array = match (&over.array, &below.array) {
         (Some(over), Some(below)) => {
-            note("elements: ", over.entry.differences(&below.entry));
+            note("elements: ", differences(&over.entry, &below.entry));
             if over.count.is_some() && over.count != below.count {
                 note("", vec!["count"]);
             }
@@ -238,7 +246,12 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
                 span: over.span,
                 count: over.count.or(below.count),
                 entry: over.entry.over(&below.entry),
-                elements: merge_members(&over.elements, &within(&below.elements, over.count), &mut note),
+                elements: merge_members(
+                    &over.elements,
+                    &within(&below.elements, over.count),
+                    scope,
+                    &mut note,
+                ),
             })
         }
         // An object that says it is something else than the library's object is that.
@@ -249,7 +262,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
     let record = match (&over.record, &below.record) {
         (Some(over), Some(below)) => Some(RecordDecl {
             span: over.span,
-            members: merge_members(&over.members, &below.members, &mut note),
+            members: merge_members(&over.members, &below.members, scope, &mut note),
         }),
         (over_record, below_record) => {
             over_record.clone().or_else(|| below_record.clone().filter(|_| over.array.is_none()))
@@ -257,7 +270,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
     };
     let sub0 = match (&over.sub0, &below.sub0) {
         (Some(over), Some(below)) => {
-            note("sub-index 0: ", over.differences(below));
+            note("sub-index 0: ", differences(over, below));
             Some(over.over(below))
         }
         (over, below) => over.clone().or_else(|| below.clone()),
@@ -281,6 +294,18 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl) -> (ObjectDecl, Vec<String>) 
     (merged, differs)
 }
 
+/// Names of the facts in which an entry differs. A type of the same width and sign with other bits or values differs in
+/// its meaning only.
+fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<&'static str> {
+    let on_the_bus = |entry: &EntryDecl| {
+        let name = &entry.type_name.as_ref()?.value;
+        DataType::from_name(name).or_else(|| Some(scope.types.get(name)?.base))
+    };
+    let same = on_the_bus(over).is_some() && on_the_bus(over) == on_the_bus(below);
+    let facts = over.differences(below).into_iter();
+    facts.map(|fact| if fact == "type_name" && same { "meaning" } else { fact }).collect()
+}
+
 /// The library's elements that an array with this count still has.
 fn within(elements: &Members, count: Option<Spanned<i128>>) -> Members {
     let fits = |sub: SubIndex| count.is_none_or(|count| i128::from(sub.0) <= count.value);
@@ -289,13 +314,18 @@ fn within(elements: &Members, count: Option<Spanned<i128>>) -> Members {
 
 type Members = Vec<(Spanned<SubIndex>, EntryDecl)>;
 
-fn merge_members(over: &Members, below: &Members, note: &mut impl FnMut(&str, Vec<&'static str>)) -> Members {
+fn merge_members(
+    over: &Members,
+    below: &Members,
+    scope: &Scope,
+    note: &mut impl FnMut(&str, Vec<&'static str>),
+) -> Members {
     let mut merged: BTreeMap<SubIndex, (Spanned<SubIndex>, EntryDecl)> =
         below.iter().map(|(sub, entry)| (sub.value, (*sub, entry.clone()))).collect();
     for (sub, entry) in over {
         let laid = match merged.get(&sub.value) {
             Some((_, below)) => {
-                note(&format!("sub-index {}: ", sub.value), entry.differences(below));
+                note(&format!("sub-index {}: ", sub.value), differences(entry, below, scope));
                 entry.over(below)
             }
             None => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::decls::{self, Declared};
-use super::entries::{self, Surroundings};
+use super::entries::{self, EdsDefaults, Surroundings};
 use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
@@ -35,12 +35,13 @@ pub(super) fn resolve(
             let mut built = Builder {
                 around: Surroundings {
                     scope,
-                    safe_eds: device.eds_defaults.as_ref().is_none_or(|word| word.value == "safe"),
+                    file: root.file,
+                    eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
                 objects: BTreeMap::new(),
                 broken: Broken::default(),
             };
-            let declared = decls::of_device(root, libraries, device, diagnostics);
+            let declared = decls::of_device(root, libraries, device, scope, diagnostics);
             built.left_out(root, device, &declared);
             built.plain_objects(&declared, diagnostics);
             built.aliases(&declared, diagnostics);
@@ -67,8 +68,8 @@ pub(super) fn resolve(
 
 /// Checks the objects of a library that is compiled by itself: no device will ever ask for them.
 pub(super) fn check_library(root: &Spec, libraries: &[Spec], scope: &Scope, diagnostics: &mut Diagnostics) {
-    let around = Surroundings { scope, safe_eds: true };
-    for declared in decls::of_library(root, libraries, diagnostics).into_values() {
+    let around = Surroundings { scope, file: root.file, eds: EdsDefaults::Safe };
+    for declared in decls::of_library(root, libraries, scope, diagnostics).into_values() {
         if declared.decl.alias.is_none() {
             objects::resolve(&declared, around, diagnostics);
         }
@@ -251,7 +252,7 @@ impl Builder<'_> {
         if factor == Ratio::ONE {
             follow_values(&mut entry, target);
         }
-        entry.eds = entries::alias_policy(&entry, target, &decl.entry, self.around.safe_eds);
+        entry.eds = entries::alias_policy(&entry, target, &decl.entry, self.around.eds);
         entry.stored = Storage::No;
         entry.alias = Some(alias);
         Some(Object {

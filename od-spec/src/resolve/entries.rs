@@ -11,15 +11,38 @@ use crate::model::{
     Access, DataType, EdsPolicy, Entry, NamedType, PdoMapping, SpecialValue, Storage, SubIndex, TypeKind,
     Unit, Value,
 };
-use crate::source::Spanned;
+use crate::source::{FileId, Spanned};
 use crate::yaml::shorten;
 
 /// What entries are resolved against.
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub scope: &'a Scope,
-    /// Withhold the defaults of locked and stored entries from the EDS.
-    pub safe_eds: bool,
+    /// The specification's own file; other facts come from libraries.
+    pub file: FileId,
+    /// Which defaults the EDS withholds.
+    pub eds: EdsDefaults,
+}
+
+/// Which defaults an EDS withholds (`eds-defaults`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum EdsDefaults {
+    /// Those of writable entries that are locked or stored.
+    Safe,
+    /// These, and those that only a library states.
+    Own,
+    /// None.
+    All,
+}
+
+impl EdsDefaults {
+    pub(super) fn of(word: Option<&str>) -> Self {
+        match word {
+            Some("all") => EdsDefaults::All,
+            Some("own") => EdsDefaults::Own,
+            _ => EdsDefaults::Safe,
+        }
+    }
 }
 
 /// Resolves an entry; `None` when it is too broken to stand for anything.
@@ -82,6 +105,7 @@ pub(super) fn resolve(
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
         eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
         about: words(&decl.about),
+        standard: decl.not_from(around.file).into_iter().map(fact).collect(),
         span: decl.span,
         named_type,
         unit,
@@ -99,7 +123,7 @@ pub(super) fn resolve(
             .help("remove it, or correct the access"),
         );
     }
-    Some(Entry { eds: eds_policy(&entry, decl, around.safe_eds), ..entry })
+    Some(Entry { eds: eds_policy(&entry, decl, around.eds), ..entry })
 }
 
 fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics) -> Option<u16> {
@@ -403,29 +427,52 @@ fn bit_errors(
 
 /// What the EDS shows. A locked entry is read-only to a PLC; the defaults of locked and stored entries stay out of a
 /// `safe` EDS, because some PLCs write every writable entry that has a default at each boot.
-fn eds_policy(entry: &Entry, decl: &EntryDecl, safe: bool) -> EdsPolicy {
+fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPolicy {
     let kept = entry.locked
         || matches!(entry.stored, Storage::Application | Storage::Manufacturer | Storage::Remanent);
     let access = match (entry.access, entry.pdo) {
-        _ if entry.locked => Access::Ro,
+        // What cannot be read stays `wo`; its flags keep tools from writing it.
+        _ if entry.locked && entry.access.is_readable() => Access::Ro,
         (Access::Rw, PdoMapping::Receive) => Access::Rww,
         (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
         (access, _) => access,
     };
     let own = decl.eds.as_ref().map(|eds| &eds.value);
+    let protected = kept && entry.access.is_writable();
+    let default = match defaults {
+        EdsDefaults::All => true,
+        EdsDefaults::Safe => !protected,
+        EdsDefaults::Own => !protected && !entry.standard.contains(&"default"),
+    };
     EdsPolicy {
         access: own.and_then(|eds| eds.access).unwrap_or(access),
-        default: own.and_then(|eds| eds.default).unwrap_or(!(safe && kept && entry.access.is_writable())),
+        default: own.and_then(|eds| eds.default).unwrap_or(default),
         no_write: entry.locked || own.is_some_and(|eds| eds.no_write),
         no_scan: own.is_some_and(|eds| eds.no_scan),
     }
 }
 
 /// The policy of a view of another entry: whatever protects the target protects the view.
-pub(super) fn alias_policy(alias: &Entry, target: &Entry, decl: &EntryDecl, safe: bool) -> EdsPolicy {
-    let as_target = Entry { locked: target.locked, stored: target.stored, ..alias.clone() };
-    let policy = eds_policy(&as_target, decl, safe);
+pub(super) fn alias_policy(
+    alias: &Entry,
+    target: &Entry,
+    decl: &EntryDecl,
+    defaults: EdsDefaults,
+) -> EdsPolicy {
+    let standard = target.standard.clone();
+    let as_target = Entry { locked: target.locked, stored: target.stored, standard, ..alias.clone() };
+    let policy = eds_policy(&as_target, decl, defaults);
     EdsPolicy { no_write: policy.no_write || target.eds.no_write, ..policy }
+}
+
+/// The key of a fact.
+fn fact(field: &'static str) -> &'static str {
+    match field {
+        "type_name" => "type",
+        "writable_when" => "writable-when",
+        "bit_errors" => "bit-errors",
+        other => other,
+    }
 }
 
 /// The unit of an entry, for messages and alias factors.

@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use super::libraries;
 use super::types::words;
-use crate::ast::Spec;
+use crate::ast::{ErrorDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::model::ErrorCode;
+use crate::model::{ErrorCode, Text};
 use crate::source::Span;
 
-pub(super) fn resolve(root: &Spec, diagnostics: &mut Diagnostics) -> Vec<ErrorCode> {
+pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Vec<ErrorCode> {
     let mut codes: BTreeMap<u16, (Span, ErrorCode)> = BTreeMap::new();
     for decl in &root.errors {
         let (first, last) = decl.codes.value;
-        let Some(name) = &decl.name else { continue };
         if let Some((code, (before, _))) = codes.range(first..=last).next() {
             diagnostics.push(
                 Diagnostic::new(
@@ -26,17 +26,63 @@ pub(super) fn resolve(root: &Spec, diagnostics: &mut Diagnostics) -> Vec<ErrorCo
             );
             continue;
         }
+        let library = match &decl.from {
+            Some(from) => match libraries::library(from, libraries, diagnostics) {
+                Some(library) => Some(library),
+                None => continue,
+            },
+            None => None,
+        };
         for code in first..=last {
-            let error = ErrorCode {
-                code,
-                name: name.value.replace("{n}", &(u32::from(code - first) + 1).to_string()),
-                devices: decl.on.iter().flatten().map(|key| key.value.clone()).collect(),
-                priority: decl.priority.as_ref().map(|priority| priority.value.clone()),
-                reaction: words(&decl.reaction),
-                about: words(&decl.about),
-            };
+            let Some(error) = error(decl, code, library, diagnostics) else { break };
             codes.insert(code, (decl.codes.span, error));
         }
     }
     codes.into_values().map(|(_, error)| error).collect()
+}
+
+/// One code of a declaration, over what the library says about it.
+fn error(
+    decl: &ErrorDecl,
+    code: u16,
+    library: Option<&Spec>,
+    diagnostics: &mut Diagnostics,
+) -> Option<ErrorCode> {
+    let covers = |decl: &&ErrorDecl| (decl.codes.value.0..=decl.codes.value.1).contains(&code);
+    let below = library.and_then(|library| library.errors.iter().find(covers));
+    if let (Some(from), Some(_), None) = (&decl.from, library, below) {
+        let missing = libraries::not_there(from, &format!("error code {code:04X}h"));
+        diagnostics.push(missing.help("write the code in full, without `from:`"));
+        return None;
+    }
+    let name = |decl: &ErrorDecl| {
+        let number = u32::from(code.saturating_sub(decl.codes.value.0)) + 1;
+        Some(decl.name.as_ref()?.value.replace("{n}", &number.to_string()))
+    };
+    let Some(name) = name(decl).or_else(|| name(below?)) else {
+        if !decl.unsure {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::MissingKey,
+                    decl.codes.span,
+                    "an error code needs the key `name` or `from`",
+                )
+                .help("add `name:`, or `from:` with a library that defines the code"),
+            );
+        }
+        return None;
+    };
+    let text = |own: Text, below: Option<Text>| if own.is_empty() { below.unwrap_or_default() } else { own };
+    Some(ErrorCode {
+        code,
+        name,
+        devices: decl.on.iter().flatten().map(|key| key.value.clone()).collect(),
+        priority: decl
+            .priority
+            .as_ref()
+            .or_else(|| below?.priority.as_ref())
+            .map(|priority| priority.value.clone()),
+        reaction: text(words(&decl.reaction), below.map(|below| words(&below.reaction))),
+        about: text(words(&decl.about), below.map(|below| words(&below.about))),
+    })
 }

@@ -1,7 +1,9 @@
 //! State machines and command codings.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use super::libraries;
 use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::types::words;
@@ -9,19 +11,104 @@ use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{BitPattern, Command, Dictionary, EntryId, State, StateMachine, Transition};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 use crate::yaml::shorten;
 
 pub(super) fn resolve(
     root: &Spec,
+    libraries: &[Spec],
     devices: &[Dictionary],
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, StateMachine> {
-    root.machines
-        .iter()
-        .filter_map(|decl| Some((decl.name.value.clone(), machine(decl, devices, broken, diagnostics)?)))
-        .collect()
+    let mut machines = BTreeMap::new();
+    for decl in &root.machines {
+        let Some(whole) = whole(decl, libraries, diagnostics) else { continue };
+        if let Some(machine) = machine(&whole, devices, broken, diagnostics) {
+            machines.insert(decl.name.value.clone(), machine);
+        }
+    }
+    machines
+}
+
+/// A declaration laid over the library's machine of its name, where `from:` says so.
+fn whole<'a>(
+    decl: &'a MachineDecl,
+    libraries: &[Spec],
+    diagnostics: &mut Diagnostics,
+) -> Option<Cow<'a, MachineDecl>> {
+    let Some(from) = &decl.from else {
+        let keys = [
+            ("status", decl.status.is_none()),
+            ("command", decl.command.is_none()),
+            ("states", decl.states.is_empty()),
+        ];
+        for (key, _) in keys.into_iter().filter(|(_, missing)| *missing && !decl.unsure) {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::MissingKey,
+                    decl.name.span,
+                    format!("a state machine needs the key `{key}`, or `from`"),
+                )
+                .help(format!("add `{key}:`, or `from:` with a library that defines the machine")),
+            );
+        }
+        return Some(Cow::Borrowed(decl));
+    };
+    let library = libraries::library(from, libraries, diagnostics)?;
+    let Some(below) = library.machines.iter().find(|below| below.name.value == decl.name.value) else {
+        let what = format!("the state machine `{}`", shorten(&decl.name.value));
+        let known = library.machines.iter().map(|machine| format!("`{}`", machine.name.value));
+        let help = format!("it defines {}", known.collect::<Vec<_>>().join(", "));
+        diagnostics.push(libraries::not_there(from, &what).help(help));
+        return None;
+    };
+    let mut states = below.states.clone();
+    for (name, pattern, about) in &decl.states {
+        match states.iter_mut().find(|(below, ..)| below.value == name.value) {
+            Some(state) => {
+                state.1 = pattern.clone().or_else(|| state.1.clone());
+                state.2 = about.clone().or_else(|| state.2.clone());
+            }
+            None => states.push((name.clone(), pattern.clone(), about.clone())),
+        }
+    }
+    let mut transitions = below.transitions.clone();
+    for own in &decl.transitions {
+        match transitions.iter_mut().find(|below| below.number.value == own.number.value) {
+            Some(transition) => {
+                if !own.from.is_empty() {
+                    transition.from.clone_from(&own.from);
+                }
+                transition.to = own.to.clone().or_else(|| transition.to.clone());
+                transition.event = own.event.clone().or_else(|| transition.event.clone());
+                transition.action = own.action.clone().or_else(|| transition.action.clone());
+            }
+            None => transitions.push(own.clone()),
+        }
+    }
+    let mut commands = below.commands.clone();
+    for own in &decl.commands {
+        match commands.iter_mut().find(|below| below.name.value == own.name.value) {
+            Some(command) => {
+                command.pattern = own.pattern.clone().or_else(|| command.pattern.clone());
+                command.send = own.send.or(command.send);
+                command.about = own.about.clone().or_else(|| command.about.clone());
+                if !own.transitions.is_empty() {
+                    command.transitions.clone_from(&own.transitions);
+                }
+            }
+            None => commands.push(own.clone()),
+        }
+    }
+    Some(Cow::Owned(MachineDecl {
+        status: decl.status.clone().or_else(|| below.status.clone()),
+        command: decl.command.clone().or_else(|| below.command.clone()),
+        states,
+        transitions,
+        commands,
+        ..decl.clone()
+    }))
 }
 
 fn machine(
@@ -62,6 +149,7 @@ fn machine(
         }
     }
     let (device, status, command) = found?;
+    check_complete(decl, diagnostics);
     let states: Vec<State> = decl
         .states
         .iter()
@@ -159,6 +247,28 @@ fn commands(
         });
     }
     commands
+}
+
+/// States, transitions and commands have what makes them, here or in the library.
+fn check_complete(decl: &MachineDecl, diagnostics: &mut Diagnostics) {
+    let mut missing = |span: Span, what: &str, key: &str| {
+        diagnostics.push(
+            Diagnostic::new(Code::MissingKey, span, format!("{what} needs the key `{key}`"))
+                .help(format!("add `{key}:`")),
+        );
+    };
+    for (name, ..) in decl.states.iter().filter(|(_, pattern, _)| pattern.is_none()) {
+        missing(name.span, "a state", "pattern");
+    }
+    for one in &decl.transitions {
+        let keys = [("from", one.from.is_empty()), ("to", one.to.is_none()), ("event", one.event.is_none())];
+        for (key, _) in keys.into_iter().filter(|(_, missing)| *missing) {
+            missing(one.number.span, "a transition", key);
+        }
+    }
+    for one in decl.commands.iter().filter(|one| one.pattern.is_none()) {
+        missing(one.name.span, "a command", "pattern");
+    }
 }
 
 /// A pattern has as many bits as the entry it describes.

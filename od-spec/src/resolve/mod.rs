@@ -6,6 +6,7 @@ mod devices;
 mod document;
 mod entries;
 mod errors;
+mod libraries;
 mod machines;
 mod objects;
 mod pdos;
@@ -60,13 +61,13 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
         vendor,
         units: scope.units,
         types: scope.types,
-        errors: errors::resolve(root, diagnostics),
+        errors: errors::resolve(root, libraries, diagnostics),
         machines: std::collections::BTreeMap::new(),
         constraints: Vec::new(),
         errata: Vec::new(),
         devices,
     };
-    system.machines = machines::resolve(root, &system.devices, &broken, diagnostics);
+    system.machines = machines::resolve(root, libraries, &system.devices, &broken, diagnostics);
     system.constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
     system.errata = document::errata(root, &system, &broken, diagnostics);
     document::check(root, &system, &broken, diagnostics);

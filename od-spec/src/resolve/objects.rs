@@ -274,6 +274,7 @@ fn finish(
         identifier: None,
         bit_errors: Vec::new(),
         eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
+        standard: Vec::new(),
         about: Text::default(),
         span,
     };

@@ -357,6 +357,7 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
             identifier: None,
             bit_errors: Vec::new(),
             eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
+            standard: Vec::new(),
             about: english(parameter.about),
             span,
         }

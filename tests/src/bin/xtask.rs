@@ -93,9 +93,10 @@ fn browser() -> Result<(), Failure> {
     const DOCS: &str = "target/browser/docs";
     let mut directories = Vec::new();
     let specs = SPECS.iter().map(|stem| (*stem, format!("od-spec/devices/{stem}.od.yaml")));
-    for (stem, path) in specs.chain([("everything", "tests/readers/everything.od.yaml".to_owned())]) {
+    let more = [("everything", "tests/readers/everything.od.yaml"), ("two", "tests/docs/two.od.yaml")];
+    for (stem, path) in specs.chain(more.map(|(stem, path)| (stem, path.to_owned()))) {
         let system = compile_clean(&path)?;
-        let options = docs::options(&system, &[], None);
+        let options = docs::options(&system, &[], Some("en"));
         let html = [docs::Templates::new(Some(docs::Format::Html), &[])?];
         let mut set = docs::artifacts(&system, "", stem, &options, &html)?;
         let beside = [("dump", json::dump(&system, &[])), ("context", docs::dump_context(&system, &options))];

@@ -160,6 +160,10 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub deny_warnings: bool,
 
+    /// Also list the objects that depart from the standard they are taken from
+    #[arg(long)]
+    pub notes: bool,
+
     /// Also what only Rust code minds: names that give one identifier, strings without a capacity
     #[arg(long)]
     pub rust: bool,
@@ -209,7 +213,7 @@ pub(crate) struct DcfArgs {
     pub messages: Messages,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(crate) struct DocsArgs {
     /// Specifications (`*.od.yaml`); without any, the specifications that come with odgen
     pub specs: Vec<PathBuf>,

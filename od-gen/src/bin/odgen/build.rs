@@ -136,7 +136,7 @@ pub(crate) fn stem(path: &Path) -> String {
 }
 
 /// The first path that two artifacts share.
-fn clash(set: &[Artifact]) -> Option<&str> {
+pub(crate) fn clash(set: &[Artifact]) -> Option<&str> {
     let mut seen = BTreeSet::new();
     // Some file systems do not tell capitals from small letters.
     set.iter()

@@ -2,8 +2,8 @@
 
 use od_gen::rust;
 use od_gen::source::{FileLoader, compile_file};
-use od_spec::Compiled;
 use od_spec::source::SourceMap;
+use od_spec::{Compiled, departures};
 
 use super::args::CheckArgs;
 use super::report::Report;
@@ -21,6 +21,9 @@ pub(crate) fn run(args: &CheckArgs, report: &Report) -> u8 {
             }
         }
         report.show(&diagnostics, &sources);
+        if let Some(system) = &system {
+            report.show_notes(&departures(system), &sources, args.notes);
+        }
         if diagnostics.has_errors() || system.is_none() || (args.deny_warnings && !diagnostics.is_empty()) {
             code = ERRORS;
         }

@@ -11,7 +11,7 @@ use od_spec::model::System;
 use od_spec::source::SourceMap;
 
 use super::args::{DocsArgs, DocsFormat};
-use super::build::{SHIPPED, list, shipped, stem};
+use super::build::{SHIPPED, clash, list, shipped, stem};
 use super::report::{Report, print, print_bytes};
 use super::{ERRORS, FINE};
 
@@ -25,13 +25,20 @@ pub(crate) fn run(args: &DocsArgs, report: &Report) -> u8 {
             return report.unknown_device(systems.iter().map(|(_, system)| system), key);
         }
     }
+    let mut args = args.clone();
+    if let Some(code) = &args.lang {
+        match language(code, systems.iter().map(|(_, system)| system)) {
+            Ok(known) => args.lang = Some(known),
+            Err(diagnostic) => return report.refuse(*diagnostic),
+        }
+    }
     if args.dump_context {
         return systems.iter().fold(FINE, |code, (_, system)| {
             let options = docs::options(system, &args.device, args.lang.as_deref());
             code.max(print_bytes(&docs::dump_context(system, &options)))
         });
     }
-    let templates = match templates(&formats(args), args.templates.as_deref()) {
+    let templates = match templates(&formats(&args), args.templates.as_deref()) {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
@@ -46,6 +53,15 @@ pub(crate) fn run(args: &DocsArgs, report: &Report) -> u8 {
             Err(error) => return Problem::Template(error, args.templates.clone()).show(report),
         }
     }
+    if let Some(path) = clash(&set) {
+        return report.refuse(
+            Diagnostic::without_place(
+                Code::DuplicateName,
+                format!("two specifications would both write {path}"),
+            )
+            .help("print specifications of one file name into different directories"),
+        );
+    }
     write(&args.out, &set, report)
 }
 
@@ -57,6 +73,21 @@ fn write(out: &Path, set: &[Artifact], report: &Report) -> u8 {
                 .help("nothing was changed; check the directory, its permissions and the free space"),
         ),
     }
+}
+
+/// The language of this code, in any case: one whose fixed words are known, or one of the specifications.
+fn language<'a>(code: &str, systems: impl Iterator<Item = &'a System>) -> Result<String, Box<Diagnostic>> {
+    let own = systems.flat_map(|system| &system.languages).map(String::as_str);
+    let mut known: Vec<&str> = docs_gen::LANGUAGES.iter().copied().chain(own).collect();
+    known.sort_unstable();
+    known.dedup();
+    known.iter().find(|one| one.eq_ignore_ascii_case(code)).map(|one| (*one).to_owned()).ok_or_else(|| {
+        let list = known.iter().map(|one| format!("`{one}`")).collect::<Vec<_>>().join(", ");
+        Box::new(
+            Diagnostic::without_place(Code::UnknownWord, format!("there is no language `{code}`"))
+                .help(format!("the languages are {list}")),
+        )
+    })
 }
 
 /// The formats to print; a user's own templates come alone unless a format is named.

@@ -41,6 +41,22 @@ impl Report {
         let _ = std::io::stderr().write_all(text.as_bytes());
     }
 
+    /// Writes notes, a line each, if they are wanted; or else tells people how many there are.
+    pub(crate) fn show_notes(&self, notes: &Diagnostics, sources: &SourceMap, wanted: bool) {
+        let count = notes.iter().count();
+        let text = match (wanted, self.format) {
+            (true, Format::Json) => render::render(notes, sources, Format::Json, false),
+            (true, _) => render::render(notes, sources, Format::Short, self.colour),
+            (false, Format::Human) if count > 0 => {
+                let objects =
+                    if count == 1 { "1 object departs" } else { &format!("{count} objects depart") };
+                format!("note: {objects} from the standard; `odgen check --notes` lists them\n")
+            }
+            (false, _) => String::new(),
+        };
+        let _ = std::io::stderr().write_all(text.as_bytes());
+    }
+
     /// Compiles a file and shows what there is to say; `None` when it has errors.
     pub(crate) fn compile(&self, path: &Path) -> Option<System> {
         self.compile_with_sources(path).map(|(system, _)| system)

@@ -1,0 +1,54 @@
+//! What a specification takes from its libraries by `from:`.
+
+use super::scope::unknown;
+use crate::ast::{Axes, EntryDecl, Name, ObjectDecl, Spec};
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::model::Index;
+use crate::source::Spanned;
+
+/// The library of this name, which `from:` gives.
+pub(super) fn library<'a>(
+    from: &Name,
+    libraries: &'a [Spec],
+    diagnostics: &mut Diagnostics,
+) -> Option<&'a Spec> {
+    let is_named = |library: &&Spec| library.profile.as_ref().is_some_and(|name| name.value == from.value);
+    let found = libraries.iter().find(is_named);
+    if found.is_none() {
+        let known = libraries.iter().filter_map(|library| Some(library.profile.as_ref()?.value.as_str()));
+        let otherwise = "name the library in `uses:` at the top of the file";
+        diagnostics.push(unknown(Code::UnknownLibrary, from, "library", known, otherwise));
+    }
+    found
+}
+
+/// A library lacks what `from:` takes from it.
+pub(super) fn not_there(from: &Name, what: &str) -> Diagnostic {
+    Diagnostic::new(Code::NotInLibrary, from.span, format!("library `{}` does not define {what}", from.value))
+}
+
+/// What a library says about an object, on any axis.
+pub(super) fn object(library: &Spec, index: Index) -> Option<ObjectDecl> {
+    let find = |index: Index| library.objects.iter().find(|decl| decl.index.value == index);
+    if let Some(decl) = find(index) {
+        return Some(decl.clone());
+    }
+    let axes = library.axes?;
+    let (axis, first) = axes.locate(index)?;
+    on_axis(find(first)?, axes, axis)
+}
+
+/// An object of axis 1 on a further axis: `Controlword axis 2`.
+pub(super) fn on_axis(decl: &ObjectDecl, axes: Axes, axis: u16) -> Option<ObjectDecl> {
+    let index = axes.shift(decl.index.value, axis)?;
+    if axis == 1 || index == decl.index.value {
+        return Some(decl.clone());
+    }
+    let name = decl.entry.name.as_ref();
+    let name = name.map(|name| Spanned::new(format!("{} axis {axis}", name.value), name.span));
+    Some(ObjectDecl {
+        index: Spanned::new(index, decl.index.span),
+        entry: EntryDecl { name, ..decl.entry.clone() },
+        ..decl.clone()
+    })
+}
