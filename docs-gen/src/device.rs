@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use od_spec::model::{
     Category, Dictionary, Direction, Entry, EntryId, Object, ObjectKind, Origin, PdoMapping, PdoTarget,
-    Storage, TableContent, TypeKind, Value,
+    Storage, TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -231,31 +231,18 @@ impl Source<'_> {
 
     /// The sections of the manual whose tables show the object in detail.
     fn places(&self, object: &Object) -> Vec<Place> {
-        let mut places = Vec::new();
         if object.origin != Origin::Manual {
-            return places;
+            return Vec::new();
         }
-        for (page, sections) in self.chapters() {
-            for (at, _) in sections {
-                let section = &self.document().sections[at];
-                let shows = section.tables.iter().any(|table| match &table.content {
-                    TableContent::Objects(list) | TableContent::Overview(list) => {
-                        list.contains(&object.index)
-                    }
-                    _ => false,
-                });
-                if shows {
-                    let title = self.text(&section.title).text;
-                    let text = format!("{} {title}", section.number).trim().to_owned();
-                    places.push(Place {
-                        text,
-                        anchor: section_anchor(self.document(), at),
-                        page: page.clone(),
-                    });
-                }
-            }
-        }
-        places
+        let sections = self.sections_of(object.index).iter();
+        sections
+            .map(|at| {
+                let section = &self.document().sections[*at];
+                let title = self.text(&section.title).text;
+                let text = format!("{} {title}", section.number).trim().to_owned();
+                Place { text, anchor: section_anchor(self.document(), *at), page: self.page_of(*at) }
+            })
+            .collect()
     }
 }
 

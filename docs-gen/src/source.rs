@@ -1,6 +1,7 @@
 //! The model in front of the printer: chosen devices, language, and where each thing is shown.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use od_spec::expr::{EntryRef, Expr, Term};
 use od_spec::model::{
@@ -32,6 +33,21 @@ pub(crate) fn chapter_page(number: &str, title: &str) -> String {
     slug(&format!("{number} {title}"))
 }
 
+/// What would otherwise be searched for again and again.
+#[derive(Default)]
+struct Lookup {
+    /// Positions of the errata about each object, ascending.
+    errata: BTreeMap<Index, Vec<usize>>,
+    /// Entries with error codes of their own for the bits of their type, by the type's name.
+    bit_errors: BTreeMap<String, Vec<EntryId>>,
+    /// Entries with bits that show an error code.
+    showing: BTreeMap<u16, Vec<EntryId>>,
+    /// Positions of the sections that show an object.
+    places: BTreeMap<Index, Vec<usize>>,
+    /// [`Source::chapters`].
+    chapters: Vec<(String, Vec<(usize, usize)>)>,
+}
+
 /// The model, seen by the printer.
 pub(crate) struct Source<'a> {
     pub system: &'a System,
@@ -42,8 +58,7 @@ pub(crate) struct Source<'a> {
     pub accessors: &'a BTreeMap<(String, EntryId), String>,
     /// The page, where pages are small, that shows an object in detail.
     homes: BTreeMap<Index, String>,
-    /// Positions of the errata about each object, ascending.
-    errata: BTreeMap<Index, Vec<usize>>,
+    lookup: Rc<Lookup>,
 }
 
 impl<'a> Source<'a> {
@@ -58,28 +73,73 @@ impl<'a> Source<'a> {
             language,
             accessors: &options.accessors,
             homes: BTreeMap::new(),
-            errata: BTreeMap::new(),
+            lookup: Rc::default(),
         };
         source.homes = source.find_homes();
-        source.errata = source.find_errata();
+        source.lookup = Rc::new(source.look_up());
         source
     }
 
     /// The same for the page of one device, which shows every object of the device itself.
     pub(crate) fn only(&self, device: &'a Dictionary) -> Self {
         let homes = device.objects.keys().map(|index| (*index, device.key.clone())).collect();
-        Self { devices: vec![device], homes, errata: self.errata.clone(), ..*self }
+        Self { devices: vec![device], homes, lookup: Rc::clone(&self.lookup), ..*self }
     }
 
-    fn find_errata(&self) -> BTreeMap<Index, Vec<usize>> {
-        let mut errata: BTreeMap<Index, Vec<usize>> = BTreeMap::new();
+    fn look_up(&self) -> Lookup {
+        let mut lookup = Lookup { chapters: self.chapters(), ..Lookup::default() };
         for (at, erratum) in self.system.errata.iter().enumerate().filter(|(_, one)| self.is_about(one)) {
             let indices: BTreeSet<Index> = erratum.at.iter().map(|place| place.index()).collect();
             for index in indices {
-                errata.entry(index).or_default().push(at);
+                lookup.errata.entry(index).or_default().push(at);
             }
         }
-        errata
+        let mut seen: BTreeSet<EntryId> = BTreeSet::new();
+        for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
+            let Some(named) = &entry.named_type else { continue };
+            let TypeKind::Bits(fields) = &named.kind else { continue };
+            let own = entry.bit_errors.iter().flat_map(|(_, codes)| codes);
+            let codes: BTreeSet<u16> =
+                fields.iter().flat_map(|field| &field.errors).chain(own).copied().collect();
+            for code in codes {
+                let entries = lookup.showing.entry(code).or_default();
+                if !entries.contains(&id) {
+                    entries.push(id);
+                }
+            }
+            if !entry.bit_errors.is_empty() && seen.insert(id) {
+                lookup.bit_errors.entry(named.name.clone()).or_default().push(id);
+            }
+        }
+        for (at, section) in self.document().sections.iter().enumerate() {
+            for table in &section.tables {
+                let (TableContent::Objects(list) | TableContent::Overview(list)) = &table.content else {
+                    continue;
+                };
+                for index in list {
+                    let places = lookup.places.entry(*index).or_default();
+                    if places.last() != Some(&at) {
+                        places.push(at);
+                    }
+                }
+            }
+        }
+        lookup
+    }
+
+    /// Entries with error codes of their own for the bits of a type.
+    pub(crate) fn with_bit_errors(&self, named: &str) -> &[EntryId] {
+        self.lookup.bit_errors.get(named).map_or(&[], Vec::as_slice)
+    }
+
+    /// Entries with bits that show an error code.
+    pub(crate) fn showing(&self, code: u16) -> &[EntryId] {
+        self.lookup.showing.get(&code).map_or(&[], Vec::as_slice)
+    }
+
+    /// Positions of the sections whose tables show an object.
+    pub(crate) fn sections_of(&self, index: Index) -> &[usize] {
+        self.lookup.places.get(&index).map_or(&[], Vec::as_slice)
     }
 
     fn find_homes(&self) -> BTreeMap<Index, String> {
@@ -124,6 +184,13 @@ impl<'a> Source<'a> {
             }
         }
         chapters
+    }
+
+    /// The page that has a section.
+    pub(crate) fn page_of(&self, section: usize) -> String {
+        let has =
+            |(_, sections): &&(String, Vec<(usize, usize)>)| sections.iter().any(|(at, _)| *at == section);
+        self.lookup.chapters.iter().find(has).map_or_else(String::new, |(page, _)| page.clone())
     }
 
     pub(crate) const fn document(&self) -> &'a Document {
@@ -183,7 +250,7 @@ impl<'a> Source<'a> {
 
     /// Numbers of the errata about an object, as a whole or any of its entries.
     pub(crate) fn errata_of_object(&self, index: Index) -> &[usize] {
-        self.errata.get(&index).map_or(&[], Vec::as_slice)
+        self.lookup.errata.get(&index).map_or(&[], Vec::as_slice)
     }
 
     /// Numbers of the errata that name one entry; those of an object of one value name its only entry.

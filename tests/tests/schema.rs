@@ -212,8 +212,8 @@ fn the_first_specification_of_the_reference_compiles_without_a_word() {
 
 #[test]
 fn the_other_pieces_of_the_reference_compile() {
-    let head = "od-spec: 1\ntitle: t\nuses: [cia301]\n\
-        devices: {d: {name: d, bit-rates: [125], features: [heartbeat producer]}}\n";
+    let head = "od-spec: 1\ntitle: t\nuses: [cia301, cia402]\n\
+        devices: {d: {name: d, bit-rates: [125], features: [heartbeat producer, drive]}}\n";
     for piece in &yaml_of_reference()[1..] {
         let found = diagnostics(&format!("{head}{piece}"));
         let found: Vec<String> = found.iter().map(|one| format!("{} {}", one.code, one.message)).collect();

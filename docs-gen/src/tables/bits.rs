@@ -83,17 +83,12 @@ impl Source<'_> {
             let own = entry.bit_errors.iter().filter(|(bit, _)| (field.first..=field.last).contains(bit));
             own.flat_map(|(_, codes)| codes.iter().copied()).collect()
         };
-        let mut seen = Vec::new();
-        for (id, object, _) in self.devices.iter().flat_map(|device| device.entries()) {
+        for id in self.with_bit_errors(&named.name).iter().copied() {
             let entry = |device: &Dictionary| {
                 let entry = device.entry(id)?;
                 let shares = entry.named_type.as_ref().is_some_and(|other| other.name == named.name);
                 shares.then(|| of(entry))
             };
-            if seen.contains(&id) {
-                continue;
-            }
-            seen.push(id);
             let mut variants = self.variants(id.index, |device, _| entry(device));
             let several = variants.len() > 1;
             variants.retain(|devices| {
@@ -101,8 +96,7 @@ impl Source<'_> {
             });
             for devices in variants {
                 let Some(device) = devices.first() else { continue };
-                let place = if object.is_structured() { id.to_string() } else { object.index.to_string() };
-                let place = if several { format!("{} {place}", keys(&devices)) } else { place };
+                let place = if several { format!("{} {id}", keys(&devices)) } else { id.to_string() };
                 let key = std::slice::from_ref(&device.key);
                 let codes = list(&entry(device).unwrap_or_default());
                 cell = cell

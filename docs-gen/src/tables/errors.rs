@@ -114,12 +114,7 @@ impl Source<'_> {
     /// The bits that are set together with a code. Where devices differ, they are named.
     fn reported_by(&self, code: u16) -> Cell {
         let mut cell = Cell::default();
-        let mut seen = Vec::new();
-        for (id, object, _) in self.devices.iter().flat_map(|device| device.entries()) {
-            if seen.contains(&id) {
-                continue;
-            }
-            seen.push(id);
+        for id in self.showing(code).iter().copied() {
             let bits = |device: &Dictionary| {
                 device.entry(id).map_or_else(Vec::new, |entry| entry.bits_of_error(code))
             };
@@ -128,8 +123,7 @@ impl Source<'_> {
                 let Some(device) = devices.first() else { continue };
                 for bit in bits(device) {
                     let place =
-                        if object.is_structured() { id.to_string() } else { object.index.to_string() };
-                    let place = if variants.len() > 1 { format!("{} {place}", keys(devices)) } else { place };
+                        if variants.len() > 1 { format!("{} {id}", keys(devices)) } else { id.to_string() };
                     let key = std::slice::from_ref(&device.key);
                     cell = cell.line().and(self.link_on(key, id.index, place, entry_anchor(id)));
                     cell = cell.text(format!(" {} {bit}", self.word(Word::Bit)));

@@ -28,6 +28,12 @@
     facts: Object.fromEntries(["access", "type", "pdo", "stored", "unit"].map((key) => [key, (card.dataset[key] ?? "").split("|")])),
     shown: true,
   }));
+  const chunks = new Map();
+  for (const item of items) {
+    for (const chunk of [item.card.parentElement, item.link?.parentElement]) {
+      if (chunk?.classList.contains("chunk")) chunks.get(chunk)?.push(item) ?? chunks.set(chunk, [item]);
+    }
+  }
   const filters = [...document.querySelectorAll("select[data-filter]")];
 
   // `3020.5`, `3020:05` and `0x3020/0x05` name an entry; its card is found by the index. Behind `:` and `0x` digits are hexadecimal.
@@ -67,6 +73,11 @@
         item.card.hidden = !fits;
         if (item.link) item.link.hidden = !fits;
       }
+    }
+    // Whole groups that show nothing cost the browser nothing.
+    for (const [chunk, members] of chunks) {
+      const none = !members.some((item) => item.shown);
+      if (chunk.hidden !== none) chunk.hidden = none;
     }
     const searching = words.length > 0 || wanted.length > 0;
     root.classList.toggle("searching", searching);

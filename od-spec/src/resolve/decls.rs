@@ -302,7 +302,16 @@ fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<&'stat
         DataType::from_name(name).or_else(|| Some(scope.types.get(name)?.base))
     };
     let same = on_the_bus(over).is_some() && on_the_bus(over) == on_the_bus(below);
-    let facts = over.differences(below).into_iter();
+    let lower = |entry: &EntryDecl| entry.name.as_ref().map(|name| name.value.to_lowercase());
+    // What the library leaves to the device is no difference, nor is a name with other capitals.
+    let left = |fact: &str| match fact {
+        "name" => lower(over) == lower(below),
+        "default" => below.default.is_none(),
+        "unit" => below.unit.is_none(),
+        "special" => below.special.is_none(),
+        _ => false,
+    };
+    let facts = over.differences(below).into_iter().filter(|fact| !left(fact));
     facts.map(|fact| if fact == "type_name" && same { "meaning" } else { fact }).collect()
 }
 
@@ -322,6 +331,7 @@ fn merge_members(
 ) -> Members {
     let mut merged: BTreeMap<SubIndex, (Spanned<SubIndex>, EntryDecl)> =
         below.iter().map(|(sub, entry)| (sub.value, (*sub, entry.clone()))).collect();
+    let mut added: Vec<SubIndex> = Vec::new();
     for (sub, entry) in over {
         let laid = match merged.get(&sub.value) {
             Some((_, below)) => {
@@ -329,11 +339,16 @@ fn merge_members(
                 entry.over(below)
             }
             None => {
-                note(&format!("sub-index {}: ", sub.value), vec!["added"]);
+                added.push(sub.value);
                 entry.clone()
             }
         };
         merged.insert(sub.value, (*sub, laid));
+    }
+    match added.as_slice() {
+        [] => {}
+        [one] => note(&format!("sub-index {one}: "), vec!["added"]),
+        [first, .., last] => note(&format!("sub-indices {first} to {last}: "), vec!["added"]),
     }
     merged.into_values().collect()
 }
