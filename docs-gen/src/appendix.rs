@@ -112,6 +112,7 @@ impl Source<'_> {
                     Cell::plain(&unit.symbol),
                     Cell::plain(format!("{} {}", self.language.number(&unit.scale.to_string()), unit.symbol)),
                     base.map_or_else(Cell::default, Cell::plain),
+                    unit.formula.as_ref().map_or_else(Cell::default, |formula| self.condition(formula, &[])),
                     self.text(&unit.about),
                     entries,
                 ])
@@ -122,6 +123,7 @@ impl Source<'_> {
             .left(self, "symbol", Word::Symbol)
             .left(self, "step", Word::Step)
             .left(self, "base", Word::BaseUnit)
+            .left(self, "formula", Word::Formula)
             .left(self, "description", Word::Description)
             .left(self, "entries", Word::UsedBy)
             .grid(rows.collect(), &["name", "symbol", "step", "entries"]);

@@ -96,6 +96,7 @@ words! {
     EventTimer "event_timer": "Event timer", "Event-Timer";
     Facts "facts": "Device", "Gerät";
     Factor "factor": "Factor", "Faktor";
+    Formula "formula": "Formula", "Formel";
     From "from": "From", "Von";
     FromStandard "from_standard": "From", "Aus";
     Gates "gates": "Decides about writing to", "Entscheidet über das Schreiben von";

@@ -166,7 +166,7 @@ impl<'a> Source<'a> {
     pub(crate) fn chapters(&self) -> Vec<(String, Vec<(usize, usize)>)> {
         let mut chapters: Vec<(String, Vec<(usize, usize)>)> = Vec::new();
         for (at, section) in self.system.document.sections.iter().enumerate() {
-            let level = section.number.split('.').filter(|part| !part.is_empty()).count().max(1);
+            let level = self.level(at);
             match chapters.last_mut() {
                 Some((_, sections)) if level > 1 => sections.push((at, level)),
                 _ => {
@@ -184,6 +184,20 @@ impl<'a> Source<'a> {
             }
         }
         chapters
+    }
+
+    /// Depth of a section: the parts of its number. One without a number that stands inside a chapter belongs to it.
+    fn level(&self, at: usize) -> usize {
+        let sections = &self.system.document.sections;
+        let parts = |number: &str| number.split('.').filter(|part| !part.is_empty()).count();
+        let numbered =
+            |sections: &[od_spec::model::Section]| sections.iter().any(|one| !one.number.is_empty());
+        let next = sections[at..].iter().find(|section| !section.number.is_empty());
+        match parts(&sections[at].number) {
+            0 if numbered(&sections[..at]) && next.is_some_and(|next| parts(&next.number) > 1) => 2,
+            0 => 1,
+            parts => parts,
+        }
     }
 
     /// The page that has a section.

@@ -103,11 +103,15 @@ fn build_without_a_specification_makes_the_shipped_ones() {
     assert_eq!(
         made,
         [
+            "generated/eds/fullmo.dcf",
+            "generated/eds/fullmo.eds",
             "generated/eds/pmc.dcf",
             "generated/eds/pmc.eds",
             "generated/eds/pmm.dcf",
             "generated/eds/pmm.eds",
+            "generated/fullmo-drive.json",
             "generated/pitch-control-system.json",
+            "generated/src/fullmo.rs",
             "generated/src/pmc.rs",
             "generated/src/pmm.rs"
         ]

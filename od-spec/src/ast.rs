@@ -126,6 +126,7 @@ pub(crate) struct UnitDecl {
     pub symbol: Option<Name>,
     pub scale: Option<Spanned<Ratio>>,
     pub base: Option<Spanned<(Ratio, String)>>,
+    pub formula: Option<Spanned<Expr>>,
     pub about: Words,
 }
 

@@ -214,6 +214,18 @@ impl Expr {
         }
         Ok(Expr { text: text.to_owned(), comparisons, places: parser.places })
     }
+
+    /// Reads a term alone, such as `0x6092.1 / 0x6092.2`: a condition that compares it with nothing.
+    pub fn parse_term(text: &str) -> Result<Expr, (std::ops::Range<usize>, String)> {
+        let mut parser = Parser { text, at: 0, depth: 0, terms: 0, places: Vec::new() };
+        let first = parser.sum()?;
+        parser.blank();
+        if parser.at < text.len() {
+            return Err(parser.unexpected("an operator or the end"));
+        }
+        let comparisons = vec![Comparison { first, rest: Vec::new() }];
+        Ok(Expr { text: text.to_owned(), comparisons, places: parser.places })
+    }
 }
 
 impl Term {

@@ -263,6 +263,7 @@ const SCALARS: &[Shape] = &[
     Shape::Ratio,
     Shape::Base,
     Shape::Condition,
+    Shape::Formula,
     Shape::Pattern,
 ];
 
@@ -285,6 +286,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Ratio => "fraction",
         Shape::Base => "fraction-and-symbol",
         Shape::Condition => "condition",
+        Shape::Formula => "formula",
         Shape::Pattern => "bit-pattern",
         _ => return None,
     })
@@ -324,6 +326,7 @@ fn scalar(shape: Shape) -> Json {
         ]),
         Shape::Base => pattern(&["string"], format!("^{DECIMAL}(/{DECIMAL})? +\\S")),
         Shape::Condition => pattern(&["string"], "[<=>]".to_owned()),
+        Shape::Formula => pattern(&["string", "number"], "^[^<=>]+$".to_owned()),
         Shape::Pattern => pattern(&["string", "integer"], "^[01xrf\\s]+$".to_owned()),
         _ => any_text(),
     }

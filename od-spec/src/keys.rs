@@ -60,6 +60,8 @@ pub enum Shape {
     Base,
     /// A condition between entries.
     Condition,
+    /// A term of a condition: `0x6092.1 / 0x6092.2`.
+    Formula,
     /// Bits, most significant first: `xxxx xxxx x01x 0001`.
     Pattern,
     /// A map with fixed keys.
@@ -242,6 +244,7 @@ keys! {
         "symbol" required: Shape::Text, "symbol, such as `°C`", "mV";
         "scale": Shape::Ratio, "one raw step in `symbol`; 1 unless given", "1/10";
         "base": Shape::Base, "one `symbol` in a more basic one, such as `1/1000 V`; units of one base convert into each other", "1/1000 V";
+        "formula": Shape::Formula, "what other entries make of one raw step, for the documentation", "0x6092.1 / 0x6092.2 / 65536";
         "about": Shape::Words, "meaning";
     }
 }

@@ -137,6 +137,7 @@ fn value(shape: Shape) -> String {
         Shape::Ratio => "fraction".to_owned(),
         Shape::Base => "fraction and symbol".to_owned(),
         Shape::Condition => "condition".to_owned(),
+        Shape::Formula => "formula".to_owned(),
         Shape::Pattern => "bit pattern".to_owned(),
         Shape::Map(keys) => link(keys),
         Shape::MapOf(kind, inner) => format!("map: {} → {}", key_kind(kind), value(*inner)),
@@ -365,6 +366,7 @@ YAML itself would misread a text: one that holds `: ` or ` #`, or starts with a 
 | fraction | a positive number, or two with `/` between them: `1/10`, `0.01`, `5` |
 | fraction and symbol | a fraction without blanks, a blank, a symbol: `1/1000 V` |
 | condition | see [constraints](#constraint) |
+| formula | one side of a comparison of a condition: `0x6092.1 / 0x6092.2` |
 | bit pattern | 8, 16 or 32 places, most significant bit first: `0`, `1`, `x` (either), `r` (rising edge) or `f` (falling edge). Blanks are free: `xxxx xxxx x01x 0001` |
 
 A list has to be a list even if it has one item, except where the tables say "or a list of such". A map whose keys are data, such as
@@ -413,6 +415,9 @@ A unit says what a raw value means. With `decicelsius: {symbol: °C, scale: 1/10
 `millivolt: {symbol: mV, base: 1/1000 V}`, 41000 mV may also be written as `41 V`. Units whose bases have one symbol convert into each
 other, in [aliases](#aliases) and in [conditions](#constraint); a unit without `base:` has its own symbol as base. A physical value that
 falls between two raw steps is refused, not rounded.
+
+A unit that the user sets up, such as a position unit made by gear and feed, has a `formula:` that tells how. Values in it are raw numbers all the same;
+the documentation shows the formula with the names of its entries.
 ";
 
 const TYPES: &str = r"

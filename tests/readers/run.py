@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Check generated EDS and DCF files with five CANopen tools of other people.
 
-    run.py [--out CACHE] [--eds-dir generated/eds] [--dump generated/pitch-control-system.json] [--node 1]
-           [--values FILE]
+    run.py [--out CACHE] [--eds-dir generated/eds] [--dump generated/*.json] [--node 1] [--values FILE]
 
-Installs the tools into the cache, reads KEY.eds and KEY.dcf of every device in the dump with each of
+Installs the tools into the cache, reads KEY.eds and KEY.dcf of every device in the dumps with each of
 them and compares what they read with the dump. With --values it reads KEY.dcf only, which must hold the
-parameter values of that file: a line `INDEX.SUB VALUE` each, raw numbers or text. Exit code 0: everything was read and agrees; 1: a
-difference, or a file missing or too many; 3: a tool could not be installed, so part was not checked.
+parameter values of that file: a line `INDEX.SUB VALUE` each, raw numbers or text. Exit code 0: everything
+was read and agrees; 1: a difference, or a file missing or too many; 3: a tool could not be installed, so
+part was not checked.
 """
 
 from __future__ import annotations
@@ -167,20 +167,25 @@ def raw(text: str) -> int | float | None:
 def wrong_files(folder: Path, wanted: list[Path]) -> list[str]:
     there = {path for path in folder.glob("*") if path.suffix.lower() in (".eds", ".dcf")}
     lines = [f"{path}: not there" for path in wanted if path not in there]
-    return lines + [f"{path}: of no device in the dump" for path in sorted(there - set(wanted))]
+    return lines + [f"{path}: of no device in the dumps" for path in sorted(there - set(wanted))]
 
 
 def run(args: argparse.Namespace) -> int:
-    keys = [device["key"] for device in json.loads(args.dump.read_text(encoding="utf-8"))["devices"]]
-    dump, suffixes = args.dump, (".eds", ".dcf")
+    dumps, suffixes = args.dump or sorted((ROOT / "generated").glob("*.json")), (".eds", ".dcf")
     if args.values:
-        dump, suffixes = with_values(dump, args.values, args.out / "with-values.json"), (".dcf",)
-    wanted = [(key, args.eds_dir / f"{key}{suffix}") for key in keys for suffix in suffixes]
-    problems = wrong_files(args.eds_dir, [file for _, file in wanted])
+        (dump,) = dumps
+        dumps, suffixes = [with_values(dump, args.values, args.out / "with-values.json")], (".dcf",)
+    wanted = [
+        (args.eds_dir / f"{device['key']}{suffix}", dump, device["key"])
+        for dump in dumps
+        for device in json.loads(dump.read_text(encoding="utf-8"))["devices"]
+        for suffix in suffixes
+    ]
+    problems = wrong_files(args.eds_dir, [file for file, _, _ in wanted])
     readers, missing = installed(args.out.resolve())
-    work = [(reader, file, key) for reader in readers for key, file in wanted if file.is_file()]
+    work = [(reader, *rest) for reader in readers for rest in wanted if rest[0].is_file()]
     with ThreadPoolExecutor(max_workers=2) as pool:
-        outcomes = list(pool.map(lambda w: check(w[0], w[1], dump, w[2], args.node), work))
+        outcomes = list(pool.map(lambda one: check(*one, args.node), work))
     for outcome in outcomes:
         print(f"{'ok  ' if outcome.ok else 'FAIL'} {outcome.text} [{outcome.seconds:.2f} s]")
     return conclude(outcomes, problems, missing, len(wanted))
@@ -205,7 +210,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--out", type=Path, default=ROOT / "target" / "readers", help="cache of the tools")
     parser.add_argument("--eds-dir", type=Path, default=ROOT / "generated" / "eds")
-    parser.add_argument("--dump", type=Path, default=ROOT / "generated" / "pitch-control-system.json")
+    parser.add_argument("--dump", type=Path, nargs="+", help="default: all of generated/")
     parser.add_argument("--node", type=int, default=1)
     parser.add_argument("--values", type=Path, help="values that the DCF of the only device must hold")
     return run(parser.parse_args())

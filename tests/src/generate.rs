@@ -14,7 +14,7 @@ use od_spec::source::SourceMap;
 use crate::{Failure, compile_with_sources, root};
 
 /// The shipped specifications.
-pub const SPECS: [&str; 1] = ["pitch-control-system"];
+pub const SPECS: [&str; 2] = ["fullmo-drive", "pitch-control-system"];
 /// The command that brings a stale file up to date.
 const COMMAND: &str = "cargo xtask generate";
 

@@ -6,11 +6,11 @@
 mod cases;
 
 use firmware_glue::Dictionary;
-use od_generated::{pmc, pmm};
+use od_generated::{fullmo, pmc, pmm};
 use od_tests::{access_cases, root};
 
-fn try_device<D: Dictionary>(key: &str, dictionary: &mut D, least: usize) {
-    let dump = std::fs::read(root().join("generated/pitch-control-system.json")).unwrap();
+fn try_device<D: Dictionary>(stem: &str, key: &str, dictionary: &mut D, least: usize) {
+    let dump = std::fs::read(root().join(format!("generated/{stem}.json"))).unwrap();
     let dump = serde_json::from_slice(&dump).unwrap();
     let made = access_cases::of_device(&dump, key).unwrap();
     match cases::run(dictionary, &made.bytes) {
@@ -24,10 +24,15 @@ fn try_device<D: Dictionary>(key: &str, dictionary: &mut D, least: usize) {
 
 #[test]
 fn every_entry_of_the_pmc_answers_as_the_dump_says() {
-    try_device("pmc", &mut pmc::Pmc::new(cases::NODE), 56_000);
+    try_device("pitch-control-system", "pmc", &mut pmc::Pmc::new(cases::NODE), 56_000);
 }
 
 #[test]
 fn every_entry_of_the_pmm_answers_as_the_dump_says() {
-    try_device("pmm", &mut pmm::Pmm::new(cases::NODE), 50_000);
+    try_device("pitch-control-system", "pmm", &mut pmm::Pmm::new(cases::NODE), 50_000);
+}
+
+#[test]
+fn every_entry_of_the_fullmo_drive_answers_as_the_dump_says() {
+    try_device("fullmo-drive", "fullmo", &mut fullmo::Fullmo::new(cases::NODE), 10_000);
 }

@@ -3,11 +3,15 @@
 use std::process::Command;
 
 use firmware_glue::Dictionary;
-use od_generated::{pmc, pmm};
+use od_generated::{fullmo, pmc, pmm};
 use od_tests::root;
 
 mod by_builder {
     include!(concat!(env!("OUT_DIR"), "/pmc.rs"));
+}
+
+mod fullmo_by_builder {
+    include!(concat!(env!("OUT_DIR"), "/fullmo.rs"));
 }
 
 mod pmc_by_macro {
@@ -18,13 +22,18 @@ mod pmm_by_macro {
     od_macros::object_dictionary!("../od-spec/devices/pitch-control-system.od.yaml", device = "pmm");
 }
 
+mod fullmo_by_macro {
+    od_macros::object_dictionary!("../od-spec/devices/fullmo-drive.od.yaml");
+}
+
 const SPECIFICATION: &str = "od-spec/devices/pitch-control-system.od.yaml";
+const FULLMO: &str = "od-spec/devices/fullmo-drive.od.yaml";
 
 #[test]
 fn the_macro_has_the_tokens_of_the_file() {
-    for key in ["pmc", "pmm"] {
+    for (specification, key) in [(SPECIFICATION, "pmc"), (SPECIFICATION, "pmm"), (FULLMO, "fullmo")] {
         // What the macro puts out, apart from the lines that make the compiler watch the files.
-        let expansion = od_gen::expand(&root().join(SPECIFICATION), Some(key));
+        let expansion = od_gen::expand(&root().join(specification), Some(key));
         assert!(expansion.errors.is_empty() && expansion.warnings.is_empty());
         let macros = prettyplease::unparse(&syn::parse2(expansion.tokens.unwrap()).unwrap());
         let text = std::fs::read_to_string(root().join(format!("generated/src/{key}.rs"))).unwrap();
@@ -48,9 +57,13 @@ fn first_difference(one: &str, other: &str) -> Option<(String, String)> {
 
 #[test]
 fn the_builder_writes_the_file() {
-    let built = std::fs::read_to_string(concat!(env!("OUT_DIR"), "/pmc.rs")).unwrap();
-    let file = std::fs::read_to_string(root().join("generated/src/pmc.rs")).unwrap();
-    assert_eq!(first_difference(&built, &file), None);
+    for (key, built) in [
+        ("pmc", include_str!(concat!(env!("OUT_DIR"), "/pmc.rs"))),
+        ("fullmo", include_str!(concat!(env!("OUT_DIR"), "/fullmo.rs"))),
+    ] {
+        let file = std::fs::read_to_string(root().join(format!("generated/src/{key}.rs"))).unwrap();
+        assert_eq!(first_difference(built, &file), None);
+    }
 }
 
 #[test]
@@ -74,6 +87,8 @@ fn the_compiled_tables_are_equal() {
     assert_eq!(table::<pmc_by_macro::Pmc>(), table::<pmc::Pmc>());
     assert_eq!(table::<by_builder::Pmc>(), table::<pmc::Pmc>());
     assert_eq!(table::<pmm_by_macro::Pmm>(), table::<pmm::Pmm>());
+    assert_eq!(table::<fullmo_by_macro::Fullmo>(), table::<fullmo::Fullmo>());
+    assert_eq!(table::<fullmo_by_builder::Fullmo>(), table::<fullmo::Fullmo>());
     assert_eq!(pmc_by_macro::Pmc::new(7).image(), pmc::Pmc::new(7).image());
 }
 

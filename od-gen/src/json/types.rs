@@ -13,6 +13,8 @@ pub(super) struct UnitView<'a> {
     /// One raw step in `symbol`, as numerator and denominator.
     scale: [Json; 2],
     base: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    formula: Option<&'a str>,
     about: Words<'a>,
 }
 
@@ -22,6 +24,7 @@ pub(super) fn unit_view(unit: &Unit) -> UnitView<'_> {
         symbol: &unit.symbol,
         scale: ratio(unit.scale),
         base: unit.base.as_ref().map(|base| json!({"symbol": base.symbol, "factor": ratio(base.factor)})),
+        formula: unit.formula.as_ref().map(|formula| formula.text.as_str()),
         about: words(&unit.about),
     }
 }

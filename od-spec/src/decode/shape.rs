@@ -186,9 +186,30 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Value => "a value",
         Shape::Ratio => "a fraction such as `1/10`",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",
+        Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
         Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
         _ => "a text",
+    }
+}
+
+/// Reports what cannot be read in a condition or formula.
+fn unreadable(
+    text: Spanned<&str>,
+    read: Result<Expr, (std::ops::Range<usize>, String)>,
+    what: &str,
+    help: &str,
+    diagnostics: &mut Diagnostics,
+) {
+    if let Err((range, message)) = read {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::BadNotation,
+                inside(text, &range),
+                format!("cannot read this {what}: {message}"),
+            )
+            .help(help),
+        );
     }
 }
 
@@ -228,18 +249,20 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         ),
         Shape::Choice(words) if !words.contains(&value) => unknown_word(text, words, diagnostics),
         Shape::Access if lexical::access(value).is_none() => unknown_word(text, Access::WORDS, diagnostics),
-        Shape::Condition => {
-            if let Err((range, message)) = Expr::parse(value) {
-                diagnostics.push(
-                    Diagnostic::new(
-                        Code::BadNotation,
-                        inside(text, &range),
-                        format!("cannot read this condition: {message}"),
-                    )
-                    .help("conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`"),
-                );
-            }
-        }
+        Shape::Condition => unreadable(
+            text,
+            Expr::parse(value),
+            "condition",
+            "conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`",
+            diagnostics,
+        ),
+        Shape::Formula => unreadable(
+            text,
+            Expr::parse_term(value),
+            "formula",
+            "formulas look like `0x6092.1 / 0x6092.2 / 65536`",
+            diagnostics,
+        ),
         _ => {
             let fits = match shape {
                 Shape::Text => !value.trim().is_empty(),

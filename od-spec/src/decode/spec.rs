@@ -198,6 +198,7 @@ fn unit(name: Spanned<&str>, r: Reader<'_>) -> UnitDecl {
         symbol: r.text("symbol").filter(|_| !broken),
         scale,
         base,
+        formula: r.value("formula", |text| Expr::parse_term(text).ok()),
         about: r.words("about"),
     }
 }

@@ -1,6 +1,7 @@
 //! Physical units with exact scales.
 
 use super::{Ratio, Text};
+use crate::expr::Expr;
 
 /// A physical unit: what one raw step is worth.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,6 +14,8 @@ pub struct Unit {
     pub scale: Ratio,
     /// One `symbol` in terms of another symbol: a millivolt is 1/1000 V.
     pub base: Option<Base>,
+    /// What other entries make of one raw step, where the user sets the unit up.
+    pub formula: Option<Expr>,
     /// Meaning.
     pub about: Text,
 }

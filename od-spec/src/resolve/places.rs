@@ -29,7 +29,7 @@ const UNNUMBERED: [&str; 9] = [
 ];
 /// What stands between the members of a list.
 const AND: [&str; 2] = ["and", "und"];
-const TO: [&str; 3] = ["to", "bis", "–"];
+const TO: [&str; 2] = ["to", "bis"];
 /// What stands before a table that the place is only near to.
 const NEAR: [&str; 2] = ["below", "unter"];
 
@@ -82,9 +82,12 @@ struct Words {
 
 impl Words {
     fn of(segment: &str, document: &Document) -> Self {
-        let text = segment.to_lowercase().replace("table of contents", "contents");
+        // A run may be written `3-5`, too.
+        let text =
+            segment.to_lowercase().replace("table of contents", "contents").replace(['-', '–'], " to ");
         let words: Vec<&str> = text
-            .split(|sign: char| sign.is_whitespace() || matches!(sign, ',' | '(' | ')'))
+            .split(|sign: char| sign.is_whitespace() || matches!(sign, ',' | '(' | ')' | ':'))
+            .map(|word| word.trim_end_matches('.'))
             .filter(|word| !word.is_empty())
             .collect();
         let mut read = Self { tables: Vec::new(), sections: Vec::new(), unnumbered: false };
@@ -187,12 +190,14 @@ mod tests {
         assert_eq!(tables("1 and Tabellen 1 bis 3"), "0.0 1.1 3.0");
         assert_eq!(tables("caption of Table 2; Table 3"), "1.1 3.0");
         assert_eq!(tables("Table 9, and 1.2, text"), "?9");
+        assert_eq!(tables("Tables 1-3."), "0.0 1.1 3.0");
         assert_eq!(tables("1.1, text below Table 2"), "");
     }
 
     #[test]
     fn sections_name_their_unnumbered_tables_with_the_object() {
         assert_eq!(tables("1.2"), "2.0");
+        assert_eq!(tables("1.2: detail table"), "2.0");
         assert_eq!(tables("1.1 to 1.3, detail tables"), "1.0 2.0");
         assert_eq!(tables("1.1 und 1.2, Übersichten"), "1.0 2.0");
         assert_eq!(tables("1.2, heading and table of contents"), "");

@@ -117,6 +117,7 @@ fn unit(decl: &UnitDecl) -> Option<Unit> {
         symbol: decl.symbol.as_ref()?.value.clone(),
         scale: decl.scale.as_ref().map_or(Ratio::ONE, |scale| scale.value),
         base: decl.base.as_ref().map(|base| Base { symbol: base.value.1.clone(), factor: base.value.0 }),
+        formula: decl.formula.as_ref().map(|formula| formula.value.clone()),
         about: decl.about.as_ref().map(|about| about.value.clone()).unwrap_or_default(),
     })
 }

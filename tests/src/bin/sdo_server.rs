@@ -1,4 +1,4 @@
-//! A generated dictionary behind an SDO server, for clients that others wrote: `sdo-server pmc|pmm NODE`.
+//! A generated dictionary behind an SDO server, for clients that others wrote: `sdo-server fullmo|pmc|pmm NODE`.
 //!
 //! Every line of standard input is one request of eight bytes in hexadecimal; every line of standard output, one answer.
 
@@ -8,7 +8,7 @@ use std::io::BufRead as _;
 use std::process::ExitCode;
 
 use firmware_glue::Dictionary;
-use od_generated::{pmc::Pmc, pmm::Pmm};
+use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 
 #[path = "../../shared/server.rs"]
 mod server;
@@ -17,10 +17,11 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let node = arguments.get(1).and_then(|node| node.parse().ok());
     match (arguments.first().map(String::as_str), node) {
+        (Some("fullmo"), Some(node)) => serve(Fullmo::new(node)),
         (Some("pmc"), Some(node)) => serve(Pmc::new(node)),
         (Some("pmm"), Some(node)) => serve(Pmm::new(node)),
         _ => {
-            eprintln!("usage: sdo-server pmc|pmm NODE");
+            eprintln!("usage: sdo-server fullmo|pmc|pmm NODE");
             return ExitCode::from(2);
         }
     }

@@ -74,7 +74,9 @@ fn test(options: &[&str]) -> Result<(), Failure> {
     let configured = ["--eds-dir", CONFIGURED, "--values", "target/everything/configured/values.txt"];
     python("tests/readers/run.py", &[&configured[..], &everything[2..]].concat())?;
     python("tests/readers/run.py", &[])?;
-    sdo_client()?;
+    for stem in SPECS {
+        sdo_client(stem)?;
+    }
     if options.contains(&"--without-browser") {
         println!("left out: the documents in a browser, tests/browser");
     } else {
@@ -127,11 +129,11 @@ fn example() -> Result<Vec<(String, String)>, Failure> {
 }
 
 /// A client that others wrote, against the generated Rust.
-fn sdo_client() -> Result<(), Failure> {
+fn sdo_client(stem: &str) -> Result<(), Failure> {
     let server = std::env::current_exe()?.with_file_name("sdo-server");
     let python = root().join("target/readers/venv/bin/python");
-    let arguments =
-        ["--eds-dir", "generated/eds", "--dump", "generated/pitch-control-system.json", "--server"];
+    let dump = format!("generated/{stem}.json");
+    let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--server"];
     run(Command::new(python).arg("tests/readers/sdo_client.py").args(arguments).arg(server))
 }
 

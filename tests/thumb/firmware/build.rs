@@ -12,7 +12,12 @@ mod access_cases;
 /// What `access_cases` fails with.
 type Failure = Box<dyn Error + Send + Sync>;
 
-const DUMP: &str = "../../../generated/pitch-control-system.json";
+/// Dump and key of each device.
+const DEVICES: [(&str, &str); 3] = [
+    ("../../../generated/pitch-control-system.json", "pmc"),
+    ("../../../generated/pitch-control-system.json", "pmm"),
+    ("../../../generated/fullmo-drive.json", "fullmo"),
+];
 
 fn main() -> Result<(), Failure> {
     println!("cargo::rerun-if-changed=memory.x");
@@ -23,10 +28,10 @@ fn main() -> Result<(), Failure> {
 
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=../../src/access_cases.rs");
-    println!("cargo::rerun-if-changed={DUMP}");
-    let dump = serde_json::from_slice(&fs::read(DUMP).map_err(|error| format!("{DUMP}: {error}"))?)?;
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or("cargo sets OUT_DIR")?);
-    for key in ["pmc", "pmm"] {
+    for (file, key) in DEVICES {
+        println!("cargo::rerun-if-changed={file}");
+        let dump = serde_json::from_slice(&fs::read(file).map_err(|error| format!("{file}: {error}"))?)?;
         let cases = access_cases::of_device(&dump, key)?;
         let path = out.join(format!("{key}.cases"));
         fs::write(&path, &cases.bytes).map_err(|error| format!("{}: {error}", path.display()))?;

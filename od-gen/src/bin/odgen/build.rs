@@ -18,10 +18,13 @@ use super::docs;
 use super::report::{Report, node_id, print};
 
 /// The specifications that come with odgen: name and text.
-pub(crate) const SHIPPED: [(&str, &str); 1] = [(
-    "pitch-control-system.od.yaml",
-    include_str!("../../../../od-spec/devices/pitch-control-system.od.yaml"),
-)];
+pub(crate) const SHIPPED: [(&str, &str); 2] = [
+    ("fullmo-drive.od.yaml", include_str!("../../../../od-spec/devices/fullmo-drive.od.yaml")),
+    (
+        "pitch-control-system.od.yaml",
+        include_str!("../../../../od-spec/devices/pitch-control-system.od.yaml"),
+    ),
+];
 
 pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
     let node = match args.node.as_deref().map(node_id).transpose() {

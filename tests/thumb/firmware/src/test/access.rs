@@ -1,11 +1,11 @@
-//! Every access to the dictionaries of PMC and PMM, against the JSON dump, as tests/tests/access.rs does on the host.
+//! Every access to the dictionaries of PMC, PMM and the Fullmo drive, against the JSON dump, as tests/tests/access.rs does on the host.
 #![no_std]
 #![no_main]
 
 use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hprintln};
 use firmware_glue::Dictionary;
-use od_generated::{pmc::Pmc, pmm::Pmm};
+use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use panic_semihosting as _;
 
 #[path = "../../../../shared/cases.rs"]
@@ -13,14 +13,17 @@ mod cases;
 
 static PMC: &[u8] = include_bytes!(env!("PMC_CASES"));
 static PMM: &[u8] = include_bytes!(env!("PMM_CASES"));
+static FULLMO: &[u8] = include_bytes!(env!("FULLMO_CASES"));
 
 #[entry]
 fn main() -> ! {
     static mut PMC_DICTIONARY: Pmc = Pmc::new(cases::NODE);
     static mut PMM_DICTIONARY: Pmm = Pmm::new(cases::NODE);
+    static mut FULLMO_DICTIONARY: Fullmo = Fullmo::new(cases::NODE);
     let pmc = try_device("PMC", PMC_DICTIONARY, PMC, env!("PMC_COUNT"));
     let pmm = try_device("PMM", PMM_DICTIONARY, PMM, env!("PMM_COUNT"));
-    debug::exit(if pmc && pmm { debug::EXIT_SUCCESS } else { debug::EXIT_FAILURE });
+    let fullmo = try_device("FULLMO", FULLMO_DICTIONARY, FULLMO, env!("FULLMO_COUNT"));
+    debug::exit(if pmc && pmm && fullmo { debug::EXIT_SUCCESS } else { debug::EXIT_FAILURE });
     unreachable!("QEMU ends at the line before")
 }
 
