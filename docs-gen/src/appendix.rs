@@ -252,7 +252,7 @@ impl Source<'_> {
         let erratum = &self.system.errata[at];
         ErratumView {
             number: at + 1,
-            kind: erratum.kind.word(),
+            kind: self.spec_word(erratum.kind.word()),
             place: self.text(&erratum.place),
             prints: self.text(&erratum.prints),
             reads: self.text(&erratum.reads),
@@ -321,7 +321,7 @@ impl Source<'_> {
                 number,
                 printed.title,
                 Cell::plain(printed.section),
-                Cell::plain(printed.kind),
+                Cell::plain(self.spec_word(printed.kind)),
                 Cell::default().link(place, printed.anchor, printed.page),
                 errata,
             ])

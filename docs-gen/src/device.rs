@@ -207,7 +207,8 @@ impl Source<'_> {
         if let Some(profile) = &object.profile {
             let mut note = Cell::plain(format!("{} {profile}", self.word(Word::FromStandard)));
             if !object.differs.is_empty() {
-                note = note.text(format!(". {}: {}", self.word(Word::Differs), object.differs.join(", ")));
+                let differs: Vec<String> = object.differs.iter().map(|fact| self.spec_word(fact)).collect();
+                note = note.text(format!(". {}: {}", self.word(Word::Differs), differs.join(", ")));
             }
             notes.push(note.text("."));
         }

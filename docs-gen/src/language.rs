@@ -212,6 +212,52 @@ words! {
     Yes "yes": "yes", "ja";
 }
 
+/// Words of the specification that documents show, such as kinds of errata and facts in which a device differs from a
+/// library, and the German ones.
+const SPEC_WORDS: &[(&str, &str)] = &[
+    ("access", "Zugriff"),
+    ("added", "zusätzlich"),
+    ("alias", "Spiegel"),
+    ("bit-errors", "Fehlercodes der Bits"),
+    ("bits", "Bits"),
+    ("category", "Kategorie"),
+    ("commands", "Befehle"),
+    ("count", "Anzahl"),
+    ("default", "Vorgabe"),
+    ("elements", "Elemente"),
+    ("errors", "Fehlercodes"),
+    ("gap", "Lücke"),
+    ("glossary", "Glossar"),
+    ("history", "Änderungen"),
+    ("index", "Index"),
+    ("ladder", "Leiter"),
+    ("limit", "Grenze"),
+    ("max", "größter Wert"),
+    ("meaning", "Bedeutung"),
+    ("min", "kleinster Wert"),
+    ("name", "Name"),
+    ("object-type", "Objektart"),
+    ("objects", "Objekte"),
+    ("overview", "Übersicht"),
+    ("pdo", "PDO-Zuordnung"),
+    ("pdos", "PDOs"),
+    ("profile", "Profil"),
+    ("reactions", "Reaktionen"),
+    ("rows", "Zeilen"),
+    ("sign", "Vorzeichen"),
+    ("special", "besondere Werte"),
+    ("states", "Zustände"),
+    ("stored", "Speicherung"),
+    ("sub-index", "Subindex"),
+    ("table", "Tabelle"),
+    ("text", "Text"),
+    ("transitions", "Übergänge"),
+    ("type", "Datentyp"),
+    ("unit", "Einheit"),
+    ("values", "Werte"),
+    ("writable-when", "Schreibbedingung"),
+];
+
 /// Languages whose fixed words are known; others get English words.
 pub const LANGUAGES: &[&str] = &["en", "de"];
 
@@ -234,6 +280,23 @@ impl Language<'_> {
     /// All fixed words by the names that templates use.
     pub(crate) fn words(self) -> BTreeMap<&'static str, &'static str> {
         Word::ALL.iter().map(|word| (word.key(), self.word(*word))).collect()
+    }
+
+    /// A word of the specification, such as `unit`, or one about some sub-indices, such as `sub-index 2: unit`.
+    pub(crate) fn spec_word(self, word: &str) -> String {
+        if !self.is_german() {
+            return word.to_owned();
+        }
+        let german =
+            |word: &str| SPEC_WORDS.iter().find(|(english, _)| *english == word).map(|(_, german)| *german);
+        let Some((place, fact)) = word.split_once(": ") else {
+            return german(word).unwrap_or(word).to_owned();
+        };
+        let place = place
+            .replace("sub-index", "Subindex")
+            .replace("sub-indices", "Subindizes")
+            .replace(" to ", " bis ");
+        format!("{}: {}", german(&place).unwrap_or(&place), german(fact).unwrap_or(fact))
     }
 
     /// A number that was written with a decimal point, as the language writes it.
@@ -285,6 +348,23 @@ mod tests {
         };
         let unused: Vec<&Word> = Word::ALL.iter().filter(|word| !used(word)).collect();
         assert!(unused.is_empty(), "{unused:?}");
+    }
+
+    #[test]
+    fn words_of_the_specification_are_translated() {
+        let german = Language { code: "de" };
+        for (word, expected) in [
+            ("gap", "Lücke"),
+            ("elements: unit", "Elemente: Einheit"),
+            ("sub-index 0: name", "Subindex 0: Name"),
+            ("sub-indices 2 to 15: added", "Subindizes 2 bis 15: zusätzlich"),
+        ] {
+            assert_eq!(german.spec_word(word), expected);
+            assert_eq!(Language { code: "en" }.spec_word(word), word);
+        }
+        for word in od_spec::model::ErratumKind::WORDS {
+            assert!(SPEC_WORDS.iter().any(|(known, _)| known == word), "{word}");
+        }
     }
 
     #[test]

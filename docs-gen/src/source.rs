@@ -211,6 +211,11 @@ impl<'a> Source<'a> {
         &self.system.document
     }
 
+    /// A word of the specification in the document's language.
+    pub(crate) fn spec_word(&self, word: &str) -> String {
+        self.language.spec_word(word)
+    }
+
     /// A fixed word.
     pub(crate) fn word(&self, word: Word) -> &'static str {
         self.language.word(word)

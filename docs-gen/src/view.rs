@@ -316,7 +316,7 @@ pub struct ErratumView {
     /// Its number, in the order of the specification.
     pub number: usize,
     /// What kind of fact.
-    pub kind: &'static str,
+    pub kind: String,
     /// Where the manual prints it.
     pub place: Cell,
     /// What it prints.

@@ -47,6 +47,12 @@ const search = async (page, text) => {
 const key = (index) => index.slice(2);
 
 // ---------------------------------------------------------------- what the tables say
+check(await (async () => {
+  const page = await open("index.html");
+  const stated = await page.getAttribute("html", "lang");
+  await page.close();
+  return stated === context.language;
+})(), `index.html: its language is not ${context.language}`);
 const rowsOf = (page, selector) => page.$$eval(selector, (tables) => tables.map((table) => ({
   anchor: table.closest(".table")?.id ?? "",
   columns: [...table.querySelectorAll("thead th:not(.tool), thead td")].map((cell) => cell.textContent),
@@ -58,6 +64,22 @@ const rowsOf = (page, selector) => page.$$eval(selector, (tables) => tables.map(
   })),
 })));
 const words = (cell) => clean(cell.text);
+
+// The words and numbers that the tables of a device have in each language; stated here once more, so that a wrong one is seen.
+const language = context.language;
+const say = {
+  en: { sub: "Sub-Index", index: "Index", name: "Name", type: "Type", access: "Attr", map: "Map", about: "Description", unit: "Unit",
+    stored: "Stored", default: "Default", point: ".",
+    kept: { no: "", communication: "communication", application: "application", manufacturer: "manufacturer", remanent: "by itself" } },
+  de: { sub: "Subindex", index: "Index", name: "Name", type: "Typ", access: "Zugriff", map: "Map", about: "Beschreibung", unit: "Einheit",
+    stored: "Gespeichert", default: "Vorgabe", point: ",",
+    kept: { no: "", communication: "Kommunikation", application: "Anwendung", manufacturer: "Hersteller", remanent: "von selbst" } },
+}[language];
+const inLanguage = (number) => String(number).replace(".", say.point);
+const numberIn = (text) => (say.point === "," && text?.includes(".") ? NaN : Number(text?.replace(say.point, ".")));
+// A text in the language of the page, or else in the default language of the specification.
+const fallback = dump.languages[0];
+const told = (text) => clean(text[language] ?? text[fallback] ?? "");
 
 const accessCell = (entry) => (entry.locked ? (entry.access === "wo" ? "(w)" : "r(w)") : entry.access);
 const mapCell = { none: "N", receive: "Y (R)", transmit: "Y (T)", both: "Y (RT)" };
@@ -78,22 +100,22 @@ for (const device of dump.devices) {
       const cell = (title) => { const column = columns.indexOf(title); return column < 0 ? "" : clean(rows[line][column]); };
       const place = `${device.key} ${object.index}.${entry.sub}`;
       const structured = object.kind === "array" || object.kind === "record";
-      same(structured ? cell("Sub-Index") : cell("Index"), structured ? String(entry.sub) : `${key(object.index)}h`, place);
-      same(cell("Name"), clean(entry.name), `${place} name`);
-      same(cell("Type"), entry.type, `${place} type`);
-      same(cell("Attr"), accessCell(entry), `${place} access`);
-      same(cell("Map"), mapCell[entry.pdo], `${place} mapping`);
-      check(clean(cell("Description")).startsWith(clean(entry.about.en ?? "")), `${place} description`);
+      same(structured ? cell(say.sub) : cell(say.index), structured ? String(entry.sub) : `${key(object.index)}h`, place);
+      same(cell(say.name), clean(entry.name), `${place} name`);
+      same(cell(say.type), entry.type, `${place} type`);
+      same(cell(say.access), accessCell(entry), `${place} access`);
+      same(cell(say.map), mapCell[entry.pdo], `${place} mapping`);
+      check(clean(cell(say.about)).startsWith(told(entry.about)), `${place} description`);
       const unit = dump.units.find((one) => one.name === entry.unit);
       const [upper, lower] = unit?.scale ?? [1, 1];
-      const step = upper / lower === 1 ? unit?.symbol : `${Number.isInteger(1e6 * upper / lower) ? upper / lower : `${upper}/${lower}`} ${unit?.symbol}`;
-      same(cell("Unit"), unit ? step : "", `${place} unit`);
-      same(cell("Stored"), { no: "", remanent: "by itself" }[entry.stored] ?? entry.stored, `${place} stored`);
-      if (entry.default === null) same(cell("Default"), "", `${place} default`);
+      const step = upper / lower === 1 ? unit?.symbol : `${Number.isInteger(1e6 * upper / lower) ? inLanguage(upper / lower) : `${upper}/${lower}`} ${unit?.symbol}`;
+      same(cell(say.unit), unit ? step : "", `${place} unit`);
+      same(cell(say.stored), say.kept[entry.stored], `${place} stored`);
+      if (entry.default === null) same(cell(say.default), "", `${place} default`);
       else if (typeof entry.default.raw === "number" && !entry.default.formula && Number.isSafeInteger(entry.default.raw)) {
         // A raw number, or hexadecimal digits of it, or a physical value with the raw one behind it.
-        const shown = cell("Default"), raw = entry.default.raw;
-        const numbers = [shown, shown.split(/[ :]/)[0], shown.match(/\((-?\d+)\)$/)?.[1]].map(Number);
+        const shown = cell(say.default), raw = entry.default.raw;
+        const numbers = [shown, shown.split(/[ :]/)[0], shown.match(/\((-?\d+)\)$/)?.[1]].map(numberIn);
         const digits = /^[0-9A-F ]+h$/.test(shown) ? Number(`0x${shown.replace(/[ h]/g, "")}`) : NaN;
         check(numbers.includes(raw) || digits === raw || digits - 2 ** (4 * shown.replace(/[ h]/g, "").length) === raw,
           `${place} default ${shown}, raw ${raw}`);
@@ -166,8 +188,10 @@ for (const device of dump.devices) {
   const linked = await open(`${device.key}.html`, `#${hash}`);
   await linked.waitForFunction((target) => {
     const { top, bottom } = document.getElementById(target).getBoundingClientRect();
-    return top >= 0 && bottom <= innerHeight;
-  }, hash, { timeout: 5000 }).catch(() => failures.push(`${device.key}: #${hash} is not in view`));
+    const end = scrollY + innerHeight >= document.documentElement.scrollHeight - 1;
+    const bar = document.querySelector(".bar").getBoundingClientRect().bottom;
+    return bottom <= innerHeight && top >= bar - 1 && (end || top < bar + 40);
+  }, hash, { timeout: 5000 }).catch(() => failures.push(`${device.key}: #${hash} is not at the top`));
   await linked.close();
 }
 

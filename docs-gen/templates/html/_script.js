@@ -100,7 +100,7 @@
       const named = entry(search.value), found = best();
       if (named && byId(named)) location.hash = named;
       else if (found && (!named || found.card.id === named.slice(0, 4))) location.hash = found.card.id;
-      if (found) reveal();
+      if (found) reveal(true);
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
       visible()[0]?.focus();
@@ -119,21 +119,27 @@
     if (event.key === "Escape" && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
   });
 
-  // A link into something that the search has hidden shows it again.
-  const reveal = () => {
+  // What is laid out on the way to the target moves it, so a jump is repeated for some frames.
+  const settle = (target, frames) => {
+    target.scrollIntoView();
+    if (frames > 1) requestAnimationFrame(() => settle(target, frames - 1));
+  };
+  // A link into something that the search has hidden shows it again. Going back returns to where the reader was.
+  const reveal = (jump) => {
     let name = location.hash.slice(1);
     try { name = decodeURIComponent(name); } catch { /* a `%` of its own */ }
     const target = byId(name) ?? byId(name.toUpperCase());
     if (!target) return;
     const card = target.closest("[data-search], .part");
     if (card?.hidden) clear();
-    if (card?.hidden === false && (target.id !== name || root.classList.contains("searching"))) target.scrollIntoView();
+    if (card?.hidden !== true && (jump || target.id !== name || root.classList.contains("searching"))) settle(target, 6);
   };
-  addEventListener("hashchange", reveal);
-  if (location.hash) reveal();
+  addEventListener("hashchange", () => reveal(false));
+  if (location.hash) reveal(false);
+  addEventListener("load", () => { if (location.hash && performance.getEntriesByType("navigation")[0]?.type === "navigate") reveal(true); });
   // On paper, everything.
   addEventListener("beforeprint", clear);
-  document.addEventListener("click", (event) => { if (event.target.closest?.("a[href^='#']")) setTimeout(reveal); });
+  document.addEventListener("click", (event) => { if (event.target.closest?.("a[href^='#']")) setTimeout(() => reveal(true)); });
 
   const copy = async (text) => {
     try { await navigator.clipboard.writeText(text); }

@@ -94,11 +94,16 @@ fn test(options: &[&str]) -> Result<(), Failure> {
 fn browser() -> Result<(), Failure> {
     const DOCS: &str = "target/browser/docs";
     let mut directories = Vec::new();
-    let specs = SPECS.iter().map(|stem| (*stem, format!("od-spec/devices/{stem}.od.yaml")));
-    let more = [("everything", "tests/readers/everything.od.yaml"), ("two", "tests/docs/two.od.yaml")];
-    for (stem, path) in specs.chain(more.map(|(stem, path)| (stem, path.to_owned()))) {
+    let specs = SPECS.iter().map(|stem| (*stem, format!("od-spec/devices/{stem}.od.yaml"), "en"));
+    let more = [
+        ("fullmo-drive-de", "od-spec/devices/fullmo-drive.od.yaml", "de"),
+        ("everything", "tests/readers/everything.od.yaml", "en"),
+        ("two", "tests/docs/two.od.yaml", "en"),
+        ("two-de", "tests/docs/two.od.yaml", "de"),
+    ];
+    for (stem, path, language) in specs.chain(more.map(|(stem, path, lang)| (stem, path.to_owned(), lang))) {
         let system = compile_clean(&path)?;
-        let options = docs::options(&system, &[], Some("en"));
+        let options = docs::options(&system, &[], Some(language));
         let html = [docs::Templates::new(Some(docs::Format::Html), &[])?];
         let mut set = docs::artifacts(&system, "", stem, &options, &html)?;
         let beside = [("dump", json::dump(&system, &[])), ("context", docs::dump_context(&system, &options))];
