@@ -43,6 +43,7 @@ pub(crate) struct Spec {
 /// Objects of a library that repeat for every axis.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Axes {
+    pub span: Span,
     pub first: Index,
     pub last: Index,
     pub count: u16,

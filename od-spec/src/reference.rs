@@ -352,6 +352,9 @@ Every scalar is a text until the place where it stands says what it is. `name: n
 zero, `0x10` is a number where a number is expected and a text where a text is. Quotes change nothing about that; they are needed only where
 YAML itself would misread a text: one that holds `: ` or ` #`, or starts with a sign such as `%`, `*`, `&`, `{`, `[`, `>` or a quote.
 
+Names of objects, entries, bits, values and error codes are the same in every language, as other parts of the specification, EDS files
+and generated code refer to them; descriptions are told by language.
+
 | Value | Written as |
 | --- | --- |
 | text | any scalar, except an empty one, `~` and `null`, unless they are quoted |
@@ -416,6 +419,8 @@ A unit says what a raw value means. With `decicelsius: {symbol: °C, scale: 1/10
 other, in [aliases](#aliases) and in [conditions](#constraint); a unit without `base:` has its own symbol as base. A physical value that
 falls between two raw steps is refused, not rounded.
 
+A raw step may be more than one: with `{symbol: mV, scale: 10, base: 1/1000 V}`, the raw value 3 is 30 mV.
+
 A unit that the user sets up, such as a position unit made by gear and feed, has a `formula:` that tells how. Values in it are raw numbers all the same;
 the documentation shows the formula with the names of its entries.
 ";
@@ -454,7 +459,8 @@ taken as a whole.
 An array needs `count:` or `elements:`, and its elements are of one type.
 
 Objects that are alike but for their number are written once, as a run of indices: `0x3511..0x3519: {name: 'input functions {n}', …}` makes nine
-objects; in their `name` and `identifier`, `{n}` stands for 1, 2, and so on. A run needs `{n}` in its name.
+objects; in their `name` and `identifier`, and nowhere else, `{n}` stands for 1, 2, and so on, whatever the first index is. A run needs `{n}` in
+its name.
 ";
 
 const SUB0: &str = r"
@@ -600,6 +606,11 @@ const FEATURES: &str = r"
 A device has the features that its `features:` names, those they need, and those that are implied.
 
 {FEATURES}
+
+`odgen library cia301` prints a library, with the sub-indices, types, access and defaults of its objects. Which parameters outlive a power-off is
+for the device to say: the libraries set no `stored:`, so that `0x1017: {from: cia301, stored: communication}` is yours to write where 1010h.2 saves
+the heartbeat time; only the PDO parameters are stored without a word. Objects of profiles that have no library, such as CiA 401, are
+written like objects of your own.
 ";
 
 const AXES: &str = r"
@@ -611,6 +622,8 @@ The objects between `first:` and `last:` are those of axis 1; axis 2 begins behi
 const PDOS: &str = r"
 Mapped entries allow the direction with their `pdo:`, and have 64 bits or less together. A data type in `map:` is a placeholder; the device
 lists it under `dummies:`, and only RPDOs have such.
+
+Times are raw: `inhibit-time: 100` is 10 ms, `event-timer: 100` is 100 ms.
 
 The parameter objects follow from this. RPDO *n* has its communication parameters at 1400h + *n* − 1 and its mapping at 1600h + *n* − 1,
 TPDO *n* at 1800h and 1A00h. The communication parameters are sub-indices 1 (COB-ID) and 2 (transmission type), and 3 (inhibit time),

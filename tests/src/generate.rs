@@ -125,6 +125,8 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "eds", &format!("```ini\n{}\n```", excerpt.join("\n\n")))?;
     let text =
         block(&text, "api", &format!("```rust\nimpl Valve {{\n{}\n    // …\n}}\n```", api.join("\n\n")))?;
+    let drive = fs::read_to_string(root().join("tests/readme/lift.od.yaml"))?;
+    let text = block(&text, "drive", &format!("```yaml\n{drive}```"))?;
     let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
     block(&text, "docs", &tables(&system)?)
 }

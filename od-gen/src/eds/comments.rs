@@ -60,7 +60,8 @@ fn facts(device: &Dictionary, entry: &Entry) -> Option<String> {
     if let (Some(default), false) = (&entry.default, entry.eds.default) {
         let whose =
             if entry.standard.contains(&"default") { "default of the standard" } else { "factory default" };
-        facts.push(format!("{whose} {}", format_value(entry, default)));
+        let shown = format_value(entry, default);
+        facts.push(format!("{whose} {}", if shown.is_empty() { "an empty text" } else { &shown }));
     }
     (!facts.is_empty()).then(|| facts.join("; "))
 }

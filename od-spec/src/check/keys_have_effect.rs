@@ -24,6 +24,10 @@ pub(crate) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
         let help = "add `profile:` to make the file a library, or select features under `devices:`";
         refuse("features", feature.name.span, "only a library offers features", help, diagnostics);
     }
+    if let (None, Some(axes)) = (&root.profile, &root.axes) {
+        let help = "add `profile:` to make the file a library, or remove it";
+        refuse("axes", axes.span, "only a library has axes", help, diagnostics);
+    }
     for (_, pattern, _) in root.machines.iter().flat_map(|machine| &machine.states) {
         let edge = |bit: &PatternBit| matches!(bit, PatternBit::Rising | PatternBit::Falling);
         if let Some(pattern) = pattern.as_ref().filter(|pattern| pattern.value.0.iter().any(edge)) {

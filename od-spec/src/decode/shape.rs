@@ -103,6 +103,14 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
         },
         _ => match node.text() {
             Some(text) => check_scalar(text, shape, diagnostics),
+            None if matches!((shape, &node.kind), (Shape::Text, NodeKind::Map(_))) => diagnostics.push(
+                Diagnostic::new(
+                    Code::WrongKind,
+                    node.span,
+                    format!("found {}, expected {}", node.describe(), expected(shape)),
+                )
+                .help("write one text: names are the same in every language; descriptions such as `about` can be told by language"),
+            ),
             None => wrong_kind(node, expected(shape), diagnostics),
         },
     }

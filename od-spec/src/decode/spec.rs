@@ -49,7 +49,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         devices: top.entries("devices").map(|(key, r)| device(key, r)).collect(),
         units: top.entries("units").map(|(name, r)| unit(name, r)).collect(),
         types: top.entries("types").map(|(name, r)| named_type(name, r, diagnostics)).collect(),
-        axes: top.child("axes").and_then(axes),
+        axes: top.keyed("axes").and_then(|(key, r)| axes(key, r, diagnostics)),
         features: top.entries("features").map(|(name, r)| feature(name, r)).collect(),
         objects: objects(top.entries("objects"), diagnostics),
         pdos: top.entries("pdos").map(|(key, r)| (owned(key), pdos(r, diagnostics))).collect(),
@@ -249,6 +249,9 @@ fn short(r: Reader<'_>, key: &str) -> Option<Name> {
 fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<BitDecl> {
     let bits = Spanned::new(lexical::bits(key.value)?, key.span);
     let name = short(r, "name");
+    // A name that was refused is not missing as well.
+    let refused = name.is_none() && r.child("name").is_some();
+    let name = name.or_else(|| refused.then(|| Spanned::new(format!("bit {}", key.value), key.span)));
     let flag = |key: &str| r.yes_no(key).is_some_and(|flag| flag.value);
     let usage = match r.scalar(usage) {
         Some(usage) => usage.value,
@@ -283,10 +286,28 @@ fn edge(word: &str) -> Option<Edge> {
     }
 }
 
-fn axes(r: Reader<'_>) -> Option<Axes> {
-    let (first, last) = (r.value("first", lexical::index)?.value, r.value("last", lexical::index)?.value);
-    let count = u16::try_from(r.integer("count")?.value).ok()?;
-    (first < last).then_some(Axes { first, last, count })
+fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes> {
+    let (first, last) = (r.value("first", lexical::index)?, r.value("last", lexical::index)?);
+    let count = r.integer("count")?;
+    let mut refuse = |span, problem: String, help: &str| {
+        diagnostics.push(Diagnostic::new(Code::NumberOutOfRange, span, problem).help(help.to_owned()));
+        None
+    };
+    if last.value < first.value {
+        let problem = format!("axis 1 ends at {} and begins at {}", last.value, first.value);
+        return refuse(last.span, problem, "write the smaller index at `first:`");
+    }
+    let size = i128::from(last.value.0 - first.value.0) + 1;
+    let room = (0x1_0000 - i128::from(first.value.0)) / size;
+    match u16::try_from(count.value) {
+        Ok(number) if (1..=room).contains(&count.value) => {
+            Some(Axes { span: key, first: first.value, last: last.value, count: number })
+        }
+        _ => {
+            let problem = format!("found {} axes; there is room for 1 to {room}", count.value);
+            refuse(count.span, problem, "an axis takes as many indices as the one before, up to FFFFh")
+        }
+    }
 }
 
 fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {
@@ -437,7 +458,8 @@ fn place_of_list(key: Span, list: &Node) -> Span {
 fn error(codes: Spanned<&str>, r: Reader<'_>) -> Option<ErrorDecl> {
     Some(ErrorDecl {
         codes: Spanned::new(lexical::error_codes(codes.value)?, codes.span),
-        unsure: has_unknown_key(r.node, &keys::ERROR),
+        unsure: has_unknown_key(r.node, &keys::ERROR)
+            || (r.child("name").is_some() && r.text("name").is_none()),
         name: r.text("name"),
         from: r.text("from"),
         on: r.optional_texts("on"),

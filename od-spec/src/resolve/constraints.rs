@@ -75,7 +75,7 @@ fn check_known(
             if !broken.has(entry.id.index) {
                 diagnostics.push(
                     Diagnostic::new(Code::UnknownEntry, place, format!("there is no entry {entry}"))
-                        .help("correct the index or sub-index in the condition"),
+                        .help("correct the index or sub-index"),
                 );
             }
             known = false;

@@ -135,12 +135,20 @@ fn features<'a>(
             }
             None => {
                 let known = all().map(|(_, feature)| feature.name.value.as_str());
+                let word = name.value.to_lowercase();
+                let alike: Vec<String> = known
+                    .clone()
+                    .filter(|known| known.to_lowercase().split(' ').any(|part| part == word))
+                    .map(|known| format!("`{known}`"))
+                    .collect();
                 let otherwise = if libraries.is_empty() {
-                    "add `uses: [cia301]` to the specification; features come from libraries"
+                    "add `uses: [cia301]` to the specification; features come from libraries".to_owned()
+                } else if alike.is_empty() {
+                    "`odgen reference` lists the features of the libraries".to_owned()
                 } else {
-                    "see the library's `features:` for their names"
+                    format!("there is {}", alike.join(", "))
                 };
-                diagnostics.push(unknown(Code::UnknownFeature, &name, "feature", known, otherwise));
+                diagnostics.push(unknown(Code::UnknownFeature, &name, "feature", known, &otherwise));
             }
         }
     }

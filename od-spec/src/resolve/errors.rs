@@ -59,17 +59,15 @@ fn error(
         let number = u32::from(code.saturating_sub(decl.codes.value.0)) + 1;
         Some(decl.name.as_ref()?.value.replace("{n}", &number.to_string()))
     };
-    let Some(name) = name(decl).or_else(|| name(below?)) else {
-        if !decl.unsure {
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::MissingKey,
-                    decl.codes.span,
-                    "an error code needs the key `name` or `from`",
-                )
-                .help("add `name:`, or `from:` with a library that defines the code"),
-            );
-        }
+    let Some(name) = name(decl).or_else(|| name(below?)).or_else(|| decl.unsure.then(String::new)) else {
+        diagnostics.push(
+            Diagnostic::new(
+                Code::MissingKey,
+                decl.codes.span,
+                "an error code needs the key `name` or `from`",
+            )
+            .help("add `name:`, or `from:` with a library that defines the code"),
+        );
         return None;
     };
     let text = |own: Text, below: Option<Text>| if own.is_empty() { below.unwrap_or_default() } else { own };

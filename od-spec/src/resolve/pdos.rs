@@ -294,11 +294,27 @@ fn mapped(
             PdoMapping::None => format!("{id} cannot be mapped into PDOs"),
             _ => format!("{id} cannot be mapped into {}s", decl.direction.pdo()),
         };
+        let members = objects.get(&id.index).filter(|object| object.is_structured() && id.sub.0 == 0);
+        let member =
+            members.and_then(|object| object.entries.iter().find(|one| one.pdo.allows(decl.direction)));
+        let help = match member {
+            None if members.is_some() => {
+                format!(
+                    "that is the number of its entries, none of which has `pdo: {}`",
+                    decl.direction.word()
+                )
+            }
+            Some(member) => format!(
+                "that is the number of its entries; map one of them, such as `0x{:04X}.{}`",
+                id.index.0, member.sub
+            ),
+            None => format!("give the entry `pdo: {}`, or map another one", decl.direction.word()),
+        };
         diagnostics.push(
             Diagnostic::new(Code::NotMappable, name.span, problem)
                 .label(entry.name.clone())
                 .with(entry.span, format!("`pdo: {}`, `{}`", entry.pdo.word(), entry.access.word()))
-                .help(format!("give the entry `pdo: {}`, or map another one", decl.direction.word())),
+                .help(help),
         );
         return None;
     }

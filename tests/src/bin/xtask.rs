@@ -74,6 +74,7 @@ fn test(options: &[&str]) -> Result<(), Failure> {
     let configured = ["--eds-dir", CONFIGURED, "--values", "target/everything/configured/values.txt"];
     python("tests/readers/run.py", &[&configured[..], &everything[2..]].concat())?;
     python("tests/readers/run.py", &[])?;
+    read_drives()?;
     for stem in SPECS {
         sdo_client(stem)?;
     }
@@ -88,6 +89,32 @@ fn test(options: &[&str]) -> Result<(), Failure> {
     }
     python("tests/thumb/run.py", &["sizes"])?;
     python("tests/thumb/run.py", &["test"])
+}
+
+/// The drive of the README, and what `odgen new` starts with, read by every foreign reader.
+fn read_drives() -> Result<(), Failure> {
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let folder = root().join("target/drives");
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder)?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let new = |name: &str, modes: &[&str]| {
+        run(Command::new(&odgen).args(["new", name, "--out"]).arg(&folder).args(modes))
+    };
+    new("started", &[])?;
+    new("started-pp-hm", &["--profile", "cia402", "--modes", "profile position,homing"])?;
+    new("started-all", &["--profile", "cia402", "--modes", "pp,vl,pv,tq,hm,ip,csp,csv,cst"])?;
+    std::fs::copy(root().join("tests/readme/lift.od.yaml"), folder.join("lift.od.yaml"))?;
+    let mut dumps = Vec::new();
+    for stem in ["lift", "started", "started-all", "started-pp-hm"] {
+        let system = compile_clean(&format!("target/drives/{stem}.od.yaml"))?;
+        write_all(&folder, &artifacts(&system, stem, &Selection { devices: &[], node: Some(1) }))?;
+        dumps.push(format!("target/drives/{stem}.json"));
+    }
+    let mut arguments = vec!["--eds-dir", "target/drives/eds", "--dump"];
+    arguments.extend(dumps.iter().map(String::as_str));
+    python("tests/readers/run.py", &arguments)
 }
 
 /// The documents as their readers see them.

@@ -54,6 +54,7 @@ impl Cli {
             Command::Dcf(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
+            Command::New(args) => args.messages.format,
             _ => None,
         };
         behind.or(self.format).unwrap_or_default()
@@ -104,10 +105,17 @@ pub(crate) enum Command {
     Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
+    /// Write a commented specification to start from
+    New(NewArgs),
     /// Tell what a message code means and what to do about it
     Explain {
         /// A code such as OD0507, or `all`
         code: String,
+    },
+    /// Print a library of standard objects, or the names of all
+    Library {
+        /// Name, such as `cia402`
+        name: Option<String>,
     },
     /// Print the language reference (Markdown)
     Reference,
@@ -270,6 +278,36 @@ pub(crate) struct DumpArgs {
 
     #[command(flatten)]
     pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NewArgs {
+    /// Key of the device, which also names the file: small letters, digits and hyphens
+    pub name: String,
+
+    /// What the device follows
+    #[arg(long, value_enum, default_value_t)]
+    pub profile: Profile,
+
+    /// Modes of operation of a drive, such as `pp,hm` or `"profile position,homing"`
+    #[arg(long, value_delimiter = ',', value_name = "MODES")]
+    pub modes: Vec<String>,
+
+    /// Directory for the file
+    #[arg(long, short, default_value = ".", value_name = "DIR")]
+    pub out: PathBuf,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Profile {
+    /// No device profile, only the communication objects
+    #[default]
+    Cia301,
+    /// Drives and motion control; its modes are pp, vl, pv, tq, hm, ip, csp, csv, cst
+    Cia402,
 }
 
 #[derive(Debug, Args)]

@@ -155,7 +155,7 @@ fn describe(device: &Dictionary) -> String {
         described.iter().flat_map(|object| &object.entries).filter(|entry| entry.pdo != PdoMapping::None);
     let stored = described.iter().filter(|object| object.is_stored()).count();
     format!(
-        "  {:<6} {} objects · {} entries · {} mappable · {} stored · {} communication objects\n",
+        "  {:<6} {} objects · {} entries · {} mappable · {} stored · {} more from libraries and PDOs\n",
         device.key,
         described.len(),
         entries,

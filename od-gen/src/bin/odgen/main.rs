@@ -6,6 +6,7 @@ mod check;
 mod dcf;
 mod docs;
 mod errata;
+mod new;
 mod report;
 
 use std::io::Write as _;
@@ -13,7 +14,7 @@ use std::process::ExitCode;
 
 use args::{Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
-use od_spec::diag::Code;
+use od_spec::diag::{Code, Diagnostic};
 
 /// Nothing to object to.
 const FINE: u8 = 0;
@@ -32,7 +33,9 @@ fn main() -> ExitCode {
         Command::Docs(args) => docs::run(&args, &report),
         Command::Dump(args) => dump(&args, &report),
         Command::Errata(args) => errata::run(&args, &report),
+        Command::New(args) => new::run(&args, &report),
         Command::Explain { code } => explain(&code),
+        Command::Library { name } => library(name.as_deref(), &report),
         Command::Reference => report::print(&od_spec::reference()),
         Command::Schema => report::print(&od_spec::json_schema()),
         Command::Completions { shell } => {
@@ -50,6 +53,20 @@ fn dump(args: &args::DumpArgs, report: &report::Report) -> u8 {
     match args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
         Ok(()) => report::print_bytes(&od_gen::json::dump(&system, &args.device)),
         Err(code) => code,
+    }
+}
+
+fn library(name: Option<&str>, report: &report::Report) -> u8 {
+    let names = od_spec::LIBRARIES.iter().map(|(name, _)| *name);
+    let Some(name) = name else {
+        return report::print(&(names.collect::<Vec<_>>().join("\n") + "\n"));
+    };
+    match od_spec::LIBRARIES.iter().find(|(known, _)| *known == name) {
+        Some((_, text)) => report::print(text),
+        None => report.refuse(
+            Diagnostic::without_place(Code::UnknownWord, format!("found `{name}`, expected a library"))
+                .help(format!("the libraries are {}", names.collect::<Vec<_>>().join(", "))),
+        ),
     }
 }
 

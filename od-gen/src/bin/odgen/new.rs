@@ -1,0 +1,331 @@
+//! `odgen new`: a commented specification to start from.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use od_gen::Artifact;
+use od_gen::files::write_all;
+use od_spec::diag::{Code, Diagnostic};
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
+
+use super::args::{NewArgs, Profile};
+use super::report::{Report, print};
+
+/// What a mode of operation means for a starter specification.
+struct Mode {
+    /// As drive makers abbreviate it.
+    short: &'static str,
+    /// Feature of the library `cia402`.
+    feature: &'static str,
+    /// Bit of 6502h.
+    bit: u8,
+    /// Set-point for an RPDO.
+    set_point: Option<&'static str>,
+    /// Actual value for a TPDO.
+    actual: Option<&'static str>,
+    /// Features that drives with this mode often have beside it.
+    beside: &'static [&'static str],
+}
+
+const MODES: [Mode; 9] = [
+    Mode {
+        short: "pp",
+        feature: "profile position mode",
+        bit: 0,
+        set_point: Some("Target position"),
+        actual: Some("Position actual value"),
+        beside: &["quick stop", "position window", "following error", "software position limit"],
+    },
+    Mode {
+        short: "vl",
+        feature: "velocity mode",
+        bit: 1,
+        set_point: Some("vl target velocity"),
+        actual: Some("vl velocity actual value"),
+        beside: &["vl factors"],
+    },
+    Mode {
+        short: "pv",
+        feature: "profile velocity mode",
+        bit: 2,
+        set_point: Some("Target velocity"),
+        actual: Some("Velocity actual value"),
+        beside: &["quick stop", "velocity window", "velocity threshold"],
+    },
+    Mode {
+        short: "tq",
+        feature: "torque profile mode",
+        bit: 3,
+        set_point: Some("Target torque"),
+        actual: Some("Torque actual value"),
+        beside: &["torque limit", "motor ratings"],
+    },
+    Mode {
+        short: "hm",
+        feature: "homing mode",
+        bit: 5,
+        set_point: None,
+        actual: None,
+        beside: &["home offset", "homing acceleration"],
+    },
+    Mode {
+        short: "ip",
+        feature: "interpolated position mode",
+        bit: 6,
+        set_point: Some("0x60C1.1"),
+        actual: Some("Position actual value"),
+        beside: &["interpolation time period"],
+    },
+    Mode {
+        short: "csp",
+        feature: "cyclic synchronous position mode",
+        bit: 7,
+        set_point: Some("Target position"),
+        actual: Some("Position actual value"),
+        beside: &["interpolation time period", "following error"],
+    },
+    Mode {
+        short: "csv",
+        feature: "cyclic synchronous velocity mode",
+        bit: 8,
+        set_point: Some("Target velocity"),
+        actual: Some("Velocity actual value"),
+        beside: &["interpolation time period"],
+    },
+    Mode {
+        short: "cst",
+        feature: "cyclic synchronous torque mode",
+        bit: 9,
+        set_point: Some("Target torque"),
+        actual: Some("Torque actual value"),
+        beside: &["interpolation time period", "motor ratings"],
+    },
+];
+
+/// PDOs of each direction that have a COB-ID of their own without being given one.
+const PDOS: usize = 4;
+
+pub(crate) fn run(args: &NewArgs, report: &Report) -> u8 {
+    match new(args) {
+        Ok(text) => print(&text),
+        Err(diagnostic) => report.refuse(diagnostic),
+    }
+}
+
+fn new(args: &NewArgs) -> Result<String, Diagnostic> {
+    let key = args.name.as_str();
+    check_key(key)?;
+    let (text, kind) = match args.profile {
+        Profile::Cia301 if !args.modes.is_empty() => {
+            return Err(Diagnostic::without_place(
+                Code::UnknownWord,
+                "`--modes` is for drives, and cia301 has no modes of operation",
+            )
+            .help("add `--profile cia402`"));
+        }
+        Profile::Cia301 => (device(key), "a device without a device profile".to_owned()),
+        Profile::Cia402 => {
+            let modes = modes(&args.modes)?;
+            (drive(key, &modes), format!("a drive with {}", list(&modes)))
+        }
+    };
+    let name = format!("{key}.od.yaml");
+    let path = args.out.join(&name);
+    if path.symlink_metadata().is_ok() {
+        let shown = path.strip_prefix(".").unwrap_or(&path);
+        let message = format!("cannot write `{}`: it is there already", shown.display());
+        return Err(Diagnostic::without_place(Code::WriteFailed, message)
+            .help("choose another name or, with `--out`, another directory"));
+    }
+    let objects = count_objects(&name, &text);
+    write(&args.out, name, text)?;
+    let path = path.strip_prefix(".").unwrap_or(&path).display();
+    Ok(format!(
+        "  {path}  {kind}, {objects} objects\nnext: fill in what is marked with <--, then `odgen build {path} --docs html`\n"
+    ))
+}
+
+/// A device key names files, so it is short and plain.
+fn check_key(key: &str) -> Result<(), Diagnostic> {
+    let plain = |sign: char| sign.is_ascii_lowercase() || sign.is_ascii_digit() || sign == '-';
+    let fine = (1..=32).contains(&key.len()) && key.chars().all(plain) && !key.starts_with('-');
+    if fine {
+        return Ok(());
+    }
+    let message = format!("found `{key}`, expected the key of a device");
+    Err(Diagnostic::without_place(Code::BadNotation, message)
+        .help("a key has up to 32 small letters, digits and hyphens, such as `my-device`"))
+}
+
+/// The modes that were asked for, in the standard's order.
+fn modes(words: &[String]) -> Result<Vec<&'static Mode>, Diagnostic> {
+    let known = || {
+        let known = MODES.iter().map(|mode| format!("{} ({})", mode.short, mode.feature));
+        format!("the modes are {}", known.collect::<Vec<_>>().join(", "))
+    };
+    if words.is_empty() {
+        let message = "`--modes` is missing: a drive has at least one mode of operation";
+        return Err(Diagnostic::without_place(Code::UnknownWord, message).help(known()));
+    }
+    let mut wanted = Vec::new();
+    for word in words {
+        let word = word.trim();
+        let is = |mode: &&Mode| {
+            [mode.short, mode.feature, mode.feature.trim_end_matches(" mode")]
+                .iter()
+                .any(|name| name.eq_ignore_ascii_case(word))
+        };
+        let Some(mode) = MODES.iter().find(is) else {
+            let message = format!("found `{word}`, expected a mode of operation");
+            return Err(Diagnostic::without_place(Code::UnknownWord, message).help(known()));
+        };
+        wanted.push(mode.bit);
+    }
+    Ok(MODES.iter().filter(|mode| wanted.contains(&mode.bit)).collect())
+}
+
+fn list(modes: &[&Mode]) -> String {
+    modes.iter().map(|mode| mode.feature).collect::<Vec<_>>().join(", ")
+}
+
+fn device(key: &str) -> String {
+    fill(include_str!("new/device.od.yaml"), key, &[])
+}
+
+fn drive(key: &str, modes: &[&Mode]) -> String {
+    let features = modes.iter().map(|mode| mode.feature);
+    let beside = without_repetition(modes.iter().flat_map(|mode| mode.beside.iter().copied()));
+    let supported = modes.iter().fold(0_u32, |bits, mode| bits | 1 << mode.bit);
+    let several = modes.len() > 1;
+    let set_points = without_repetition(modes.iter().filter_map(|mode| mode.set_point));
+    let actuals = without_repetition(modes.iter().filter_map(|mode| mode.actual));
+    fill(
+        include_str!("new/drive.od.yaml"),
+        key,
+        &[
+            ("<modes>", &items(features)),
+            ("<beside>", &items(beside.into_iter())),
+            ("<supported>", &format!("0x{supported:04X}")),
+            ("<receive>", &pdos(several.then_some("Modes of operation"), "Controlword", &set_points)),
+            ("<transmit>", &pdos(several.then_some("Modes of operation display"), "Statusword", &actuals)),
+        ],
+    )
+}
+
+/// PDO 1 with the word and the mode, where there is a choice of modes; then one PDO with the word and each value.
+fn pdos(mode: Option<&str>, word: &str, values: &[&str]) -> String {
+    let mut mappings: Vec<String> = mode.iter().map(|mode| format!("[{word}, {mode}]")).collect();
+    mappings.extend(values.iter().map(|value| format!("[{word}, {value}]")));
+    if mappings.is_empty() {
+        mappings.push(format!("[{word}]"));
+    }
+    let mut lines = String::new();
+    for (at, mapping) in mappings.iter().enumerate() {
+        // From the fifth on, a PDO has no COB-ID that CiA 301 gives it.
+        let cut = if at < PDOS { "" } else { "# " };
+        let why = if at < PDOS { "" } else { ", cob-id: …" };
+        let _ = writeln!(lines, "      {cut}{}: {{map: {mapping}{why}}}", at + 1);
+    }
+    lines.trim_end().to_owned()
+}
+
+fn items<'a>(features: impl Iterator<Item = &'a str>) -> String {
+    features.map(|feature| format!("      - {feature}")).collect::<Vec<_>>().join("\n")
+}
+
+fn without_repetition<'a>(all: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut once = Vec::new();
+    for one in all {
+        if !once.contains(&one) {
+            once.push(one);
+        }
+    }
+    once
+}
+
+/// The template with its marks replaced; `my-device` has the title `My device`.
+fn fill(template: &str, key: &str, marks: &[(&str, &str)]) -> String {
+    let mut title = key.replace('-', " ");
+    if let Some(first) = title.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    let mut text = template.replace("<key>", key).replace("<title>", &title);
+    for (mark, replacement) in marks {
+        text = text.replace(mark, replacement);
+    }
+    text
+}
+
+fn count_objects(name: &str, text: &str) -> usize {
+    let mut sources = SourceMap::new();
+    let root = sources.add(name, text);
+    let system = compile(&mut sources, root, &mut NoFiles).system;
+    system.map_or(0, |system| system.devices.iter().map(|device| device.objects.len()).sum())
+}
+
+fn write(directory: &Path, path: String, text: String) -> Result<(), Diagnostic> {
+    let artifact = Artifact { path, bytes: text.into_bytes(), purpose: String::new() };
+    write_all(directory, &[artifact]).map(drop).map_err(|error| {
+        Diagnostic::without_place(Code::WriteFailed, error.to_string())
+            .help("check the directory, its permissions and the free space")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use od_spec::model::Category;
+
+    fn compiled(key: &str, text: &str) -> od_spec::model::System {
+        let mut sources = SourceMap::new();
+        let root = sources.add(key, text);
+        let compiled = compile(&mut sources, root, &mut NoFiles);
+        let messages: Vec<String> =
+            compiled.diagnostics.iter().map(|one| format!("{}: {}", one.code, one.message)).collect();
+        assert_eq!(messages, Vec::<String>::new(), "{text}");
+        compiled.system.expect("no errors")
+    }
+
+    #[test]
+    fn every_mode_and_every_pair_of_modes_compiles_clean() {
+        for first in &MODES {
+            for second in &MODES {
+                let modes = modes(&[first.short.to_owned(), second.feature.to_owned()]).expect("modes");
+                let system = compiled("drive", &drive("drive", &modes));
+                let supported =
+                    system.devices[0].objects[&od_spec::model::Index(0x6502)].entries[0].default.clone();
+                let bits = 1_i128 << first.bit | 1 << second.bit;
+                assert_eq!(supported, Some(od_spec::model::Value::Integer(bits)));
+            }
+        }
+    }
+
+    #[test]
+    fn all_modes_together_and_the_plain_device_compile_clean() {
+        let all: Vec<&Mode> = MODES.iter().collect();
+        let system = compiled("drive", &drive("drive", &all));
+        let mandatory =
+            system.devices[0].objects.values().filter(|one| one.category == Some(Category::Mandatory));
+        assert!(mandatory.count() > 5);
+        compiled("plain", &device("plain"));
+    }
+
+    /// What the table here says of a mode is what the library says.
+    #[test]
+    fn modes_are_the_bits_of_6502h() {
+        let system = compiled("drive", &drive("drive", &[&MODES[0]]));
+        let entry = &system.devices[0].objects[&od_spec::model::Index(0x6502)].entries[0];
+        let Some(od_spec::model::TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind)
+        else {
+            panic!("a bit field");
+        };
+        for mode in &MODES {
+            assert!(
+                fields.iter().any(|field| field.first == mode.bit && field.name == mode.feature),
+                "{}",
+                mode.feature
+            );
+        }
+    }
+}

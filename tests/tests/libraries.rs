@@ -1,0 +1,136 @@
+//! The libraries hold together: every feature alone, and everything of a library in one device.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fmt::Write as _;
+
+use od_spec::model::System;
+use od_spec::source::SourceMap;
+use od_spec::{Compiled, LIBRARIES, NoFiles, compile};
+
+fn library(name: &str) -> &'static str {
+    LIBRARIES.iter().find(|(known, _)| *known == name).unwrap().1
+}
+
+/// The keys of one of a library's maps, as they stand at the margin of the map.
+fn keys(text: &str, map: &str) -> Vec<String> {
+    let start = text.find(&format!("\n{map}:\n")).unwrap() + map.len() + 3;
+    let lines = text[start..].lines().take_while(|line| line.is_empty() || line.starts_with(' '));
+    let keys = lines.filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with([' ', '#'])));
+    keys.filter_map(|line| line.split_once(':')).map(|(key, _)| key.trim().to_owned()).collect()
+}
+
+/// The system, and the messages one per line.
+fn compiled(text: &str) -> (Option<System>, String) {
+    let mut sources = SourceMap::new();
+    let root = sources.add("drive.od.yaml", text);
+    let Compiled { system, diagnostics } = compile(&mut sources, root, &mut NoFiles);
+    let mut messages = String::new();
+    for one in &diagnostics {
+        writeln!(messages, "{}: {}", one.code, one.message).unwrap();
+    }
+    (system, messages)
+}
+
+/// What only the device can say: capacities of texts, and the supported modes.
+const OWN: &str = "
+  0x6403: {from: cia402, capacity: 40}
+  0x6404: {from: cia402, capacity: 40}
+  0x6405: {from: cia402, capacity: 40}
+  0x6503: {from: cia402, capacity: 40}
+  0x6504: {from: cia402, capacity: 40}
+  0x6505: {from: cia402, capacity: 40}
+  0x6502: {from: cia402, default: 0x3EF}
+";
+
+fn head(features: &str) -> String {
+    format!(
+        "od-spec: 1\ntitle: Drive\nuses: [cia301, cia402]\ndevices:\n  drive: {{name: Drive, bit-rates: [125], features: [{features}]}}\n"
+    )
+}
+
+#[test]
+fn every_feature_can_be_taken_alone() {
+    for name in ["cia301", "cia402"] {
+        let features = keys(library(name), "features");
+        assert!(features.len() > 25, "{features:?}");
+        for feature in features {
+            let (system, messages) = compiled(&head(&format!("heartbeat producer, {feature}")));
+            let device = &system.unwrap_or_else(|| panic!("{feature}: {messages}")).devices[0];
+            assert!(device.objects.len() >= 4, "{feature}");
+            assert!(!messages.contains("error"), "{feature}: {messages}");
+        }
+    }
+}
+
+#[test]
+fn everything_of_cia402_on_two_axes_in_one_device() {
+    let text = library("cia402");
+    let features = keys(text, "features");
+    let both = features.iter().cloned().chain(features.iter().map(|feature| format!("{feature} axis 2")));
+    let both: Vec<String> = both.collect();
+    let mut spec = head(&format!("heartbeat producer, emergency, {}", both.join(", ")));
+    spec.push_str("objects:");
+    spec.push_str(OWN);
+    let objects = keys(text, "objects");
+    assert!(objects.len() > 150, "{}", objects.len());
+    for index in objects.iter().filter(|index| !OWN.contains(*index)) {
+        writeln!(spec, "  {index}: {{from: cia402}}").unwrap();
+    }
+    let pdos = "{receive: {1: {map: [Controlword]}}, transmit: {1: {map: [Statusword]}}}";
+    write!(spec, "pdos:\n  drive: {pdos}\nerrors:\n").unwrap();
+    let errors = keys(text, "errors");
+    assert!(errors.len() > 100, "{}", errors.len());
+    for code in &errors {
+        writeln!(spec, "  {code}: {{from: cia402}}").unwrap();
+    }
+    spec.push_str("state-machines:\n  power drive system: {from: cia402}\n");
+    let (system, messages) = compiled(&spec);
+    assert_eq!(messages, "");
+    let system = system.unwrap();
+    let of = |range: std::ops::RangeInclusive<u16>| {
+        system.devices[0].objects.keys().filter(|index| range.contains(&index.0)).count()
+    };
+    assert_eq!(of(0x6000..=0x67FF), objects.len());
+    assert!(of(0x6800..=0x6FFF) > 130, "{}", of(0x6800..=0x6FFF));
+    // Runs of codes count one by one.
+    assert!(system.errors.len() >= errors.len());
+    assert_eq!(system.machines["power drive system"].transitions.len(), 17);
+    // Every category of an entry comes from the library, and so do type and access.
+    for (id, _, entry) in system.devices[0].entries().filter(|(id, ..)| id.index.0 >= 0x6000 && id.sub.0 > 0)
+    {
+        assert!(
+            entry.standard.contains(&"type") && entry.standard.contains(&"access"),
+            "{id}: {:?}",
+            entry.standard
+        );
+    }
+}
+
+/// The backends know devices by their model only.
+#[test]
+fn no_backend_names_a_device_or_a_maker() {
+    let mut folders = vec![od_tests::root().join("od-gen/src"), od_tests::root().join("docs-gen")];
+    let mut seen = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap();
+            let text = text.split("#[cfg(test)]").next().unwrap_or_default().to_lowercase();
+            seen += 1;
+            // `build.rs` of the command lists the specifications that come with it, by file name.
+            let list = path.ends_with("odgen/build.rs");
+            for name in ["fullmo", "pmm", "pmc", "pitch"] {
+                let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+                let words = lines.flat_map(|line| line.split(|sign: char| !sign.is_alphanumeric()));
+                let found = words.filter(|word| *word == name).count();
+                assert!(found == 0 || list, "{} says {name}", path.display());
+            }
+        }
+    }
+    assert!(seen > 50, "{seen}");
+}
