@@ -184,6 +184,22 @@ for (const device of dump.devices) {
   }
   await page.close();
 
+  // A link that is opened elsewhere leaves this page where it is; a plain click goes there.
+  const clicked = await open(`${device.key}.html`, `#${hash}`);
+  await clicked.waitForTimeout(200);
+  await clicked.evaluate(() => scrollTo(0, 0));
+  const away = clicked.locator("#ui_contents a").last();
+  await away.evaluate((link) => link.dispatchEvent(new MouseEvent("click", { bubbles: true, cancelable: true, ctrlKey: true })));
+  await clicked.waitForTimeout(200);
+  same(await clicked.evaluate(() => scrollY), 0, `${device.key}: Ctrl and a click`);
+  await away.click();
+  await clicked.waitForTimeout(200);
+  check(await clicked.evaluate(() => {
+    const { top, bottom } = document.getElementById(decodeURIComponent(location.hash.slice(1))).getBoundingClientRect();
+    return bottom > 0 && top < innerHeight;
+  }), `${device.key}: a click does not go to its target`);
+  await clicked.close();
+
   // A deep link from outside.
   const linked = await open(`${device.key}.html`, `#${hash}`);
   await linked.waitForFunction((target) => {

@@ -98,9 +98,8 @@
   search.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
       const named = entry(search.value), found = best();
-      if (named && byId(named)) location.hash = named;
-      else if (found && (!named || found.card.id === named.slice(0, 4))) location.hash = found.card.id;
-      if (found) reveal(true);
+      const target = named && byId(named) ? named : found && (!named || found.card.id === named.slice(0, 4)) ? found.card.id : "";
+      if (target) { location.hash = target; reveal(true); }
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
       visible()[0]?.focus();
@@ -139,7 +138,10 @@
   addEventListener("load", () => { if (location.hash && performance.getEntriesByType("navigation")[0]?.type === "navigate") reveal(true); });
   // On paper, everything.
   addEventListener("beforeprint", clear);
-  document.addEventListener("click", (event) => { if (event.target.closest?.("a[href^='#']")) setTimeout(() => reveal(true)); });
+  document.addEventListener("click", (event) => {
+    const elsewhere = event.ctrlKey || event.metaKey || event.shiftKey || event.altKey;
+    if (!elsewhere && event.target.closest?.("a[href^='#']")) setTimeout(() => reveal(true));
+  });
 
   const copy = async (text) => {
     try { await navigator.clipboard.writeText(text); }

@@ -250,7 +250,7 @@ fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Opti
     let bits = Spanned::new(lexical::bits(key.value)?, key.span);
     let name = short(r, "name");
     // A name that was refused is not missing as well.
-    let refused = name.is_none() && r.child("name").is_some();
+    let refused = name.is_none() && (r.child("name").is_some() || !matches!(r.node.kind, NodeKind::Map(_)));
     let name = name.or_else(|| refused.then(|| Spanned::new(format!("bit {}", key.value), key.span)));
     let flag = |key: &str| r.yes_no(key).is_some_and(|flag| flag.value);
     let usage = match r.scalar(usage) {
@@ -299,15 +299,13 @@ fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes>
     }
     let size = i128::from(last.value.0 - first.value.0) + 1;
     let room = (0x1_0000 - i128::from(first.value.0)) / size;
-    match u16::try_from(count.value) {
-        Ok(number) if (1..=room).contains(&count.value) => {
-            Some(Axes { span: key, first: first.value, last: last.value, count: number })
-        }
-        _ => {
-            let problem = format!("found {} axes; there is room for 1 to {room}", count.value);
-            refuse(count.span, problem, "an axis takes as many indices as the one before, up to FFFFh")
-        }
+    // What no number of axes can be is refused with the other numbers.
+    let number = u16::try_from(count.value).ok().filter(|number| (2..=16).contains(number))?;
+    if i128::from(number) > room {
+        let problem = format!("found {number} axes; there is room for {room}");
+        return refuse(count.span, problem, "an axis takes as many indices as the one before, up to FFFFh");
     }
+    Some(Axes { span: key, first: first.value, last: last.value, count: number })
 }
 
 fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {

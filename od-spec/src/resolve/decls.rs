@@ -146,7 +146,7 @@ fn features<'a>(
                 } else if alike.is_empty() {
                     "`odgen reference` lists the features of the libraries".to_owned()
                 } else {
-                    format!("there is {}", alike.join(", "))
+                    format!("did you mean {}?", alike.join(" or "))
                 };
                 diagnostics.push(unknown(Code::UnknownFeature, &name, "feature", known, &otherwise));
             }
@@ -315,6 +315,8 @@ fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<&'stat
     let left = |fact: &str| match fact {
         "name" => lower(over) == lower(below),
         "default" => below.default.is_none(),
+        "min" => below.min.is_none(),
+        "max" => below.max.is_none(),
         "unit" => below.unit.is_none(),
         "special" => below.special.is_none(),
         _ => false,

@@ -24,6 +24,8 @@ struct Mode {
     set_point: Option<&'static str>,
     /// Actual value for a TPDO.
     actual: Option<&'static str>,
+    /// A line that an object of the mode may have, as an example.
+    example: &'static str,
     /// Features that drives with this mode often have beside it.
     beside: &'static [&'static str],
 }
@@ -35,6 +37,7 @@ const MODES: [Mode; 9] = [
         bit: 0,
         set_point: Some("Target position"),
         actual: Some("Position actual value"),
+        example: "0x607A: {from: cia402, unit: centidegree}",
         beside: &["quick stop", "position window", "following error", "software position limit"],
     },
     Mode {
@@ -43,6 +46,7 @@ const MODES: [Mode; 9] = [
         bit: 1,
         set_point: Some("vl target velocity"),
         actual: Some("vl velocity actual value"),
+        example: "0x6042: {from: cia402, min: -3000, max: 3000}",
         beside: &["vl factors"],
     },
     Mode {
@@ -51,6 +55,7 @@ const MODES: [Mode; 9] = [
         bit: 2,
         set_point: Some("Target velocity"),
         actual: Some("Velocity actual value"),
+        example: "0x60FF: {from: cia402, min: -3000, max: 3000}",
         beside: &["quick stop", "velocity window", "velocity threshold"],
     },
     Mode {
@@ -59,6 +64,7 @@ const MODES: [Mode; 9] = [
         bit: 3,
         set_point: Some("Target torque"),
         actual: Some("Torque actual value"),
+        example: "0x6071: {from: cia402, min: -150.0 %, max: 150.0 %}",
         beside: &["torque limit", "motor ratings"],
     },
     Mode {
@@ -67,6 +73,7 @@ const MODES: [Mode; 9] = [
         bit: 5,
         set_point: None,
         actual: None,
+        example: "0x6098: {from: cia402, default: 35}",
         beside: &["home offset", "homing acceleration"],
     },
     Mode {
@@ -75,6 +82,7 @@ const MODES: [Mode; 9] = [
         bit: 6,
         set_point: Some("0x60C1.1"),
         actual: Some("Position actual value"),
+        example: "0x6064: {from: cia402, unit: centidegree}",
         beside: &["interpolation time period"],
     },
     Mode {
@@ -83,6 +91,7 @@ const MODES: [Mode; 9] = [
         bit: 7,
         set_point: Some("Target position"),
         actual: Some("Position actual value"),
+        example: "0x607A: {from: cia402, unit: centidegree}",
         beside: &["interpolation time period", "following error"],
     },
     Mode {
@@ -91,6 +100,7 @@ const MODES: [Mode; 9] = [
         bit: 8,
         set_point: Some("Target velocity"),
         actual: Some("Velocity actual value"),
+        example: "0x60FF: {from: cia402, min: -3000, max: 3000}",
         beside: &["interpolation time period"],
     },
     Mode {
@@ -99,6 +109,7 @@ const MODES: [Mode; 9] = [
         bit: 9,
         set_point: Some("Target torque"),
         actual: Some("Torque actual value"),
+        example: "0x6071: {from: cia402, min: -150.0 %, max: 150.0 %}",
         beside: &["interpolation time period", "motor ratings"],
     },
 ];
@@ -138,7 +149,16 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
         return Err(Diagnostic::without_place(Code::WriteFailed, message)
             .help("choose another name or, with `--out`, another directory"));
     }
-    let objects = count_objects(&name, &text);
+    if args.out.is_file() {
+        let message = format!("cannot write into `{}`: it is a file", args.out.display());
+        return Err(
+            Diagnostic::without_place(Code::WriteFailed, message).help("name a directory with `--out`")
+        );
+    }
+    let objects = count_objects(&name, &text).ok_or_else(|| {
+        let message = format!("a specification with the key `{key}` does not compile");
+        Diagnostic::without_place(Code::BadNotation, message).help("choose another name")
+    })?;
     write(&args.out, name, text)?;
     let path = path.strip_prefix(".").unwrap_or(&path).display();
     Ok(format!(
@@ -149,7 +169,9 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
 /// A device key names files, so it is short and plain.
 fn check_key(key: &str) -> Result<(), Diagnostic> {
     let plain = |sign: char| sign.is_ascii_lowercase() || sign.is_ascii_digit() || sign == '-';
-    let fine = (1..=32).contains(&key.len()) && key.chars().all(plain) && !key.starts_with('-');
+    // `null` is nothing in YAML.
+    let fine =
+        (1..=32).contains(&key.len()) && key.chars().all(plain) && !key.starts_with('-') && key != "null";
     if fine {
         return Ok(());
     }
@@ -206,6 +228,12 @@ fn drive(key: &str, modes: &[&Mode]) -> String {
         &[
             ("<modes>", &items(features)),
             ("<beside>", &items(beside.into_iter())),
+            (
+                "<kind>",
+                if modes.iter().all(|mode| mode.short == "vl") { "0x0001_0192" } else { "0x0002_0192" },
+            ),
+            ("<example>", modes.iter().map(|mode| mode.example).next().unwrap_or_default()),
+            ("<mode>", &modes.first().map_or(0, |mode| mode.bit + 1).to_string()),
             ("<supported>", &format!("0x{supported:04X}")),
             ("<receive>", &pdos(several.then_some("Modes of operation"), "Controlword", &set_points)),
             ("<transmit>", &pdos(several.then_some("Modes of operation display"), "Statusword", &actuals)),
@@ -222,10 +250,11 @@ fn pdos(mode: Option<&str>, word: &str, values: &[&str]) -> String {
     }
     let mut lines = String::new();
     for (at, mapping) in mappings.iter().enumerate() {
-        // From the fifth on, a PDO has no COB-ID that CiA 301 gives it.
-        let cut = if at < PDOS { "" } else { "# " };
-        let why = if at < PDOS { "" } else { ", cob-id: …" };
-        let _ = writeln!(lines, "      {cut}{}: {{map: {mapping}{why}}}", at + 1);
+        if at == PDOS {
+            lines.push_str("      # CiA 301 has COB-IDs for four; give each further one its `cob-id:` instead of `valid: no`\n");
+        }
+        let valid = if at < PDOS { "" } else { ", valid: no" };
+        let _ = writeln!(lines, "      {}: {{map: {mapping}{valid}}}", at + 1);
     }
     lines.trim_end().to_owned()
 }
@@ -257,11 +286,11 @@ fn fill(template: &str, key: &str, marks: &[(&str, &str)]) -> String {
     text
 }
 
-fn count_objects(name: &str, text: &str) -> usize {
+fn count_objects(name: &str, text: &str) -> Option<usize> {
     let mut sources = SourceMap::new();
     let root = sources.add(name, text);
-    let system = compile(&mut sources, root, &mut NoFiles).system;
-    system.map_or(0, |system| system.devices.iter().map(|device| device.objects.len()).sum())
+    let system = compile(&mut sources, root, &mut NoFiles).system?;
+    Some(system.devices.iter().map(|device| device.objects.len()).sum())
 }
 
 fn write(directory: &Path, path: String, text: String) -> Result<(), Diagnostic> {
@@ -309,6 +338,23 @@ mod tests {
             system.devices[0].objects.values().filter(|one| one.category == Some(Category::Mandatory));
         assert!(mandatory.count() > 5);
         compiled("plain", &device("plain"));
+    }
+
+    /// The commented examples can be used as they are.
+    #[test]
+    fn examples_in_comments_compile() {
+        for mode in &MODES {
+            let text = drive("drive", &[mode])
+                .replace("  #   0x", "  0x")
+                .replace("  # centidegree:", "  centidegree:");
+            let text = if text.contains("unit: centidegree}\n") {
+                text
+            } else {
+                text.replace("  centidegree:", "  # ")
+            };
+            assert!(text.contains(&format!("\n  {}\n", mode.example)), "{text}");
+            compiled("drive", &text);
+        }
     }
 
     /// What the table here says of a mode is what the library says.
