@@ -61,12 +61,15 @@ impl Scope {
     pub(super) fn unit(&self, name: &Name, diagnostics: &mut Diagnostics) -> Option<Arc<Unit>> {
         let unit = self.units.get(&name.value);
         if unit.is_none() && !self.is_broken(&name.value) {
+            let by_symbol = self.units.values().find(|unit| unit.symbol == name.value);
             diagnostics.push(unknown(
                 Code::UnknownUnit,
                 name,
                 "unit",
                 self.units.keys().map(String::as_str),
-                "define it under `units:`",
+                &by_symbol.map_or("define it under `units:`".to_owned(), |unit| {
+                    format!("that is the symbol of `{}`; write the unit's name", unit.name)
+                }),
             ));
         }
         unit.cloned()
