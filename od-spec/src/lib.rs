@@ -40,6 +40,7 @@ pub mod source;
 pub mod yaml;
 
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
+pub use decode::is_device_key;
 pub use departures::departures;
 pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign, eds_text_problem};

@@ -110,6 +110,19 @@ fn what_the_manual_does_not_say_is_marked_as_the_standards_word() {
     assert_eq!(entry(0x60B8, 0).pdo, PdoMapping::None);
 }
 
+/// The EDS tells why a default is missing: nothing is known to be stored, but the standard's defaults are not the maker's.
+#[test]
+fn the_eds_does_not_promise_the_standards_defaults() {
+    let system = fullmo();
+    let eds = String::from_utf8(od_gen::eds::write_eds(&system, &system.devices[0])).unwrap();
+    assert!(eds.contains("=25 defaults are left out because only the standard states them"), "{eds}");
+    assert!(!eds.contains("defaults of stored or locked parameters"));
+    let section =
+        |name: &str| eds.split("\r\n\r\n").find(|part| part.contains(&format!("[{name}]"))).unwrap();
+    assert!(section("6071").contains("; default") || section("6071").contains("default of the standard"));
+    assert!(!section("6071").contains("DefaultValue="));
+}
+
 #[test]
 fn scales_are_those_of_the_manual() {
     let system = fullmo();

@@ -1,7 +1,7 @@
 //! Sections about the file and the device.
 
 use od_spec::model::{
-    DataType, Date, DateTime, Dictionary, Direction, EntryId, Index, SubIndex, System, Value,
+    DataType, Date, DateTime, Dictionary, Direction, Entry, EntryId, Index, Storage, SubIndex, System, Value,
 };
 
 use super::Commissioning;
@@ -92,12 +92,22 @@ fn comments(ini: &mut Ini, system: &System, device: &Dictionary) {
                 .to_owned(),
         );
     }
-    let withheld =
-        device.entries().filter(|(.., entry)| entry.default.is_some() && !entry.eds.default).count();
-    if withheld > 0 {
+    let withheld = || device.entries().filter(|(.., entry)| entry.default.is_some() && !entry.eds.default);
+    let kept = |entry: &Entry| entry.locked || entry.stored != Storage::No;
+    let of_the_standard =
+        withheld().filter(|(.., entry)| entry.standard.contains(&"default") && !kept(entry)).count();
+    let own = withheld().count() - of_the_standard;
+    if own > 0 {
         lines.push(format!(
-            "{withheld} defaults of stored or locked parameters are left out, so that no PLC writes them back at boot."
+            "{own} defaults of stored or locked parameters are left out, so that no PLC writes them back at boot."
         ));
+    }
+    if of_the_standard > 0 {
+        lines.push(format!(
+            "{of_the_standard} defaults are left out because only the standard states them; the device may have others."
+        ));
+    }
+    if own + of_the_standard > 0 {
         lines.push("The comments above each section list them, with units and meanings.".to_owned());
     }
     ini.section("Comments", &[]);

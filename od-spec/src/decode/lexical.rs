@@ -48,6 +48,13 @@ pub(crate) fn error_codes(text: &str) -> Option<(u16, u16)> {
     (first <= last).then_some((first, last))
 }
 
+/// Whether a text can be the key of a device, which names its files: up to 32 lower-case letters, digits and hyphens, no hyphen
+/// first.
+pub fn is_device_key(text: &str) -> bool {
+    let fine = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    (1..=32).contains(&text.len()) && !text.starts_with('-') && text.chars().all(fine)
+}
+
 /// `0x6040`, or `0x3511..0x3519`.
 pub(crate) fn indices(text: &str) -> Option<(Index, Index)> {
     let (first, last) = text.split_once("..").unwrap_or((text, text));

@@ -10,6 +10,7 @@ mod read;
 mod shape;
 mod spec;
 
+pub use lexical::is_device_key;
 pub(crate) use nearest::nearest;
 pub(crate) use shape::inside;
 

@@ -134,12 +134,7 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
         let integer = || scalar::integer(text).ok();
         let fits = match kind {
             KeyKind::Name => !text.is_empty(),
-            KeyKind::DeviceKey => {
-                let fine = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-                text.starts_with(|c: char| c.is_ascii_alphanumeric())
-                    && text.len() <= 32
-                    && text.chars().all(fine)
-            }
+            KeyKind::DeviceKey => lexical::is_device_key(text),
             KeyKind::Language => {
                 text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
             }

@@ -7,7 +7,7 @@ use od_gen::Artifact;
 use od_gen::files::write_all;
 use od_spec::diag::{Code, Diagnostic};
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, compile};
+use od_spec::{NoFiles, compile, is_device_key};
 
 use super::args::{NewArgs, Profile};
 use super::report::{Report, print};
@@ -28,6 +28,13 @@ struct Mode {
     example: &'static str,
     /// Features that drives with this mode often have beside it.
     beside: &'static [&'static str],
+}
+
+impl Mode {
+    /// Its number in 6060h, one more than its bit of 6502h.
+    const fn number(&self) -> u8 {
+        self.bit + 1
+    }
 }
 
 const MODES: [Mode; 9] = [
@@ -166,13 +173,9 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
     ))
 }
 
-/// A device key names files, so it is short and plain.
 fn check_key(key: &str) -> Result<(), Diagnostic> {
-    let plain = |sign: char| sign.is_ascii_lowercase() || sign.is_ascii_digit() || sign == '-';
     // `null` is nothing in YAML.
-    let fine =
-        (1..=32).contains(&key.len()) && key.chars().all(plain) && !key.starts_with('-') && key != "null";
-    if fine {
+    if is_device_key(key) && key != "null" {
         return Ok(());
     }
     let message = format!("found `{key}`, expected the key of a device");
@@ -232,8 +235,8 @@ fn drive(key: &str, modes: &[&Mode]) -> String {
                 "<kind>",
                 if modes.iter().all(|mode| mode.short == "vl") { "0x0001_0192" } else { "0x0002_0192" },
             ),
-            ("<example>", modes.iter().map(|mode| mode.example).next().unwrap_or_default()),
-            ("<mode>", &modes.first().map_or(0, |mode| mode.bit + 1).to_string()),
+            ("<example>", modes.first().map_or("", |mode| mode.example)),
+            ("<mode>", &modes.first().map_or(0, |mode| mode.number()).to_string()),
             ("<supported>", &format!("0x{supported:04X}")),
             ("<receive>", &pdos(several.then_some("Modes of operation"), "Controlword", &set_points)),
             ("<transmit>", &pdos(several.then_some("Modes of operation display"), "Statusword", &actuals)),

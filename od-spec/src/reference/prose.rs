@@ -1,206 +1,6 @@
-//! The language reference: the key tables as Markdown, with the rules that no table can hold between them.
-//!
-//! What a single key means stands in [`crate::keys`] and nowhere else; the paragraphs here are about what several
-//! keys have to do with each other.
+//! The paragraphs and word tables of the language reference.
 
-use std::fmt::Write as _;
-
-use crate::compile::LIBRARIES;
-use crate::diag::Diagnostics;
-use crate::json_schema::{slug, title};
-use crate::keys::{self, ENTRY, Key, KeyKind, Keys, Shape};
-use crate::model::DataType;
-use crate::source::SourceMap;
-use crate::yaml::{self, Node};
-
-/// Prints the language reference in Markdown.
-pub fn reference() -> String {
-    let mut out = String::from(INTRODUCTION);
-    for chapter in CHAPTERS {
-        let _ = write!(out, "\n## {}\n", chapter.title);
-        paragraph(chapter.text, &mut out);
-        for section in chapter.sections {
-            let _ = write!(out, "\n### {}\n\n", heading(section.keys));
-            table(section.keys, &mut out);
-            paragraph(section.rules, &mut out);
-        }
-    }
-    for (mark, words) in WORDS {
-        out = out.replace(mark, &word_table(words));
-    }
-    let types = DataType::ALL.map(|data_type| format!("`{}`", data_type.name())).join(", ");
-    out.replace("{TYPES}", &types).replace("{FEATURES}", &features())
-}
-
-/// The features of the built-in libraries, in the words of the libraries.
-fn features() -> String {
-    let mut out = String::new();
-    for (name, text) in LIBRARIES {
-        out.push_str(if out.is_empty() { "" } else { "\n" });
-        let _ =
-            write!(out, "Of the library `{name}`:\n\n| Feature | Objects | Meaning |\n| --- | --- | --- |\n");
-        let mut sources = SourceMap::new();
-        let id = sources.add(*name, *text);
-        let library = yaml::parse(id, sources.file(id), &mut Diagnostics::new());
-        let features = library.as_ref().and_then(|library| library.get("features"));
-        for (feature, facts) in features.map(Node::entries).unwrap_or_default() {
-            let text = |key: &str| facts.get(key).and_then(Node::text).map_or("", |text| text.value);
-            let objects: Vec<&str> = facts
-                .get("objects")
-                .map(Node::items)
-                .unwrap_or_default()
-                .iter()
-                .filter_map(|index| index.text()?.value.strip_prefix("0x"))
-                .collect();
-            let objects = objects.iter().map(|index| format!("{index}h")).collect::<Vec<_>>().join(", ");
-            let implied = if text("implied") == "yes" { ", implied" } else { "" };
-            let _ = writeln!(out, "| `{}`{implied} | {objects} | {} |", feature.value, cell(text("about")));
-        }
-    }
-    out.truncate(out.trim_end().len());
-    out
-}
-
-fn paragraph(text: &str, out: &mut String) {
-    if !text.is_empty() {
-        let _ = write!(out, "\n{}\n", text.trim());
-    }
-}
-
-/// `an EDS header` → `EDS header`, `a device` → `Device`.
-fn heading(keys: &Keys) -> String {
-    let mut letters = title(keys.name).chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
-}
-
-fn link(keys: &Keys) -> String {
-    format!("[{}](#{})", keys.name, slug(keys.name))
-}
-
-/// One row per key. Keys that a map shares with entries are named below the table only.
-fn table(keys: &Keys, out: &mut String) {
-    let (own, shared) = split(keys);
-    let examples = own.iter().any(|key| key.example.is_some());
-    out.push_str(if examples {
-        "| Key | Value | Required | Meaning | Example |\n| --- | --- | --- | --- | --- |\n"
-    } else {
-        "| Key | Value | Required | Meaning |\n| --- | --- | --- | --- |\n"
-    });
-    for key in own {
-        let required = if key.required { "yes " } else { "" };
-        let _ =
-            write!(out, "| `{}` | {} | {required}| {} |", key.name, cell(&value(key.shape)), cell(key.about));
-        if examples {
-            let example = key.example.map(|example| format!(" `{}`", cell(example))).unwrap_or_default();
-            let _ = write!(out, "{example} |");
-        }
-        out.push('\n');
-    }
-    if !shared.is_empty() {
-        let names = shared.iter().map(|key| format!("`{}`", key.name)).collect::<Vec<_>>().join(", ");
-        let _ = write!(out, "\nAnd these keys of {}: {names}.\n", link(&ENTRY));
-    }
-}
-
-/// A map's own keys, and those that it shares with entries if it has all that an entry can say about its value.
-fn split(keys: &Keys) -> (Vec<&Key>, Vec<&Key>) {
-    let is_shared =
-        |key: &&Key| ENTRY.keys.iter().any(|entry| entry.name == key.name && entry.about == key.about);
-    let shared = keys.keys.iter().filter(is_shared).count();
-    if keys.name == ENTRY.name || shared + 1 < ENTRY.keys.len() {
-        return (keys.keys.iter().collect(), Vec::new());
-    }
-    // An object's name is its own even where the words are the same.
-    keys.keys.iter().partition(|key| key.name == "name" || !is_shared(key))
-}
-
-fn cell(text: &str) -> String {
-    text.replace('|', "\\|")
-}
-
-/// What a value looks like, in a few words.
-fn value(shape: Shape) -> String {
-    match shape {
-        Shape::Text => "text".to_owned(),
-        Shape::Words => "text, or text by language".to_owned(),
-        Shape::Choice(words) => one_of(words),
-        Shape::YesNo => one_of(&["yes", "no"]),
-        Shape::Integer(low, high) if low == high => format!("`{low}`"),
-        Shape::Integer(low, high) => format!("integer, {low} to {}", limit(high)),
-        Shape::Date => "date".to_owned(),
-        Shape::DateTime => "date and time".to_owned(),
-        Shape::Index => "index".to_owned(),
-        Shape::Entry => "entry".to_owned(),
-        Shape::Access => "access".to_owned(),
-        Shape::Type => "type".to_owned(),
-        Shape::Value => "value".to_owned(),
-        Shape::Ratio => "fraction".to_owned(),
-        Shape::Base => "fraction and symbol".to_owned(),
-        Shape::Condition => "condition".to_owned(),
-        Shape::Formula => "formula".to_owned(),
-        Shape::Pattern => "bit pattern".to_owned(),
-        Shape::Map(keys) => link(keys),
-        Shape::MapOf(kind, inner) => format!("map: {} → {}", key_kind(kind), value(*inner)),
-        Shape::List(Shape::List(inner)) => format!("list of lists: {}", value(**inner)),
-        Shape::List(inner) => format!("list: {}", value(*inner)),
-        Shape::OneOrMore(inner) => format!("{}, or a list of such", value(*inner)),
-        Shape::ShortOr(short, keys) => format!("{} or {}", value(*short), link(keys)),
-    }
-}
-
-fn limit(high: i128) -> String {
-    if high >= 0xFFFF { format!("0x{high:X}") } else { high.to_string() }
-}
-
-fn one_of(words: &[&str]) -> String {
-    let mut words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    let last = words.pop().unwrap_or_default();
-    if words.is_empty() { last } else { format!("{} or {last}", words.join(", ")) }
-}
-
-const fn key_kind(kind: KeyKind) -> &'static str {
-    match kind {
-        KeyKind::Name => "name",
-        KeyKind::DeviceKey => "short key of lower-case letters, digits and `-`",
-        KeyKind::Language => "language code",
-        KeyKind::Indices => "index or indices",
-        KeyKind::SubIndex => "sub-index, 1 to 254",
-        KeyKind::Bits => "bit or bits",
-        KeyKind::Integer => "integer",
-        KeyKind::ErrorCodes => "error code or codes",
-        KeyKind::PdoNumber => "number, 1 to 512",
-        KeyKind::Number => "number, 0 to 255",
-    }
-}
-
-fn word_table(words: &[(&str, &str)]) -> String {
-    let mut out = String::from("| Word | Meaning |\n| --- | --- |");
-    for (word, about) in words {
-        let _ = write!(out, "\n| `{word}` | {about} |");
-    }
-    out
-}
-
-/// Words of the language that are explained one by one, and where.
-const WORDS: [(&str, &[(&str, &str)]); 4] =
-    [("{STORAGE}", STORAGE), ("{ERRATA}", ERRATA), ("{ROUNDING}", ROUNDING), ("{OUTSIDE}", OUTSIDE)];
-
-struct Chapter {
-    title: &'static str,
-    text: &'static str,
-    sections: &'static [Section],
-}
-
-struct Section {
-    keys: &'static Keys,
-    rules: &'static str,
-}
-
-const fn plain(keys: &'static Keys) -> Section {
-    Section { keys, rules: "" }
-}
-
-const INTRODUCTION: &str = r#"# The specification language
+pub(super) const INTRODUCTION: &str = r#"# The specification language
 
 <!-- Printed by `cargo xtask generate` from the tables by which the compiler reads specifications. Do not edit. -->
 
@@ -256,94 +56,7 @@ from `pdos:`. Defaults are written as people read them, in volts or by name, and
 constraint at the end.
 "#;
 
-static CHAPTERS: &[Chapter] = &[
-    Chapter { title: "How a file is read", text: READING, sections: &[] },
-    Chapter { title: "How entries are named", text: NAMING, sections: &[] },
-    Chapter {
-        title: "The file",
-        text: "",
-        sections: &[
-            Section { keys: &keys::SPEC, rules: TOP },
-            plain(&keys::SOURCE),
-            plain(&keys::REVISION),
-            plain(&keys::VENDOR),
-        ],
-    },
-    Chapter {
-        title: "Devices",
-        text: "",
-        sections: &[
-            Section { keys: &keys::DEVICE, rules: DEVICES },
-            Section { keys: &keys::FILE, rules: FILES },
-        ],
-    },
-    Chapter {
-        title: "Units and types",
-        text: "",
-        sections: &[
-            Section { keys: &keys::UNIT, rules: UNITS },
-            Section { keys: &keys::TYPE, rules: TYPES },
-            plain(&keys::ENUM_VALUE),
-            Section { keys: &keys::BIT, rules: BITS },
-            plain(&keys::MODE_BIT),
-        ],
-    },
-    Chapter {
-        title: "Objects and entries",
-        text: OBJECTS,
-        sections: &[
-            Section { keys: &keys::OBJECT, rules: INHERITANCE },
-            plain(&keys::ARRAY),
-            Section { keys: &keys::SUB0, rules: SUB0 },
-            Section { keys: &ENTRY, rules: ENTRIES },
-            Section { keys: &keys::SPECIAL, rules: SPECIAL },
-            Section { keys: &keys::ENTRY_EDS_KEYS, rules: EDS },
-        ],
-    },
-    Chapter { title: "Aliases", text: ALIASES, sections: &[] },
-    Chapter {
-        title: "Libraries",
-        text: USES,
-        sections: &[
-            Section { keys: &keys::FEATURE, rules: FEATURES },
-            Section { keys: &keys::AXES, rules: AXES },
-        ],
-    },
-    Chapter {
-        title: "PDOs",
-        text: "",
-        sections: &[plain(&keys::PDOS), Section { keys: &keys::PDO, rules: PDOS }],
-    },
-    Chapter { title: "Error codes", text: "", sections: &[Section { keys: &keys::ERROR, rules: ERRORS }] },
-    Chapter {
-        title: "State machines",
-        text: MACHINES,
-        sections: &[
-            plain(&keys::MACHINE),
-            plain(&keys::STATE),
-            plain(&keys::TRANSITION),
-            plain(&keys::COMMAND),
-        ],
-    },
-    Chapter {
-        title: "Constraints",
-        text: "",
-        sections: &[Section { keys: &keys::CONSTRAINT, rules: CONSTRAINTS }],
-    },
-    Chapter {
-        title: "The printed manual",
-        text: MANUAL,
-        sections: &[
-            Section { keys: &keys::ERRATUM, rules: ERRATUM_RULES },
-            plain(&keys::SECTION),
-            Section { keys: &keys::TABLE, rules: TABLES },
-            plain(&keys::TABLE_PDOS),
-            Section { keys: &keys::TABLE_ROWS, rules: "A row has one cell per column." },
-        ],
-    },
-];
-
-const READING: &str = r#"
+pub(super) const READING: &str = r#"
 A specification is one YAML document in UTF-8. The compiler reports every mistake of a file in one run, each with its place and a code;
 `odgen explain OD0201` says more about a code. A key that the language does not have at a place is a mistake, and so is a key that stands
 twice.
@@ -381,7 +94,7 @@ Editors that know JSON Schema complete keys, show what they mean, and mark most 
 `# yaml-language-server: $schema=PATH/od.schema.json`.
 "#;
 
-const NAMING: &str = r"
+pub(super) const NAMING: &str = r"
 Other parts of a specification refer to an entry by its index or by its name.
 
 By index: `0x6064`, or `0x30FA.3` with a sub-index, which is decimal unless it starts with `0x`. Without a sub-index, sub-index 0 is
@@ -394,11 +107,11 @@ Case and blanks count. A text that starts with `0x`, or that consists of digits,
 [erratum](#erratum), an index without sub-index means the whole object.
 ";
 
-const TOP: &str = r"
+pub(super) const TOP: &str = r"
 The keys may stand in any order. Lists, and the maps of devices and constraints, keep theirs.
 ";
 
-const DEVICES: &str = r"
+pub(super) const DEVICES: &str = r"
 A device supports at least one bit rate.
 
 What is said here fills the objects that show it, unless these have a `default:` of their own: `device-type` 1000h, `product-name` 1008h,
@@ -408,12 +121,12 @@ device has are filled; see [features](#feature).
 Placeholders (`dummies:`) are of the types `boolean`, `integer8`, `integer16`, `integer32`, `unsigned8`, `unsigned16` and `unsigned32`.
 ";
 
-const FILES: &str = r"
+pub(super) const FILES: &str = r"
 The dates of an EDS are these and never the day on which it is made, so that the same specification always gives the same file. Without
 `eds:`, they are 2000-01-01 00:00.
 ";
 
-const UNITS: &str = r"
+pub(super) const UNITS: &str = r"
 A unit says what a raw value means. With `decicelsius: {symbol: °C, scale: 1/10}`, the raw value 500 is 50.0 °C. With
 `millivolt: {symbol: mV, base: 1/1000 V}`, 41000 mV may also be written as `41 V`. Units whose bases have one symbol convert into each
 other, in [aliases](#aliases) and in [conditions](#constraint); a unit without `base:` has its own symbol as base. A physical value that
@@ -425,7 +138,7 @@ A unit that the user sets up, such as a position unit made by gear and feed, has
 the documentation shows the formula with the names of its entries.
 ";
 
-const TYPES: &str = r"
+pub(super) const TYPES: &str = r"
 A type has either `values:` or `bits:`, and an INTEGERn or UNSIGNEDn as base. Names are unique in a type. An entry whose type is an enum
 has no other defaults and limits than the listed values.
 
@@ -433,11 +146,11 @@ A bit field says something about every bit of its base: bits that are neither li
 that are listed twice.
 ";
 
-const BITS: &str = r"
+pub(super) const BITS: &str = r"
 A number as key of a run's `values:` is the value of the run, counted from its lowest bit.
 ";
 
-const OBJECTS: &str = r"
+pub(super) const OBJECTS: &str = r"
 An object with `array:` is an ARRAY, one with `record:` a RECORD, one with `alias:` a view of another entry, and any other a VAR, or a
 DOMAIN if it is of type `domain`. In a VAR the keys of the entry stand at the object itself.
 
@@ -447,7 +160,7 @@ characters and hold no `;`, `#` or `=`; characters outside ASCII are translitera
 its header hold none of these signs either.
 ";
 
-const INHERITANCE: &str = r"
+pub(super) const INHERITANCE: &str = r"
 Keys go down from the object to its elements and members: `type`, `unit`, `access`, `pdo`, `stored`, `writable-when` and `eds`. What stands
 at `array:` goes before what stands at the object, and what stands at the single element or member goes before both. The elements of an
 array also take every other key that stands at `array:`; its `name` is a pattern for theirs. A map, such as `eds:` or `special:`, is
@@ -463,11 +176,11 @@ objects; in their `name` and `identifier`, and nowhere else, `{n}` stands for 1,
 its name.
 ";
 
-const SUB0: &str = r"
+pub(super) const SUB0: &str = r"
 Sub-index 0 of an array or record is an UNSIGNED8. It takes nothing from its object.
 ";
 
-const ENTRIES: &str = r"
+pub(super) const ENTRIES: &str = r"
 Every entry needs a name, a type and an access, of its own or from where it inherits.
 
 The **type** is one of the data types {TYPES}, or the name of one of the [types](#type) of the file or its libraries.
@@ -506,7 +219,7 @@ Generated code takes its **identifiers** from the names: `actual velocity 16bit`
 to two things, or a name that the generated code needs itself, `identifier:` gives another; nothing is renamed silently.
 ";
 
-const STORAGE: &[(&str, &str)] = &[
+pub(super) const STORAGE: &[(&str, &str)] = &[
     ("no", "it is lost at power-off"),
     ("communication", "saved with the communication parameters, 1010h.2"),
     ("application", "saved with the application parameters, 1010h.3"),
@@ -514,12 +227,12 @@ const STORAGE: &[(&str, &str)] = &[
     ("remanent", "kept over power-off by the device itself, without a command"),
 ];
 
-const SPECIAL: &str = r"
+pub(super) const SPECIAL: &str = r"
 Special values stand beside the limits and do not move them: with `min: 0`, `max: 100` and `special: {255: off}`, the device takes 0 to
 100 and 255. An EDS has no words for this; the limits written there are widened so far that they include the special values.
 ";
 
-const EDS: &str = r"
+pub(super) const EDS: &str = r"
 Without these keys, an EDS shows of an entry:
 
 - its access; but a locked entry as `ro`, and an `rw` entry with `pdo: receive` or `pdo: transmit` as `rww` or `rwr`.
@@ -529,7 +242,7 @@ Without these keys, an EDS shows of an entry:
 - the flag `no-write` if it is locked, else none. Flags given here are added to that.
 ";
 
-const ALIASES: &str = r"
+pub(super) const ALIASES: &str = r"
 An alias is a second view of an integer entry and has no storage of its own: `0x5064: {alias: 0x6064, type: integer16}` shows a 32-bit
 position in 16 bits, so that more fits into a PDO. The view is a VAR of a narrower type with the same sign, or of a type that is no wider
 but in another unit of the same base. The target is not an alias itself.
@@ -550,20 +263,20 @@ its target is: a view of a locked or stored entry keeps its default out of a `sa
 carries `no-write`.
 ";
 
-const ROUNDING: &[(&str, &str)] = &[
+pub(super) const ROUNDING: &[(&str, &str)] = &[
     ("down", "the step below"),
     ("up", "the step above"),
     ("nearest", "the nearest step, halves away from zero"),
     ("zero", "the step nearer to zero"),
 ];
 
-const OUTSIDE: &[(&str, &str)] = &[
+pub(super) const OUTSIDE: &[(&str, &str)] = &[
     ("saturate", "the nearest value that the alias can show"),
     ("wrap", "its low bits"),
     ("abort", "an SDO abort"),
 ];
 
-const USES: &str = r"
+pub(super) const USES: &str = r"
 A library is a specification with `profile:` and without `uses:`. Two come with the compiler: `cia301` holds the objects of the
 communication profile, `cia402` those of drives. Others are files, named by a path relative to the file that uses them. What a library gives are
 its units, its types, its objects, its error codes and its state machines. A type is defined once in a file and its libraries; a unit may be
@@ -602,7 +315,7 @@ state-machines:
 ```
 ";
 
-const FEATURES: &str = r"
+pub(super) const FEATURES: &str = r"
 A device has the features that its `features:` names, those they need, and those that are implied.
 
 {FEATURES}
@@ -613,13 +326,13 @@ the heartbeat time; only the PDO parameters are stored without a word. Objects o
 written like objects of your own.
 ";
 
-const AXES: &str = r"
+pub(super) const AXES: &str = r"
 The objects between `first:` and `last:` are those of axis 1; axis 2 begins behind `last:`, and so on. `0x6864: {from: cia402}` takes 6064h for axis
 2; without a name of its own it is called `Position actual value axis 2`. A feature of a further axis has the axis behind its name:
 `features: [drive, homing mode, drive axis 2, homing mode axis 2]`.
 ";
 
-const PDOS: &str = r"
+pub(super) const PDOS: &str = r"
 Mapped entries allow the direction with their `pdo:`, and have 64 bits or less together. A data type in `map:` is a placeholder; the device
 lists it under `dummies:`, and only RPDOs have such.
 
@@ -639,17 +352,17 @@ Transmission types 241 to 251 are reserved, 252 and 253 are for TPDOs only. A de
 other that has PDOs has at least one that is variable.
 ";
 
-const ERRORS: &str = r"
+pub(super) const ERRORS: &str = r"
 A code has one meaning. Under a run such as `0x3281..0x3288`, every code gets the same facts; `{n}` in the name tells them apart.
 ";
 
-const MACHINES: &str = r"
+pub(super) const MACHINES: &str = r"
 A state machine gives names to patterns of a status word and of a control word. Patterns have as many places as the entry has bits, and
 no value of the status entry shows two states at once. In a command, `r` and `f` stand for an edge and count as the level after it; the
 value under `send:` has the bits that the pattern demands.
 ";
 
-const CONSTRAINTS: &str = r#"
+pub(super) const CONSTRAINTS: &str = r#"
 A condition compares values; several comparisons are joined by `and` or chained:
 
 ```text
@@ -671,12 +384,12 @@ node-ID formula) is not decided, and breaks nothing; neither does one whose `whe
 `writable-when:` of [an entry](#entry) is a condition of the same form.
 "#;
 
-const MANUAL: &str = r"
+pub(super) const MANUAL: &str = r"
 A specification can stand for a printed manual: `source:`, `revision:` and `history:` say which one, `document:` lists its sections and
 tables in order, and `errata:` lists the places where the specification departs from what is printed.
 ";
 
-const ERRATUM_RULES: &str = "\
+pub(super) const ERRATUM_RULES: &str = "\
 What kinds of fact there are:
 
 {ERRATA}
@@ -687,7 +400,7 @@ number behind `Table`, `Tables`, `Tabelle` or `Tabellen` is that of a numbered t
 of `at:`, if it stands alone or with `detail table`, `overview`, `Objekttabelle` or `Übersicht`: `4.3.1.1, detail table`. Other words, such
 as `heading` or `text`, mean no table.";
 
-const ERRATA: &[(&str, &str)] = &[
+pub(super) const ERRATA: &[(&str, &str)] = &[
     ("index", "an index"),
     ("name", "a name"),
     ("type", "a data type"),
@@ -709,44 +422,6 @@ const ERRATA: &[(&str, &str)] = &[
     ("profile", "the manual departs from a CiA profile; what the manual says is kept"),
 ];
 
-const TABLES: &str = r"
+pub(super) const TABLES: &str = r"
 Beside `number:` and `title:`, a table has exactly one key, which says what fills it. Numbers are unique in a manual.
 ";
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::json_schema::reachable;
-    use crate::model::{ErratumKind, Outside, Rounding, Storage};
-
-    #[test]
-    fn every_key_table_has_a_section() {
-        let sections: Vec<&str> =
-            CHAPTERS.iter().flat_map(|chapter| chapter.sections).map(|section| section.keys.name).collect();
-        for keys in reachable() {
-            assert_eq!(sections.iter().filter(|name| **name == keys.name).count(), 1, "{}", keys.name);
-        }
-    }
-
-    #[test]
-    fn every_word_is_explained() {
-        assert!(STORAGE.iter().map(|(word, _)| word).eq(Storage::WORDS));
-        assert!(ERRATA.iter().map(|(word, _)| word).eq(ErratumKind::WORDS));
-        assert!(ROUNDING.iter().map(|(word, _)| word).eq(Rounding::WORDS));
-        assert!(OUTSIDE.iter().map(|(word, _)| word).eq(Outside::WORDS));
-    }
-
-    #[test]
-    fn every_link_leads_somewhere() {
-        let text = reference();
-        let anchor = |line: &str| {
-            line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-").replace('\'', "")
-        };
-        let anchors: Vec<String> = text.lines().filter(|line| line.starts_with('#')).map(anchor).collect();
-        for link in text.split("](#").skip(1).filter_map(|rest| rest.split(')').next()) {
-            assert!(anchors.iter().any(|anchor| anchor == link), "#{link}");
-        }
-        let marks = WORDS.iter().map(|(mark, _)| *mark).chain(["{TYPES}", "{FEATURES}"]);
-        assert!(marks.into_iter().all(|mark| !text.contains(mark)));
-    }
-}
