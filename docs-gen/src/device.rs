@@ -206,8 +206,12 @@ impl Source<'_> {
         let mut notes = Vec::new();
         if let Some(profile) = &object.profile {
             let mut note = Cell::plain(format!("{} {profile}", self.word(Word::FromStandard)));
-            if !object.differs.is_empty() {
-                let differs: Vec<String> = object.differs.iter().map(|fact| self.spec_word(fact)).collect();
+            if !object.departures.is_empty() {
+                let differs: Vec<String> = object
+                    .departures
+                    .iter()
+                    .map(|departure| self.spec_word(&departure.to_string()))
+                    .collect();
                 note = note.text(format!(". {}: {}", self.word(Word::Differs), differs.join(", ")));
             }
             notes.push(note.text("."));

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use od_spec::Compiled;
 use od_spec::diag::render::{Format, render};
-use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
+use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::SourceMap;
 
@@ -162,6 +162,6 @@ impl Builder {
 }
 
 fn not_written(reason: &str) -> Diagnostic {
-    Diagnostic::without_place(Code::WriteFailed, reason)
+    Diagnostic::without_place(codes::WRITE_FAILED, reason)
         .help("nothing was changed; check the directory, its permissions and the free space")
 }

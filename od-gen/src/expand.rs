@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use od_spec::Compiled;
 use od_spec::diag::render::{Format, render};
-use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
+use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::SourceMap;
 
@@ -22,7 +22,7 @@ pub fn expand(specification: &Path, device: Option<&str>) -> Expansion {
                 (Some(key), devices) => system.device(key).ok_or_else(|| unknown_device(key, devices)),
                 (None, [only]) => Ok(only),
                 (None, devices) => Err(Diagnostic::without_place(
-                    Code::UnknownDevice,
+                    codes::UNKNOWN_DEVICE,
                     "the specification has several devices",
                 )
                 .help(format!(
@@ -69,6 +69,6 @@ pub struct Expansion {
 /// A device that the specification does not have.
 pub(crate) fn unknown_device(key: &str, devices: &[Dictionary]) -> Diagnostic {
     let keys: Vec<String> = devices.iter().map(|device| format!("`{}`", device.key)).collect();
-    Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
+    Diagnostic::without_place(codes::UNKNOWN_DEVICE, format!("there is no device `{key}`"))
         .help(format!("the specification has {}", keys.join(", ")))
 }

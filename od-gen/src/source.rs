@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Compiled, Loader, compile, read_text};
 
@@ -46,7 +46,7 @@ fn open(path: &Path, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>>
     let name = path.display().to_string();
     let bytes = read_bytes(path).map_err(|reason| {
         Box::new(
-            Diagnostic::without_place(Code::Unreadable, format!("cannot read {name}: {reason}"))
+            Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}"))
                 .help("check the path; a specification is a YAML file, usually named `*.od.yaml`"),
         )
     })?;

@@ -2,8 +2,8 @@
 
 use crate::expr::Expr;
 use crate::model::{
-    Access, BitPattern, BitUsage, Category, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside,
-    PdoMapping, Ratio, Rounding, Storage, SubIndex, Text,
+    Access, AccessRight, BitPattern, BitUsage, Category, Date, DateTime, Direction, Edge, ErratumKind, Fact,
+    Facts, Index, Outside, PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -205,7 +205,7 @@ pub(crate) struct RecordDecl {
 }
 
 macro_rules! entry_decl {
-    ($($field:ident: $type:ty,)+) => {
+    ($($field:ident: $type:ty = $fact:ident,)+) => {
         /// What is written about an entry, at the entry itself or at something it inherits from.
         #[derive(Debug, Clone)]
         pub(crate) struct EntryDecl {
@@ -230,46 +230,44 @@ macro_rules! entry_decl {
                 }
             }
 
-            /// Names of the facts that stand in another file than this one.
-            pub(crate) fn not_from(&self, file: FileId) -> Vec<&'static str> {
-                let mut names = Vec::new();
-                $(if self.$field.as_ref().is_some_and(|fact| fact.span.file != file) {
-                    names.push(stringify!($field));
-                })+
-                names
+            /// Where each fact is written, and whether by the maker, whose file is `maker`.
+            pub(crate) fn facts(&self, maker: FileId) -> Facts {
+                let places = [$((Fact::$fact, self.$field.as_ref().map(|fact| fact.span)),)+];
+                let stated = places.into_iter().filter_map(|(fact, span)| Some((fact, span?)));
+                stated.map(|(fact, span)| (fact, Statement::written(span, maker))).collect()
             }
 
-            /// Names of the facts written here that differ from those below.
-            pub(crate) fn differences(&self, below: &EntryDecl) -> Vec<&'static str> {
-                let mut names = Vec::new();
+            /// The facts written here that differ from those below.
+            pub(crate) fn differences(&self, below: &EntryDecl) -> Vec<Fact> {
+                let mut facts = Vec::new();
                 $(if self.$field.is_some() && self.$field != below.$field {
-                    names.push(stringify!($field));
+                    facts.push(Fact::$fact);
                 })+
-                names
+                facts
             }
         }
     };
 }
 
 entry_decl! {
-    name: String,
-    type_name: String,
-    unit: String,
-    access: (Access, bool),
-    pdo: PdoMapping,
-    default: String,
-    min: String,
-    max: String,
-    special: Vec<SpecialDecl>,
-    stored: Storage,
-    category: Category,
-    since: String,
-    writable_when: Expr,
-    bit_errors: Vec<BitErrorDecl>,
-    capacity: i128,
-    identifier: String,
-    eds: EdsDecl,
-    about: Text,
+    name: String = Name,
+    type_name: String = Type,
+    unit: String = Unit,
+    access: AccessRight = Access,
+    pdo: PdoMapping = Mapping,
+    default: String = Default,
+    min: String = LowLimit,
+    max: String = HighLimit,
+    special: Vec<SpecialDecl> = Special,
+    stored: Storage = Storage,
+    category: Category = Category,
+    since: String = Since,
+    writable_when: Expr = WriteCondition,
+    bit_errors: Vec<BitErrorDecl> = BitErrors,
+    capacity: i128 = Capacity,
+    identifier: String = Identifier,
+    eds: EdsDecl = Eds,
+    about: Text = About,
 }
 
 #[derive(Debug, Clone, PartialEq)]

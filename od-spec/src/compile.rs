@@ -2,7 +2,7 @@
 
 use crate::ast::Spec;
 use crate::decode::{decode, nearest};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::System;
 use crate::resolve;
 use crate::source::{FileId, SourceMap, Span};
@@ -78,7 +78,7 @@ fn libraries(
         if let Some(first) = root.uses[..at].iter().find(|other| other.value == name.value) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::DuplicateName,
+                    codes::DUPLICATE_NAME,
                     name.span,
                     format!("library `{}` is used twice", shorten(&name.value)),
                 )
@@ -108,7 +108,7 @@ fn libraries(
         if library.profile.is_none() || !library.uses.is_empty() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::NotALibrary,
+                    codes::NOT_A_LIBRARY,
                     name.span,
                     format!("`{}` is no library", shorten(&name.value)),
                 )
@@ -139,7 +139,7 @@ fn load(
         };
         Box::new(
             Diagnostic::new(
-                Code::MissingLibrary,
+                codes::MISSING_LIBRARY,
                 span,
                 format!("cannot read library `{}`: {reason}", shorten(path)),
             )
@@ -159,7 +159,7 @@ pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> 
     if bytes.len() > LARGEST_FILE {
         return Err(Box::new(
             Diagnostic::without_place(
-                Code::TooLarge,
+                codes::TOO_LARGE,
                 format!("`{name}` has {} MiB; the limit is {} MiB", bytes.len() >> 20, LARGEST_FILE >> 20),
             )
             .help("is this the right file?"),
@@ -173,7 +173,7 @@ pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> 
         let byte = error.as_bytes().get(valid).copied().unwrap_or_default();
         Box::new(
             Diagnostic::without_place(
-                Code::NotUtf8,
+                codes::NOT_UTF8,
                 format!("`{name}:{line}:{column}` holds the byte {byte:#04X}, expected UTF-8 text"),
             )
             .help("convert the file, for example with `iconv -f latin1 -t utf-8`"),

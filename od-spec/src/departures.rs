@@ -1,6 +1,6 @@
 //! Where devices depart from the standards whose objects they take.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::System;
 
 /// A note for each object that says something else than the library it is taken from. Objects that devices share are noted
@@ -9,17 +9,15 @@ pub fn departures(system: &System) -> Diagnostics {
     let mut notes = Diagnostics::new();
     let mut seen = std::collections::BTreeSet::new();
     for object in system.devices.iter().flat_map(|device| device.objects.values()) {
-        let Some(profile) = object.profile.as_ref().filter(|_| !object.differs.is_empty()) else { continue };
+        let Some(profile) = object.profile.as_ref().filter(|_| !object.departures.is_empty()) else {
+            continue;
+        };
         if seen.insert((object.index, object.span.start)) {
+            let departures: Vec<String> = object.departures.iter().map(ToString::to_string).collect();
             notes.push(Diagnostic::new(
-                Code::Departure,
+                codes::DEPARTURE,
                 object.span,
-                format!(
-                    "{} {} departs from {profile}: {}",
-                    object.index,
-                    object.name,
-                    object.differs.join(", ")
-                ),
+                format!("{} {} departs from {profile}: {}", object.index, object.name, departures.join(", ")),
             ));
         }
     }

@@ -11,6 +11,13 @@ use std::ops::Deref;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(u32);
 
+impl FileId {
+    /// Equality where a trait cannot be used yet.
+    pub(crate) const fn same(self, file: FileId) -> bool {
+        self.0 == file.0
+    }
+}
+
 /// A byte range in a source file; `start..end`, both on character boundaries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {

@@ -6,8 +6,8 @@ use std::fs;
 use od_gen::docs::{self, Templates};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
+use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
-use od_spec::diag::{Code, Diagnostics};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 
@@ -92,9 +92,9 @@ fn messages() -> String {
     let mut text = String::from(
         "# Messages\n\nEvery message of the compiler has a stable code. `odgen explain CODE` prints what stands here.\n",
     );
-    for code in Code::ALL {
-        let severity = code.severity().word();
-        let _ = write!(text, "\n## {code}: {}\n\n*{severity}* — {}\n", code.title(), code.explanation());
+    for code in od_spec::all_codes() {
+        let severity = code.severity.word();
+        let _ = write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_spec::explanation(code));
     }
     text
 }

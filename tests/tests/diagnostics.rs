@@ -11,24 +11,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_spec::diag::render::{Format, render};
-use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
+use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
 use od_spec::source::{FileId, SourceMap, Span, Spanned};
 use od_spec::yaml::{Node, NodeKind, scalar};
 use od_spec::{Compiled, LIBRARIES, Loader, NoFiles, assign, compile, read_text};
 use proptest::prelude::*;
 
 /// Codes that this file does not provoke, and where they are.
-const ELSEWHERE: &[(Code, &str)] = &[
-    (Code::Unreadable, "`odgen`, when it opens a file: tests of the command line"),
-    (Code::BadNodeId, "`odgen dcf --node`: tests of the command line"),
-    (Code::BitRateUnsupported, "`odgen dcf --bit-rate`: tests of the command line"),
-    (Code::BadTemplate, "`odgen docs`, when it prints templates: tests of the command line"),
-    (Code::WriteFailed, "`odgen`, when it writes files: tests of the command line"),
-    (Code::Departure, "`odgen check --notes`: tests of the command line"),
-    (Code::IdentifierClash, "the Rust backend: `tests/macros/names_clash.rs`"),
-    (Code::NoIdentifier, "the Rust backend: `tests/macros/names_clash.rs`"),
-    (Code::NoCapacity, "the Rust backend: `tests/macros/names_clash.rs`"),
-    (Code::NotInFirmware, "the Rust backend: `tests/macros/names_clash.rs`"),
+const ELSEWHERE: &[(&Code, &str)] = &[
+    (codes::UNREADABLE, "`odgen`, when it opens a file: tests of the command line"),
+    (codes::BAD_NODE_ID, "`odgen dcf --node`: tests of the command line"),
+    (codes::BIT_RATE_UNSUPPORTED, "`odgen dcf --bit-rate`: tests of the command line"),
+    (codes::BAD_TEMPLATE, "`odgen docs`, when it prints templates: tests of the command line"),
+    (codes::WRITE_FAILED, "`odgen`, when it writes files: tests of the command line"),
+    (codes::DEPARTURE, "`odgen check --notes`: tests of the command line"),
+    (codes::IDENTIFIER_CLASH, "the Rust backend: `tests/macros/names_clash.rs`"),
+    (codes::NO_IDENTIFIER, "the Rust backend: `tests/macros/names_clash.rs`"),
+    (codes::NO_CAPACITY, "the Rust backend: `tests/macros/names_clash.rs`"),
+    (codes::NOT_IN_FIRMWARE, "the Rust backend: `tests/macros/names_clash.rs`"),
 ];
 
 /// A large specification that is right.
@@ -69,7 +69,7 @@ fn human(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     render(diagnostics, sources, Format::Human, false)
 }
 
-fn codes(diagnostics: &Diagnostics) -> BTreeSet<Code> {
+fn codes(diagnostics: &Diagnostics) -> BTreeSet<&'static Code> {
     diagnostics.iter().map(|diagnostic| diagnostic.code).collect()
 }
 
@@ -110,7 +110,7 @@ fn names_of_cases_tell_what_comes_out() {
             _ => panic!("{name}: a case is named err_, warn_ or ok_"),
         };
         assert!(fine, "{name}: {errors} errors, {warnings} warnings, system: {}", compiled.system.is_some());
-        if let Some(code) = name.split('_').nth(1).and_then(Code::from_id) {
+        if let Some(code) = name.split('_').nth(1).and_then(od_spec::code) {
             assert!(codes(&compiled.diagnostics).contains(&code), "{name} does not provoke {code}");
         }
         assert!(text.starts_with("# "), "{name}: the first line tells what is wrong");
@@ -119,16 +119,16 @@ fn names_of_cases_tell_what_comes_out() {
 
 #[test]
 fn every_code_has_a_case() {
-    let mut said: BTreeSet<Code> = BTreeSet::new();
+    let mut said: BTreeSet<&'static Code> = BTreeSet::new();
     for (name, text) in cases() {
         said.extend(codes(&run(&name, &text).2.diagnostics));
     }
     let tests = include_str!("diagnostics.rs");
-    for code in Code::ALL {
-        let elsewhere = ELSEWHERE.iter().any(|(other, _)| other == code);
+    for code in od_spec::all_codes() {
+        let elsewhere = ELSEWHERE.iter().any(|(other, _)| *other == code);
         let here = tests.contains(&format!("[{code}]"));
-        assert!(said.contains(code) || here || elsewhere, "{code} ({}) has no case", code.title());
-        assert!(!(said.contains(code) && elsewhere), "{code} has a case: take it out of ELSEWHERE");
+        assert!(said.contains(&code) || here || elsewhere, "{code} ({}) has no case", code.title);
+        assert!(!(said.contains(&code) && elsewhere), "{code} has a case: take it out of ELSEWHERE");
     }
 }
 
@@ -246,7 +246,7 @@ fn short_and_json_are_one_line_each() {
         assert_eq!(json.lines().count(), count, "{name}: {json}");
         for (line, diagnostic) in json.lines().zip(&compiled.diagnostics) {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
-            assert_eq!(value["code"], diagnostic.code.id());
+            assert_eq!(value["code"], diagnostic.code.id);
             assert_eq!(value["severity"], diagnostic.severity().word());
             assert_eq!(value["message"], diagnostic.message.as_str());
             assert_eq!(value["help"].as_str(), diagnostic.help.as_deref());
@@ -294,13 +294,13 @@ fn colour_changes_nothing_but_colour() {
 
 #[test]
 fn explanations_are_sentences() {
-    for code in Code::ALL {
-        assert!(!code.title().ends_with('.'), "{code}");
-        let explanation = code.explanation();
+    for code in od_spec::all_codes() {
+        assert!(!code.title.ends_with('.'), "{code}");
+        let explanation = code.explanation;
         assert!(explanation.ends_with(['.', '?', '}']), "{code}: {explanation}");
         assert_eq!(
-            matches!(code.severity(), Severity::Warning | Severity::Note),
-            code.id().starts_with("OD08") || *code == Code::ConditionUnmet
+            matches!(code.severity, Severity::Warning | Severity::Note),
+            code.id.starts_with("OD08") || code == codes::CONDITION_UNMET
         );
     }
 }
@@ -1007,7 +1007,7 @@ proptest! {
     fn arbitrary_bytes_do_no_harm(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         match read_text("random.od.yaml", bytes) {
             Ok(text) => compile_anything(&text),
-            Err(diagnostic) => prop_assert_eq!(diagnostic.code, Code::NotUtf8),
+            Err(diagnostic) => prop_assert_eq!(diagnostic.code, codes::NOT_UTF8),
         }
     }
 

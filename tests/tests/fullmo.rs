@@ -9,7 +9,8 @@ use od_generated::fullmo::types::{
 };
 use od_generated::fullmo::{Fullmo, units};
 use od_spec::model::{
-    Access, DataType, Dictionary, EntryId, Index, Origin, PdoMapping, SubIndex, System, TypeKind,
+    Access, Author, DataType, Dictionary, EntryId, Fact, Index, Origin, PdoMapping, SubIndex, System,
+    TypeKind,
 };
 use od_tests::compile_clean;
 
@@ -100,12 +101,13 @@ fn what_the_manual_does_not_say_is_marked_as_the_standards_word() {
     // 6083h: the maker's unit on the standard's type and access.
     let acceleration = entry(0x6083, 0);
     assert_eq!(acceleration.data_type, DataType::Unsigned32);
-    assert_eq!(acceleration.standard, ["type", "access", "pdo", "category"]);
+    let of_the_standard: Vec<Fact> = acceleration.facts.said_by(Author::Library).collect();
+    assert_eq!(of_the_standard, [Fact::Type, Fact::Access, Fact::Mapping, Fact::Category]);
     assert_eq!(acceleration.unit.as_ref().unwrap().name, "revolution per second squared");
     // 3511h: type and access stand in Table 2, nothing of a standard's.
     let edges = entry(0x3511, 1);
     assert_eq!((edges.data_type, edges.access), (DataType::Unsigned16, Access::Rw));
-    assert!(edges.standard.is_empty());
+    assert_eq!(edges.facts.said_by(Author::Library).count(), 0);
     // 60B8h is another thing than in CiA 402: nobody maps it by mistake.
     assert_eq!(entry(0x60B8, 0).pdo, PdoMapping::None);
 }

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Index, System};
+use od_spec::model::{Fact, Index, System};
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, LIBRARIES, NoFiles, compile};
 
@@ -119,9 +119,9 @@ fn everything_of_cia402_on_two_axes_in_one_device() {
             continue;
         }
         assert!(
-            entry.standard.contains(&"type") && entry.standard.contains(&"access"),
+            entry.is_only_standard(Fact::Type) && entry.is_only_standard(Fact::Access),
             "{id}: {:?}",
-            entry.standard
+            entry.facts
         );
     }
 }

@@ -168,7 +168,7 @@ fn misshapen_specifications_are_refused() {
     ];
     let objects = objects.map(|(code, object)| (code, with_object(object)));
     for (code, text) in objects.into_iter().chain(whole.map(|(code, text)| (code, text.to_owned()))) {
-        let codes: Vec<&str> = diagnostics(&text).iter().map(|diagnostic| diagnostic.code.id()).collect();
+        let codes: Vec<&str> = diagnostics(&text).iter().map(|diagnostic| diagnostic.code.id).collect();
         assert!(codes.contains(&code), "expected {code}, found {codes:?}:\n{text}");
         assert!(!problems(&validator, &text).is_empty(), "{code} is accepted:\n{text}");
     }

@@ -1,8 +1,8 @@
 //! Detail tables: one row per entry.
 
 use od_spec::model::{
-    Alias, DataType, Dictionary, Entry, EntryId, Index, Object, Origin, Outside, Ratio, Rounding, Storage,
-    Value,
+    Alias, DataType, Dictionary, Entry, EntryId, Fact, Index, Object, Origin, Outside, Ratio, Rounding,
+    Storage, Value,
 };
 
 use super::overview::{access, mapping};
@@ -120,24 +120,24 @@ impl Source<'_> {
                 let anchored = anchors && (entry.sub.0 > 0 || !object.is_structured());
                 // Of an object that a feature brings as a whole, nothing is the maker's word.
                 let taken = object.origin == Origin::Manual;
-                let cell = |text: String, facts: &[&str]| {
-                    let standard = taken && facts.iter().any(|fact| entry.standard.contains(fact));
+                let cell = |text: String, facts: &[Fact]| {
+                    let standard = taken && facts.iter().any(|fact| entry.is_only_standard(*fact));
                     Cell::plain(text).standard(standard)
                 };
                 let unit = entry.unit.as_ref().map_or_else(String::new, |unit| self.step(unit));
-                let about = taken && entry.standard.contains(&"about");
+                let about = taken && entry.is_only_standard(Fact::About);
                 Row {
                     anchor: if anchored { entry_anchor(id) } else { String::new() },
                     cells: vec![
                         Cell::plain(place),
-                        cell(entry.name.clone(), &["name"]),
-                        cell(entry.data_type.name().to_owned(), &["type"]),
-                        cell(access(entry), &["access"]),
-                        cell(mapping(entry.pdo).to_owned(), &["pdo"]),
-                        cell(self.default(object, entry), &["default"]),
-                        cell(unit, &["unit"]),
-                        cell(self.range(entry), &["min", "max"]),
-                        cell(self.stored(entry), &["stored"]),
+                        cell(entry.name.clone(), &[Fact::Name]),
+                        cell(entry.data_type.name().to_owned(), &[Fact::Type]),
+                        cell(access(entry), &[Fact::Access]),
+                        cell(mapping(entry.pdo).to_owned(), &[Fact::Mapping]),
+                        cell(self.default(object, entry), &[Fact::Default]),
+                        cell(unit, &[Fact::Unit]),
+                        cell(self.range(entry), &[Fact::LowLimit, Fact::HighLimit]),
+                        cell(self.stored(entry), &[Fact::Storage]),
                         self.description(device, object, entry).standard(about),
                         Cell::default(),
                     ],

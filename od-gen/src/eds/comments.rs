@@ -1,6 +1,6 @@
 //! What EDS keys cannot say: units, meanings, bits, storage, locks.
 
-use od_spec::model::{BitField, BitUsage, Dictionary, Entry, Object, Storage, TypeKind, format_value};
+use od_spec::model::{BitField, BitUsage, Dictionary, Entry, Fact, Object, Storage, TypeKind, format_value};
 
 /// Enums and bit fields up to this many members are listed.
 const MOST_MEMBERS: usize = 40;
@@ -59,7 +59,7 @@ fn facts(device: &Dictionary, entry: &Entry) -> Option<String> {
     }
     if let (Some(default), false) = (&entry.default, entry.eds.default) {
         let whose =
-            if entry.standard.contains(&"default") { "default of the standard" } else { "factory default" };
+            if entry.is_only_standard(Fact::Default) { "default of the standard" } else { "factory default" };
         let shown = format_value(entry, default);
         facts.push(format!("{whose} {}", if shown.is_empty() { "an empty text" } else { &shown }));
     }

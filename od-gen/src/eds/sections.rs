@@ -1,7 +1,8 @@
 //! Sections about the file and the device.
 
 use od_spec::model::{
-    DataType, Date, DateTime, Dictionary, Direction, Entry, EntryId, Index, Storage, SubIndex, System, Value,
+    DataType, Date, DateTime, Dictionary, Direction, Entry, EntryId, Fact, Index, Storage, SubIndex, System,
+    Value,
 };
 
 use super::Commissioning;
@@ -95,7 +96,7 @@ fn comments(ini: &mut Ini, system: &System, device: &Dictionary) {
     let withheld = || device.entries().filter(|(.., entry)| entry.default.is_some() && !entry.eds.default);
     let kept = |entry: &Entry| entry.locked || entry.stored != Storage::No;
     let of_the_standard =
-        withheld().filter(|(.., entry)| entry.standard.contains(&"default") && !kept(entry)).count();
+        withheld().filter(|(.., entry)| entry.is_only_standard(Fact::Default) && !kept(entry)).count();
     let own = withheld().count() - of_the_standard;
     if own > 0 {
         lines.push(format!(

@@ -1,6 +1,8 @@
 //! Devices: objects, entries, PDOs.
 
-use od_spec::model::{self, Dictionary, Entry, Mapped, Object, Pdo, PdoTarget, Value, format_value};
+use od_spec::model::{
+    self, Author, Dictionary, Entry, Fact, Mapped, Object, Pdo, PdoTarget, Value, format_value,
+};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -77,7 +79,7 @@ struct ObjectView<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     profile: Option<&'a str>,
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
-    differs: &'a [String],
+    differs: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     category: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,7 +97,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         kind: object.kind.name().to_lowercase(),
         origin: object.origin.word(),
         profile: object.profile.as_deref(),
-        differs: &object.differs,
+        differs: object.departures.iter().map(ToString::to_string).collect(),
         category: object.category.map(model::Category::word),
         since: object.since.as_deref(),
         about: words(&object.about),
@@ -150,7 +152,7 @@ struct EntryView<'a> {
     bit_errors: Vec<Json>,
     eds: Json,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    standard: &'a [&'static str],
+    standard: Vec<&'static str>,
     about: Words<'a>,
 }
 
@@ -203,7 +205,7 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
             "default": if entry.eds.default { "written" } else { "withheld" },
             "flags": entry.eds.flags(),
         }),
-        standard: &entry.standard,
+        standard: entry.facts.said_by(Author::Library).map(Fact::word).collect(),
         about: words(&entry.about),
     }
 }

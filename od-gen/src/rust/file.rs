@@ -1,6 +1,6 @@
 //! Generated code as a file that people read.
 
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 
 use super::names::snake;
@@ -53,7 +53,7 @@ pub fn file(
             // A mistake of the generator; the place is the device, for want of a better one.
             diagnostics.push(
                 Diagnostic::new(
-                    Code::NotInFirmware,
+                    codes::NOT_IN_FIRMWARE,
                     device.span,
                     format!("the generated code is not Rust: {error}"),
                 )

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
     Access, DataType, Dictionary, Entry, EntryId, Object, Origin, Storage, SubIndex, Value,
 };
@@ -148,7 +148,7 @@ fn size(id: EntryId, entry: &Entry, diagnostics: &mut Diagnostics) -> Option<usi
     }
     diagnostics.push(
         Diagnostic::new(
-            Code::NoCapacity,
+            codes::NO_CAPACITY,
             entry.span,
             format!("{id} ({}) is a {} without a capacity", entry.name, entry.data_type),
         )

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use od_spec::ascii::transliterate;
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::Span;
 
 /// Words that Rust keeps for itself, in any edition.
@@ -107,7 +107,7 @@ impl Scope {
         if name.is_empty() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::NoIdentifier,
+                    codes::NO_IDENTIFIER,
                     span,
                     format!("the name of {what} has no letter or digit that an identifier could have"),
                 )
@@ -117,7 +117,7 @@ impl Scope {
         }
         if let Some(owner) = self.taken.get(name) {
             let diagnostic = Diagnostic::new(
-                Code::IdentifierClash,
+                codes::IDENTIFIER_CLASH,
                 span,
                 format!("`{name}` would name {what} and {}", owner.what),
             );

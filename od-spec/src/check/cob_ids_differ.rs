@@ -1,6 +1,6 @@
 //! PDOs that are valid after start-up have COB-IDs of their own.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, EntryId, Index, Pdo, SubIndex, Value};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -18,7 +18,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
                 let name = |pdo: &Pdo| format!("{} {}", pdo.direction.pdo(), pdo.number);
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::CobIdClash,
+                        codes::COB_ID_CLASH,
                         other.span,
                         format!(
                             "{} and {} of `{}` have one COB-ID{of_node}",
@@ -46,7 +46,7 @@ fn check_services(device: &Dictionary, pdo: &Pdo, diagnostics: &mut Diagnostics)
         if clash(&pdo.cob_id, own).is_some() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::CobIdClash,
+                    codes::COB_ID_CLASH,
                     pdo.span,
                     format!(
                         "{} {} of `{}` has the COB-ID of {service} ({id})",

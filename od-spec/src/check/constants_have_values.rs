@@ -1,7 +1,7 @@
 //! A constant states its value.
 
 use super::own_place;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Access, DataType, Dictionary, Origin};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -14,7 +14,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
             };
             diagnostics.push(
                 Diagnostic::new(
-                    Code::ConstWithoutDefault,
+                    codes::CONST_WITHOUT_DEFAULT,
                     own_place(device, entry.span),
                     format!("{id} ({}) of `{}` is constant, but has no value", object.name, device.key),
                 )

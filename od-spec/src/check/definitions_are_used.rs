@@ -1,7 +1,7 @@
 //! Every unit and type of a specification is used by an entry or a table.
 
 use crate::ast::{Name, Spec};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{System, TableContent};
 
 pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
@@ -13,7 +13,7 @@ pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics)
     let tables = || system.document.sections.iter().flat_map(|section| &section.tables);
     let mut unused = |name: &Name, what: &str| {
         diagnostics.push(
-            Diagnostic::new(Code::Unused, name.span, format!("nothing uses {what} `{}`", name.value))
+            Diagnostic::new(codes::UNUSED, name.span, format!("nothing uses {what} `{}`", name.value))
                 .help("remove it, or did an entry lose its key?"),
         );
     };

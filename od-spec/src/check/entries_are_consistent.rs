@@ -2,7 +2,7 @@
 //! EDS shows. Most of it is checked where it is written; this rule also sees what was derived.
 
 use super::own_place;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::model::{
     Access, DataType, Dictionary, Direction, Entry, EntryId, Index, Object, Origin, SubIndex, Value,
     format_value,
@@ -18,7 +18,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     }
 }
 
-type Problem = (Code, String, &'static str);
+type Problem = (&'static Code, String, &'static str);
 
 /// The default is a value of the type, and inside the limits for every node.
 fn value(entry: &Entry) -> Option<Problem> {
@@ -33,7 +33,7 @@ fn value(entry: &Entry) -> Option<Problem> {
     let shown = format_value(entry, default);
     if !fits_type {
         return Some((
-            Code::ValueDoesNotFit,
+            codes::VALUE_DOES_NOT_FIT,
             format!("the default `{shown}` is no value of type {}", entry.data_type),
             "correct the type; the default follows from the device",
         ));
@@ -43,14 +43,14 @@ fn value(entry: &Entry) -> Option<Problem> {
     for raw in nodes.filter_map(|node| default.integer_for(node)) {
         if !(low..=high).contains(&raw) {
             return Some((
-                Code::ValueDoesNotFit,
+                codes::VALUE_DOES_NOT_FIT,
                 format!("the default {raw} does not fit {}", entry.data_type),
                 "correct the type; the default follows from the device or from another entry",
             ));
         }
         if !entry.allows(raw) {
             return Some((
-                Code::DefaultOutsideLimits,
+                codes::DEFAULT_OUTSIDE_LIMITS,
                 format!("the default {shown} is outside the limits"),
                 "correct the limits; the default follows from the device or from another entry",
             ));
@@ -64,7 +64,7 @@ fn eds_access(entry: &Entry) -> Option<Problem> {
     let (own, shown) = (entry.access, entry.eds.access);
     if (shown.is_writable() && !own.is_writable()) || (shown.is_readable() && !own.is_readable()) {
         return Some((
-            Code::MappingAgainstAccess,
+            codes::MAPPING_AGAINST_ACCESS,
             format!("the EDS would show `{}`, the entry is `{}`", shown.word(), own.word()),
             "an EDS may show less access than the device gives, not more",
         ));
@@ -75,7 +75,7 @@ fn eds_access(entry: &Entry) -> Option<Problem> {
     for (direction, fine) in [(Direction::Receive, receive), (Direction::Transmit, transmit)] {
         if contradicts(direction, fine) {
             return Some((
-                Code::MappingAgainstAccess,
+                codes::MAPPING_AGAINST_ACCESS,
                 format!("mappable into a {}, but the EDS shows `{}`", direction.pdo(), shown.word()),
                 "remove `pdo:`, or let the EDS show the access; a locked entry is `ro` in the EDS",
             ));
@@ -91,7 +91,7 @@ fn count(id: EntryId, object: &Object, entry: &Entry) -> Option<Problem> {
     }
     if !entry.access.is_readable() || entry.data_type != DataType::Unsigned8 {
         return Some((
-            Code::MappingAgainstAccess,
+            codes::MAPPING_AGAINST_ACCESS,
             "sub-index 0 is not a readable UNSIGNED8".to_owned(),
             "correct `sub0:`; CiA 301 fixes its type, and every client reads it",
         ));
@@ -102,7 +102,7 @@ fn count(id: EntryId, object: &Object, entry: &Entry) -> Option<Problem> {
     let fixed = !entry.access.is_writable() && id.index != Index(0x1003);
     (fixed && shown != Some(highest)).then(|| {
         (
-            Code::CountMismatch,
+            codes::COUNT_MISMATCH,
             format!("sub-index 0 is {}, the highest sub-index {highest}", shown.unwrap_or_default()),
             "remove `default:` from `sub0:`; the value follows from the entries",
         )

@@ -1,7 +1,7 @@
 //! Error codes that bits refer to stand in `errors:`, where a specification has such a list.
 
 use crate::ast::Spec;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::System;
 use crate::source::Spanned;
 
@@ -21,7 +21,7 @@ pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics)
         if !system.errors.iter().any(|error| i128::from(error.code) == *code) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::UnlistedErrorCode,
+                    codes::UNLISTED_ERROR_CODE,
                     *span,
                     format!("`errors:` does not list {code:04X}h"),
                 )

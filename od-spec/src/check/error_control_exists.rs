@@ -1,6 +1,6 @@
 //! A device has heartbeat or node guarding (CiA 301, categories of 100Ch and 1017h).
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, Index};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -9,7 +9,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     if !guarding && !has(0x1017) {
         diagnostics.push(
             Diagnostic::new(
-                Code::NoErrorControl,
+                codes::NO_ERROR_CONTROL,
                 device.span,
                 format!("`{}` has neither heartbeat (1017h) nor node guarding (100Ch, 100Dh)", device.key),
             )

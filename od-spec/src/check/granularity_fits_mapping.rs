@@ -1,6 +1,6 @@
 //! Granularity 0 means "no mapping can be changed", and nothing else does.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::Dictionary;
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -14,7 +14,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     };
     if let Some((span, message)) = problem {
         diagnostics.push(
-            Diagnostic::new(Code::GranularityMismatch, span, format!("`{}`: {message}", device.key))
+            Diagnostic::new(codes::GRANULARITY_MISMATCH, span, format!("`{}`: {message}", device.key))
                 .help("correct the device's `granularity:`, or `mapping:` of the PDOs"),
         );
     }

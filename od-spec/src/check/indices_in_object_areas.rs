@@ -1,6 +1,6 @@
 //! Objects lie in the areas that CiA 301 table 1 gives them.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::Dictionary;
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -11,7 +11,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
             _ => continue,
         };
         diagnostics.push(
-            Diagnostic::new(Code::IndexArea, object.span, format!("{} lies in {area}", object.index))
+            Diagnostic::new(codes::INDEX_AREA, object.span, format!("{} lies in {area}", object.index))
                 .help("1000h to 1FFFh: communication; 2000h to 5FFFh: manufacturer; 6000h to 9FFFh: device profiles; A000h to BFFFh: network variables"),
         );
     }

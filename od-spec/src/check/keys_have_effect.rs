@@ -1,7 +1,7 @@
 //! No key is read and then ignored: what stands in a specification has an effect where it stands.
 
 use crate::ast::{EntryDecl, ObjectDecl, Spec};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::PatternBit;
 use crate::source::Span;
 
@@ -32,8 +32,12 @@ pub(crate) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
         let edge = |bit: &PatternBit| matches!(bit, PatternBit::Rising | PatternBit::Falling);
         if let Some(pattern) = pattern.as_ref().filter(|pattern| pattern.value.0.iter().any(edge)) {
             diagnostics.push(
-                Diagnostic::new(Code::BadNotation, pattern.span, "a state is shown by levels, not by edges")
-                    .help("write `0`, `1` or `x`; `r` and `f` belong to commands"),
+                Diagnostic::new(
+                    codes::BAD_NOTATION,
+                    pattern.span,
+                    "a state is shown by levels, not by edges",
+                )
+                .help("write `0`, `1` or `x`; `r` and `f` belong to commands"),
             );
         }
     }
@@ -83,6 +87,7 @@ pub(crate) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
 
 fn refuse(key: &str, span: Span, why: &str, help: &str, diagnostics: &mut Diagnostics) {
     diagnostics.push(
-        Diagnostic::new(Code::ConflictingKeys, span, format!("`{key}` has no effect here: {why}")).help(help),
+        Diagnostic::new(codes::CONFLICTING_KEYS, span, format!("`{key}` has no effect here: {why}"))
+            .help(help),
     );
 }

@@ -1,6 +1,6 @@
 //! LSS needs the serial number, 1018h.4.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, Index, SubIndex};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -10,7 +10,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     {
         diagnostics.push(
             Diagnostic::new(
-                Code::LssWithoutSerial,
+                codes::LSS_WITHOUT_SERIAL,
                 identity.span,
                 format!("`{}` supports LSS, but 1018h has no serial number", device.key),
             )

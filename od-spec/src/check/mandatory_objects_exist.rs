@@ -1,6 +1,6 @@
 //! Every device has 1000h, 1001h and 1018h.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, Index};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -13,7 +13,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     if !missing.is_empty() {
         diagnostics.push(
             Diagnostic::new(
-                Code::MandatoryMissing,
+                codes::MANDATORY_MISSING,
                 device.span,
                 format!("`{}` lacks {}", device.key, missing.join(", ")),
             )

@@ -1,6 +1,6 @@
 //! What can be mapped has a PDO to be mapped into.
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, Direction, Origin};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -12,7 +12,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
         if let Some((id, _, entry)) = mappable.into_iter().find(|(.., entry)| entry.pdo.allows(direction)) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::NoPdo,
+                    codes::NO_PDO,
                     entry.span,
                     format!("{id} can be mapped into {}s, but `{}` has none", direction.pdo(), device.key),
                 )

@@ -1,7 +1,7 @@
 //! Names can be written into an EDS that every tool reads alike.
 
 use crate::ast::Spec;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, Entry, Value};
 use crate::source::Span;
 use crate::yaml::shorten;
@@ -45,7 +45,7 @@ fn check_text_default(entry: &Entry, diagnostics: &mut Diagnostics) {
         return;
     };
     diagnostics.push(
-        Diagnostic::new(Code::NotForEds, entry.span, problem).help(
+        Diagnostic::new(codes::NOT_FOR_EDS, entry.span, problem).help(
             "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`",
         ),
     );
@@ -57,7 +57,7 @@ pub(super) fn check_vendor(root: &Spec, diagnostics: &mut Diagnostics) {
     let length = crate::ascii::transliterate(&name.value).len();
     if length > 244 || name.value.chars().any(is_unfit) {
         diagnostics.push(
-            Diagnostic::new(Code::NotForEds, name.span, "the vendor's name does not fit an EDS")
+            Diagnostic::new(codes::NOT_FOR_EDS, name.span, "the vendor's name does not fit an EDS")
                 .help("at most 244 characters, without `;`, `#` and `=`"),
         );
     }
@@ -86,7 +86,7 @@ fn check_header(device: &Dictionary, diagnostics: &mut Diagnostics) {
         };
         diagnostics.push(
             Diagnostic::new(
-                Code::NotForEds,
+                codes::NOT_FOR_EDS,
                 device.span,
                 format!("`{key}` of device `{}` {problem}", device.key),
             )
@@ -122,5 +122,5 @@ fn check_name(name: &str, span: Span, diagnostics: &mut Diagnostics) {
     } else {
         return;
     };
-    diagnostics.push(Diagnostic::new(Code::NotForEds, span, problem).help("choose another name"));
+    diagnostics.push(Diagnostic::new(codes::NOT_FOR_EDS, span, problem).help("choose another name"));
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ascii::transliterate;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, Dictionary, Entry};
 use crate::yaml::shorten;
 
@@ -17,7 +17,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
             let name = shorten(&object.name);
             diagnostics.push(
                 Diagnostic::new(
-                    Code::DuplicateName,
+                    codes::DUPLICATE_NAME,
                     own.span,
                     format!("{} and {} of `{}` are both named `{name}`", before.index, object.index, device.key),
                 )
@@ -30,7 +30,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
     for object in device.objects.values().filter(|object| DataType::from_name(&object.name).is_some()) {
         diagnostics.push(
             Diagnostic::new(
-                Code::DuplicateName,
+                codes::DUPLICATE_NAME,
                 object.span,
                 format!("`{}` is the name of a data type", object.name),
             )
@@ -45,7 +45,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
             {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::DuplicateName,
+                        codes::DUPLICATE_NAME,
                         entry.span,
                         format!(
                             "{}.{} and {}.{} have one name in an EDS",
@@ -61,7 +61,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
             if let Some(other) = names.get(&transliterate(&full)) {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::DuplicateName,
+                        codes::DUPLICATE_NAME,
                         other.span,
                         format!(
                             "`{}` is the name of {} and means {}.{}",

@@ -1,7 +1,7 @@
 //! Defaults leave reserved bits at 0.
 
 use super::own_place;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{BitUsage, Dictionary, TypeKind, Value};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -18,7 +18,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
         {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::ReservedBitSet,
+                    codes::RESERVED_BIT_SET,
                     own_place(device, entry.span),
                     format!("the default of {id} sets bit {bit}, which is reserved"),
                 )

@@ -1,7 +1,7 @@
 //! What is stored has a command that stores it: 1010h.2, .3 or .4.
 
 use super::own_place;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, EntryId, Index, Origin, Storage, SubIndex};
 
 pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
@@ -15,7 +15,7 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
         if let Some((id, _, entry)) = own.find(|(.., entry)| entry.stored == group) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::StoredWithoutStore,
+                    codes::STORED_WITHOUT_STORE,
                     own_place(device, entry.span),
                     format!("{id} is `stored: {}`, but `{}` has no {command}", group.word(), device.key),
                 )

@@ -1,7 +1,7 @@
 //! Texts are in the languages that the specification lists: a text in another one would never be shown.
 
 use super::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys::{Keys, Shape};
 use crate::yaml::{Node, NodeKind, shorten};
 
@@ -30,7 +30,7 @@ fn in_value(node: &Node, shape: Shape, listed: &[&str], diagnostics: &mut Diagno
         (Shape::Words, NodeKind::Map(entries)) => {
             for (name, _) in entries.iter().filter(|(name, _)| !listed.contains(&name.value.as_str())) {
                 let diagnostic = Diagnostic::new(
-                    Code::UnknownReference,
+                    codes::UNKNOWN_REFERENCE,
                     name.span,
                     format!("`languages:` does not list `{}`", shorten(&name.value)),
                 );

@@ -1,7 +1,7 @@
 //! Compares a YAML tree with the key tables.
 
 use super::{lexical, nearest};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::Expr;
 use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::model::Access;
@@ -31,7 +31,7 @@ pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut
     for key in missing.iter().filter(|key| !misspelt.contains(&key.name)) {
         let what = if key.about == key.name { String::new() } else { format!(" ({})", key.about) };
         diagnostics.push(
-            Diagnostic::new(Code::MissingKey, owner, format!("{} needs the key `{}`", keys.name, key.name))
+            Diagnostic::new(codes::MISSING_KEY, owner, format!("{} needs the key `{}`", keys.name, key.name))
                 .help(format!("add `{}:`{what}", key.name)),
         );
     }
@@ -40,7 +40,7 @@ pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut
 fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
     let known = keys.keys.iter().map(|key| key.name);
     let diagnostic = Diagnostic::new(
-        Code::UnknownKey,
+        codes::UNKNOWN_KEY,
         name.span,
         format!("{} has no key `{}`", keys.name, shorten(&name.value)),
     );
@@ -62,7 +62,7 @@ fn wrong_kind(node: &Node, expected: &str, diagnostics: &mut Diagnostics) {
     }
     diagnostics.push(
         Diagnostic::new(
-            Code::WrongKind,
+            codes::WRONG_KIND,
             node.span,
             format!("found {}, expected {expected}", node.describe()),
         )
@@ -105,7 +105,7 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
             Some(text) => check_scalar(text, shape, diagnostics),
             None if matches!((shape, &node.kind), (Shape::Text, NodeKind::Map(_))) => diagnostics.push(
                 Diagnostic::new(
-                    Code::WrongKind,
+                    codes::WRONG_KIND,
                     node.span,
                     format!("found {}, expected {}", node.describe(), expected(shape)),
                 )
@@ -149,7 +149,7 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
         if !fits {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BadKey,
+                    codes::BAD_KEY,
                     name.span,
                     format!("found the key `{}`, expected {}", shorten(text), key_words(kind)),
                 )
@@ -207,7 +207,7 @@ fn unreadable(
     if let Err((range, message)) = read {
         diagnostics.push(
             Diagnostic::new(
-                Code::BadNotation,
+                codes::BAD_NOTATION,
                 inside(text, &range),
                 format!("cannot read this {what}: {message}"),
             )
@@ -222,7 +222,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         Shape::Integer(low, high) => match scalar::integer(value) {
             Err(error) => diagnostics.push(
                 Diagnostic::new(
-                    Code::BadNumber,
+                    codes::BAD_NUMBER,
                     text.span,
                     format!("found `{}`, expected an integer", shorten(value)),
                 )
@@ -233,7 +233,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                     if low == high { format!("{low}") } else { format!("a number from {low} to {high}") };
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::NumberOutOfRange,
+                        codes::NUMBER_OUT_OF_RANGE,
                         text.span,
                         format!("found `{}`, expected {range}", shorten(value)),
                     )
@@ -244,7 +244,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         },
         Shape::YesNo if scalar::yes_no(value).is_none() => diagnostics.push(
             Diagnostic::new(
-                Code::UnknownWord,
+                codes::UNKNOWN_WORD,
                 text.span,
                 format!("found `{}`, expected `yes` or `no`", shorten(value)),
             )
@@ -281,7 +281,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
             if !fits {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::BadNotation,
+                        codes::BAD_NOTATION,
                         text.span,
                         format!("found {}, expected {}", quoted(value), expected(shape)),
                     )
@@ -313,7 +313,7 @@ pub(super) fn base(text: &str) -> Option<(crate::model::Ratio, &str)> {
 fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnostics) {
     let list = words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
     let diagnostic = Diagnostic::new(
-        Code::UnknownWord,
+        codes::UNKNOWN_WORD,
         text.span,
         format!("found `{}`, expected one of {list}", shorten(text.value)),
     );

@@ -10,12 +10,12 @@ use crate::ast::{
     PdoDecl, RecordDecl, SectionDecl, SourceDecl, Spec, SpecialDecl, TableDecl, TransitionDecl, TypeDecl,
     UnitDecl, ValueDecl, VendorDecl,
 };
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::expr::Expr;
 use crate::keys::{self, Keys};
 use crate::model::{
-    Access, BitUsage, Category, Direction, Edge, ErratumKind, Index, Outside, PdoMapping, Rounding, Storage,
-    SubIndex,
+    Access, AccessRight, BitUsage, Category, Direction, Edge, ErratumKind, Index, Outside, PdoMapping,
+    Rounding, Storage, SubIndex,
 };
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind, scalar};
@@ -77,7 +77,7 @@ fn numbered<'a, K: Ord + Copy>(
     entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
     read: impl Fn(&str) -> Option<K>,
     diagnostics: &mut Diagnostics,
-    code: Code,
+    code: &'static Code,
     show: impl Fn(K) -> String,
 ) -> Vec<(Spanned<K>, Reader<'a>)> {
     let mut first: BTreeMap<K, Spanned<&str>> = BTreeMap::new();
@@ -95,7 +95,7 @@ fn numbered<'a, K: Ord + Copy>(
 }
 
 /// Two keys stand for one number.
-fn twice(code: Code, number: &str, name: Spanned<&str>, before: Spanned<&str>) -> Diagnostic {
+fn twice(code: &'static Code, number: &str, name: Spanned<&str>, before: Spanned<&str>) -> Diagnostic {
     Diagnostic::new(code, name.span, format!("{number} is defined twice"))
         .label(if before.value == name.value {
             "again here".to_owned()
@@ -116,7 +116,7 @@ fn objects<'a>(
     for (key, r) in entries {
         let Some((first, last)) = lexical::indices(key.value) else { continue };
         if let Some((index, other)) = before.range(first..=last).next() {
-            diagnostics.push(twice(Code::DuplicateIndex, &index.to_string(), key, *other));
+            diagnostics.push(twice(codes::DUPLICATE_INDEX, &index.to_string(), key, *other));
             continue;
         }
         before.extend((first.0..=last.0).map(|index| (Index(index), key)));
@@ -128,7 +128,7 @@ fn objects<'a>(
         if let Some(name) = one.entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BadNotation,
+                    codes::BAD_NOTATION,
                     name.span,
                     "the objects of a run would all have this name",
                 )
@@ -228,7 +228,7 @@ fn named_type(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics)
 
 fn values(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<ValueDecl> {
     let integer = |text: &str| scalar::integer(text).ok();
-    numbered(r.entries("values"), integer, diagnostics, Code::DuplicateValue, |value| {
+    numbered(r.entries("values"), integer, diagnostics, codes::DUPLICATE_VALUE, |value| {
         format!("value {value}")
     })
     .into_iter()
@@ -290,7 +290,7 @@ fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes>
     let (first, last) = (r.value("first", lexical::index)?, r.value("last", lexical::index)?);
     let count = r.integer("count")?;
     let mut refuse = |span, problem: String, help: &str| {
-        diagnostics.push(Diagnostic::new(Code::NumberOutOfRange, span, problem).help(help.to_owned()));
+        diagnostics.push(Diagnostic::new(codes::NUMBER_OUT_OF_RANGE, span, problem).help(help.to_owned()));
         None
     };
     if last.value < first.value {
@@ -349,7 +349,7 @@ fn members<'a>(
         (1..=254).contains(&number).then_some(SubIndex(number))
     };
     let mut members: Vec<_> =
-        numbered(entries, sub, diagnostics, Code::DuplicateSubIndex, |sub| format!("sub-index {sub}"))
+        numbered(entries, sub, diagnostics, codes::DUPLICATE_SUB_INDEX, |sub| format!("sub-index {sub}"))
             .into_iter()
             .map(|(sub, r)| (sub, entry(r, &keys::ENTRY, sub.span, diagnostics)))
             .collect();
@@ -367,7 +367,7 @@ fn entry(r: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) 
         name: r.text("name"),
         type_name: r.text("type"),
         unit: r.text("unit"),
-        access,
+        access: access.map(|right| right.map(|(access, locked)| AccessRight { access, locked })),
         pdo: r.value("pdo", PdoMapping::from_word),
         default: r.text("default"),
         min: r.text("min"),
@@ -409,7 +409,7 @@ fn entry(r: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) 
 fn special(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Spanned<Vec<SpecialDecl>>> {
     let child = r.child("special")?;
     let integer = |text: &str| scalar::integer(text).ok();
-    let list = numbered(r.entries("special"), integer, diagnostics, Code::DuplicateValue, |value| {
+    let list = numbered(r.entries("special"), integer, diagnostics, codes::DUPLICATE_VALUE, |value| {
         format!("value {value}")
     })
     .into_iter()
@@ -425,7 +425,7 @@ fn pdos(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<PdoDecl> {
     let mut list = Vec::new();
     for direction in [Direction::Receive, Direction::Transmit] {
         let show = |number: u16| format!("{} {number}", direction.pdo());
-        let entries = numbered(r.entries(direction.word()), number, diagnostics, Code::DuplicatePdo, show);
+        let entries = numbered(r.entries(direction.word()), number, diagnostics, codes::DUPLICATE_PDO, show);
         list.extend(entries.into_iter().map(|(number, r)| PdoDecl {
             direction,
             number,
@@ -470,7 +470,7 @@ fn error(codes: Spanned<&str>, r: Reader<'_>) -> Option<ErrorDecl> {
 fn machine(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> MachineDecl {
     let integer = |text: &str| scalar::integer(text).ok();
     let transitions =
-        numbered(r.entries("transitions"), integer, diagnostics, Code::DuplicateValue, |number| {
+        numbered(r.entries("transitions"), integer, diagnostics, codes::DUPLICATE_VALUE, |number| {
             format!("transition {number}")
         });
     MachineDecl {

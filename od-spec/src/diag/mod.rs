@@ -1,9 +1,10 @@
 //! What the compiler has to say to the user: data only; [`render`] turns it into text.
 
-mod codes;
+mod code;
+pub mod codes;
 pub mod render;
 
-pub use codes::Code;
+pub use code::{Code, Example};
 
 use crate::source::Span;
 
@@ -42,7 +43,7 @@ pub struct Label {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Stable code, such as `OD0301`.
-    pub code: Code,
+    pub code: &'static Code,
     /// What is wrong, in one line.
     pub message: String,
     /// The places; the first is where the problem is. Empty when the problem has no place in a source text.
@@ -61,7 +62,7 @@ fn one_line(text: impl Into<String>) -> String {
 
 impl Diagnostic {
     /// A message about `span`.
-    pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
+    pub fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
             message: one_line(message),
@@ -72,7 +73,7 @@ impl Diagnostic {
     }
 
     /// A message that is about no place in a source text, such as a file that cannot be opened.
-    pub fn without_place(code: Code, message: impl Into<String>) -> Self {
+    pub fn without_place(code: &'static Code, message: impl Into<String>) -> Self {
         Self { code, message: one_line(message), labels: Vec::new(), help: None, notes: Vec::new() }
     }
 
@@ -108,7 +109,7 @@ impl Diagnostic {
 
     /// Severity of the code.
     pub fn severity(&self) -> Severity {
-        self.code.severity()
+        self.code.severity
     }
 }
 

@@ -66,7 +66,7 @@ fn human(diagnostic: &Diagnostic, sources: &SourceMap, colour: bool) -> String {
         Severity::Warning => Level::WARNING,
         Severity::Note => Level::NOTE,
     };
-    let title = level.primary_title(diagnostic.message.as_str()).id(diagnostic.code.id());
+    let title = level.primary_title(diagnostic.message.as_str()).id(diagnostic.code.id);
     let mut files: Vec<FileId> = Vec::new();
     for label in &diagnostic.labels {
         if !files.contains(&label.span.file) {
@@ -145,7 +145,7 @@ fn json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let notes = diagnostic.notes.iter().map(|note| quote(note));
     format!(
         "{{\"code\":{},\"severity\":{},\"message\":{},\"labels\":[{}],\"help\":{},\"notes\":[{}]}}",
-        quote(diagnostic.code.id()),
+        quote(diagnostic.code.id),
         quote(diagnostic.severity().word()),
         quote(&diagnostic.message),
         labels.collect::<Vec<_>>().join(","),

@@ -5,6 +5,7 @@
 
 mod device;
 mod document;
+mod fact;
 mod machine;
 mod named_type;
 mod object;
@@ -22,6 +23,7 @@ pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
 };
+pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
@@ -29,7 +31,8 @@ pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
 pub use text::Text;
 pub use types::{
-    Access, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding, Storage, SubIndex,
+    Access, AccessRight, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding,
+    Storage, SubIndex,
 };
 pub use unit::{Base, Unit};
 pub use value::{Value, convert, format_value};

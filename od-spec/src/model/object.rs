@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{
-    Access, BitField, Category, DataType, EntryId, Index, NamedType, Outside, PdoMapping, Ratio, Rounding,
-    Storage, SubIndex, Text, TypeKind, Unit, Value,
+    Access, Author, BitField, Category, DataType, Departure, EntryId, Fact, Facts, Index, NamedType, Outside,
+    PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text, TypeKind, Unit, Value,
 };
 use crate::expr::Expr;
 use crate::source::Span;
@@ -81,8 +81,8 @@ pub struct Object {
     pub origin: Origin,
     /// The library that defines it, such as `cia301`.
     pub profile: Option<String>,
-    /// Facts in which the specification departs from the library, such as `name` or `access`.
-    pub differs: Vec<String>,
+    /// Facts in which the specification departs from the library.
+    pub departures: Vec<Departure>,
     /// Whether a standard demands it.
     pub category: Option<Category>,
     /// Manual revision that introduced it.
@@ -157,8 +157,8 @@ pub struct Entry {
     pub bit_errors: Vec<(u8, Vec<u16>)>,
     /// What the EDS shows of it.
     pub eds: EdsPolicy,
-    /// Facts that a library states and the specification does not: `type`, `access`, `default`, …
-    pub standard: Vec<&'static str>,
+    /// Where each fact stands, and who says it.
+    pub facts: Facts,
     /// Meaning.
     pub about: Text,
     /// Where it is written.
@@ -183,6 +183,22 @@ impl Entry {
         let own = |bit: u8| self.bit_errors.iter().any(|(at, codes)| *at == bit && codes.contains(&code));
         let with = |field: &&BitField| field.errors.contains(&code) || (field.first..=field.last).any(own);
         fields.iter().filter(with).map(|field| field.first).collect()
+    }
+
+    /// Where a fact stands; where nobody states it, the entry's own place.
+    pub fn place(&self, fact: Fact) -> Span {
+        self.facts.get(fact).map_or(self.span, |statement| statement.span)
+    }
+
+    /// Whether only a library of a standard says the fact, and the maker says nothing about it.
+    pub fn is_only_standard(&self, fact: Fact) -> bool {
+        self.facts.is_said_by(fact, Author::Library)
+    }
+
+    /// Gives the entry another default, with the place where that is said.
+    pub(crate) fn set_default(&mut self, value: Option<Value>, statement: Statement) {
+        self.default = value;
+        self.facts.state(Fact::Default, statement);
     }
 
     /// Whether a raw value is allowed: inside the limits, or special.

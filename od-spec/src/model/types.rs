@@ -307,6 +307,15 @@ word_enum! {
     }
 }
 
+/// Access over the bus, and whether a service lock guards writing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct AccessRight {
+    /// The access.
+    pub access: Access,
+    /// Writable only while the device is unlocked for service (the manual's `r(w)`).
+    pub locked: bool,
+}
+
 impl Access {
     /// Whether an SDO client may read.
     pub const fn is_readable(self) -> bool {

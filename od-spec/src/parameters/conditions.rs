@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Setting, holder, limits};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::{EntryRef, Outcome};
 use crate::model::{Constraint, Dictionary, EntryId, System, convert};
 use crate::resolve::{self, Lookup};
@@ -84,7 +84,7 @@ fn check_constraint(
     if let Outcome::Fails { left, op, right } = resolve::check_constraint(constraint, configured) {
         diagnostics.push(
             Diagnostic::new(
-                Code::ConstraintBroken,
+                codes::CONSTRAINT_BROKEN,
                 setting.span,
                 format!("the settings break `{}`", constraint.name),
             )
@@ -105,7 +105,7 @@ fn check_write_condition(setting: &Setting, configured: &Configured<'_>, diagnos
     let written = if id == setting.id { String::new() } else { format!(", which {} shows,", setting.id) };
     diagnostics.push(
         Diagnostic::new(
-            Code::ConditionUnmet,
+            codes::CONDITION_UNMET,
             setting.span,
             format!("the device accepts {id}{written} only while `{}`", condition.text),
         )

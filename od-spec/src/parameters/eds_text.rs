@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Diagnostic, codes};
 use crate::model::{Entry, EntryId, Value};
 use crate::source::Span;
 
@@ -46,7 +46,7 @@ pub(super) fn check(id: EntryId, entry: &Entry, value: &Value, span: Span) -> Re
     match problem {
         None => Ok(()),
         Some(problem) => Err(Box::new(
-            Diagnostic::new(Code::NotForEds, span, format!("{id} ({}): the value {problem}", entry.name))
+            Diagnostic::new(codes::NOT_FOR_EDS, span, format!("{id} ({}): the value {problem}", entry.name))
                 .help("choose another value, or write it over the bus"),
         )),
     }

@@ -1,6 +1,6 @@
 //! Limits of an entry and, for an alias, of the entry that holds its value.
 
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Diagnostic, codes};
 use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, TypeKind, Value, format_value};
 use crate::resolve::allowed;
 use crate::source::Span;
@@ -21,7 +21,7 @@ pub(super) fn check(
         let value = target_value(alias, raw).ok_or_else(|| {
             let message = format!("{own} is no whole number of steps of {name}");
             Box::new(
-                Diagnostic::new(Code::InexactValue, span, message)
+                Diagnostic::new(codes::INEXACT_VALUE, span, message)
                     .help(format!("set {} instead", alias.target)),
             )
         })?;
@@ -43,13 +43,17 @@ fn check_one(entry: &Entry, raw: i128, span: Span, what: &str) -> Result<(), Box
     let in_type = entry.data_type.range().is_none_or(|(low, high)| (low..=high).contains(&raw));
     if !in_type || (entry.data_type != DataType::Boolean && !entry.allows(raw)) {
         return Err(Box::new(
-            Diagnostic::new(Code::ValueOutsideLimits, span, format!("{what} is outside {}", allowed(entry)))
-                .help("write a value within the limits; the device refuses any other"),
+            Diagnostic::new(
+                codes::VALUE_OUTSIDE_LIMITS,
+                span,
+                format!("{what} is outside {}", allowed(entry)),
+            )
+            .help("write a value within the limits; the device refuses any other"),
         ));
     }
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) if !values.iter().any(|value| value.value == raw) => Err(Box::new(
-            Diagnostic::new(Code::UnknownEnumValue, span, format!("{what} is not a value of its enum"))
+            Diagnostic::new(codes::UNKNOWN_ENUM_VALUE, span, format!("{what} is not a value of its enum"))
                 .help("write the name of a value"),
         )),
         _ => Ok(()),

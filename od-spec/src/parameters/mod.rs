@@ -7,7 +7,7 @@ mod pdos;
 
 use std::collections::BTreeMap;
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, Dictionary, Entry, EntryId, System, Value};
 use crate::resolve::{self, values};
 use crate::source::{Span, Spanned};
@@ -67,7 +67,7 @@ pub fn assign(
 
 fn set_twice(again: &Setting, before: &Setting) -> Diagnostic {
     let Setting { id, holder, span, .. } = again;
-    Diagnostic::new(Code::SetTwice, *span, format!("{holder} is set twice"))
+    Diagnostic::new(codes::SET_TWICE, *span, format!("{holder} is set twice"))
         .label(if holder == id { "again here".to_owned() } else { format!("again here, as {id}") })
         .with(before.span, "first here")
         .help("keep one of the two")
@@ -78,7 +78,7 @@ fn read(device: &Dictionary, node: u8, setting: &Assignment) -> Result<(Setting,
     let Some((name, text)) = setting.value.split_once('=') else {
         return Err(Box::new(
             Diagnostic::new(
-                Code::BadAssignment,
+                codes::BAD_ASSIGNMENT,
                 span,
                 format!("found `{}`, expected ENTRY=VALUE", setting.value),
             )
@@ -115,7 +115,7 @@ fn holder(device: &Dictionary, id: EntryId) -> EntryId {
 fn find<'a>(device: &'a Dictionary, name: &str, span: Span) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {
     let id = resolve::lookup(device, name).map_err(|nearest| {
         let diagnostic =
-            Diagnostic::new(Code::UnknownEntry, span, format!("`{}` has no entry `{name}`", device.key));
+            Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("`{}` has no entry `{name}`", device.key));
         Box::new(match nearest {
             Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
             None => diagnostic
@@ -124,7 +124,7 @@ fn find<'a>(device: &'a Dictionary, name: &str, span: Span) -> Result<(EntryId, 
     })?;
     device.entry(id).map(|entry| (id, entry)).ok_or_else(|| {
         Box::new(
-            Diagnostic::new(Code::UnknownEntry, span, format!("there is no entry {id}")).help("correct it"),
+            Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("there is no entry {id}")).help("correct it"),
         )
     })
 }
@@ -134,28 +134,28 @@ fn check_access(id: EntryId, entry: &Entry, span: Span) -> Result<(), Box<Diagno
         |code, message: String, help: &str| Err(Box::new(Diagnostic::new(code, span, message).help(help)));
     if !entry.access.is_writable() {
         return refuse(
-            Code::NotWritable,
+            codes::NOT_WRITABLE,
             format!("{id} ({}) is `{}`", entry.name, entry.access.word()),
             "only entries that can be written over the bus can be set",
         );
     }
     if entry.locked {
         return refuse(
-            Code::LockedParameter,
+            codes::LOCKED_PARAMETER,
             format!("{id} ({}) is locked: factory-set, writable only in service", entry.name),
             "leave the entry out; a PLC cannot write it",
         );
     }
     if !entry.eds.access.is_writable() {
         return refuse(
-            Code::NotWritable,
+            codes::NOT_WRITABLE,
             format!("{id} ({}) is `{}` in the EDS", entry.name, entry.eds.access.word()),
             "leave the entry out; what reads the DCF takes the entry for one that cannot be written",
         );
     }
     if entry.eds.no_write {
         return refuse(
-            Code::NotForDownload,
+            codes::NOT_FOR_DOWNLOAD,
             format!("{id} ({}) must not be written by configuration tools", entry.name),
             "leave the entry out; writing it triggers a command",
         );

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::Setting;
 use super::conditions::Configured;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, Direction, EntryId, Index, Origin, Pdo, SubIndex};
 use crate::resolve::RESTRICTED_COB_IDS;
 use crate::source::Span;
@@ -35,7 +35,7 @@ pub(super) fn check(configured: &Configured<'_>, settings: &[Setting], diagnosti
             1 => check_cob_id(configured, pdo, raw),
             2 => check_transmission(pdo, raw),
             6 if raw > 240 => Some(Problem::new(
-                Code::ValueOutsideLimits,
+                codes::VALUE_OUTSIDE_LIMITS,
                 format!("the SYNC counter never reaches {raw}"),
                 "write 0 to 240",
             )),
@@ -59,13 +59,13 @@ pub(super) fn check(configured: &Configured<'_>, settings: &[Setting], diagnosti
 
 /// What is wrong with a setting.
 struct Problem {
-    code: Code,
+    code: &'static Code,
     message: String,
     help: &'static str,
 }
 
 impl Problem {
-    fn new(code: Code, message: String, help: &'static str) -> Self {
+    fn new(code: &'static Code, message: String, help: &'static str) -> Self {
         Self { code, message, help }
     }
 
@@ -87,7 +87,7 @@ fn check_cob_id(configured: &Configured<'_>, pdo: &Pdo, raw: i128) -> Option<Pro
     }
     let bad = |problem: &str| {
         Some(Problem::new(
-            Code::BadCobId,
+            codes::BAD_COB_ID,
             format!("{id:03X}h {problem}"),
             "write a free identifier; bit 31 (0x80000000) switches the PDO off, bit 30 forbids remote frames",
         ))
@@ -100,7 +100,7 @@ fn check_cob_id(configured: &Configured<'_>, pdo: &Pdo, raw: i128) -> Option<Pro
     }
     let other = clash(configured, pdo, id).filter(|_| !is_off)?;
     Some(Problem::new(
-        Code::CobIdClash,
+        codes::COB_ID_CLASH,
         format!("{} would have the COB-ID of {other}", title(pdo)),
         "write a free identifier, or switch the other one off",
     ))
@@ -131,7 +131,7 @@ fn check_transmission(pdo: &Pdo, raw: i128) -> Option<Problem> {
         return None;
     }
     Some(Problem::new(
-        Code::BadTransmission,
+        codes::BAD_TRANSMISSION,
         format!("transmission type {raw} is reserved for {}", title(pdo)),
         "0 to 240: synchronous; 254 and 255: event-driven; 252 and 253: on remote frames, TPDOs only",
     ))
@@ -145,7 +145,7 @@ fn check_mapping_entry(configured: &Configured<'_>, pdo: &Pdo, id: EntryId, raw:
             return None;
         }
         return Some(Problem::new(
-            Code::BadPdoKey,
+            codes::BAD_PDO_KEY,
             format!("{raw} entries are more than {} can map: {highest}", title(pdo)),
             "map fewer entries",
         ));
@@ -170,7 +170,7 @@ fn check_mapping_entry(configured: &Configured<'_>, pdo: &Pdo, id: EntryId, raw:
     };
     if bits != length {
         return Some(Problem::new(
-            Code::NotMappable,
+            codes::NOT_MAPPABLE,
             format!("{target} has {bits} bits, not {length}"),
             "write the entry's length in bits 7..0",
         ));
@@ -178,7 +178,7 @@ fn check_mapping_entry(configured: &Configured<'_>, pdo: &Pdo, id: EntryId, raw:
     let granularity = i128::from(configured.device.info.granularity.max(1));
     if bits % granularity != 0 {
         return Some(Problem::new(
-            Code::BadPdoKey,
+            codes::BAD_PDO_KEY,
             format!("{target} has {bits} bits, the device's granularity is {granularity}"),
             "map another entry",
         ));
@@ -187,22 +187,22 @@ fn check_mapping_entry(configured: &Configured<'_>, pdo: &Pdo, id: EntryId, raw:
 }
 
 /// The length of an entry or placeholder that the PDO can map.
-fn mappable(configured: &Configured<'_>, pdo: &Pdo, target: EntryId) -> Result<u16, (Code, String)> {
+fn mappable(configured: &Configured<'_>, pdo: &Pdo, target: EntryId) -> Result<u16, (&'static Code, String)> {
     let dummy = DataType::ALL.into_iter().find(|data_type| data_type.code() == target.index.0);
     if let Some(dummy) = dummy.filter(|_| target.sub.0 == 0) {
         let taken = pdo.direction == Direction::Receive && configured.device.info.dummies.contains(&dummy);
         return dummy
             .bits()
             .filter(|_| taken)
-            .ok_or_else(|| (Code::BadDummy, format!("{} takes no {dummy} placeholder", title(pdo))));
+            .ok_or_else(|| (codes::BAD_DUMMY, format!("{} takes no {dummy} placeholder", title(pdo))));
     }
     let entry = configured
         .device
         .entry(target)
-        .ok_or_else(|| (Code::UnknownEntry, format!("there is no entry {target}")))?;
+        .ok_or_else(|| (codes::UNKNOWN_ENTRY, format!("there is no entry {target}")))?;
     entry.data_type.bits().filter(|_| entry.pdo.allows(pdo.direction)).ok_or_else(|| {
         let message = format!("{target} ({}) cannot be mapped into {}s", entry.name, pdo.direction.pdo());
-        (Code::NotMappable, message)
+        (codes::NOT_MAPPABLE, message)
     })
 }
 
@@ -213,7 +213,7 @@ fn check_mapping(configured: &Configured<'_>, pdo: &Pdo) -> Option<Problem> {
     let mapped: Vec<i128> = (1..=count).filter_map(at).collect();
     if let Some(empty) = mapped.iter().position(|raw| *raw == 0) {
         return Some(Problem::new(
-            Code::BadPdoKey,
+            codes::BAD_PDO_KEY,
             format!("{} maps {count} entries, but entry {} is empty", title(pdo), empty + 1),
             "set the mapped entry, or a smaller number of them",
         ));
@@ -223,7 +223,7 @@ fn check_mapping(configured: &Configured<'_>, pdo: &Pdo) -> Option<Problem> {
         return None;
     }
     Some(Problem::new(
-        Code::PdoTooLong,
+        codes::PDO_TOO_LONG,
         format!("{} would carry {bits} bits; a PDO holds 64", title(pdo)),
         "map fewer or shorter entries",
     ))

@@ -2,7 +2,7 @@
 
 use crate::ast::{ConstraintDecl, Name, Spec};
 use crate::decode::{inside, nearest};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::{Comparison, EntryRef, Expr, Outcome, Term, Values};
 use crate::model::{Constraint, Dictionary, EntryId, Ratio};
 use crate::source::Spanned;
@@ -68,13 +68,14 @@ fn check_known(
                 format!("did you mean `{word}`?")
             });
             diagnostics.push(
-                Diagnostic::new(Code::UnknownDevice, place, format!("there is no device `{key}`")).help(help),
+                Diagnostic::new(codes::UNKNOWN_DEVICE, place, format!("there is no device `{key}`"))
+                    .help(help),
             );
             known = false;
         } else if !devices.iter().filter(named).any(|device| device.entry(entry.id).is_some()) {
             if !broken.has(entry.id.index) {
                 diagnostics.push(
-                    Diagnostic::new(Code::UnknownEntry, place, format!("there is no entry {entry}"))
+                    Diagnostic::new(codes::UNKNOWN_ENTRY, place, format!("there is no entry {entry}"))
                         .help("correct the index or sub-index"),
                 );
             }
@@ -92,7 +93,7 @@ fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics)
     };
     if !condition.value.comparisons.iter().all(names_one) {
         diagnostics.push(
-            Diagnostic::new(Code::BadNotation, condition.span, "a comparison names no entry, only numbers")
+            Diagnostic::new(codes::BAD_NOTATION, condition.span, "a comparison names no entry, only numbers")
                 .help("write entries with `0x`, such as `0x607D.1`; without it, they are decimal numbers"),
         );
     }
@@ -111,7 +112,7 @@ fn check_operands(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics
             _ => continue,
         };
         diagnostics.push(
-            Diagnostic::new(Code::BadNotation, condition.span, problem)
+            Diagnostic::new(codes::BAD_NOTATION, condition.span, problem)
                 .help("name an integer entry, and a bit below its width"),
         );
     }
@@ -134,7 +135,7 @@ fn check_units(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &
             {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::UnitsDiffer,
+                        codes::UNITS_DIFFER,
                         condition.span,
                         format!("{one} is in `{}`, {other} in `{}`", own.base_symbol(), its.base_symbol()),
                     )
@@ -182,8 +183,12 @@ fn constraint(
             return None;
         }
         diagnostics.push(
-            Diagnostic::new(Code::ConstraintDevices, require.span, "no single device has all these entries")
-                .help("write `device:` before the entries, such as `pmc:0x6510.4`"),
+            Diagnostic::new(
+                codes::CONSTRAINT_DEVICES,
+                require.span,
+                "no single device has all these entries",
+            )
+            .help("write `device:` before the entries, such as `pmc:0x6510.4`"),
         );
         return None;
     }
@@ -214,7 +219,7 @@ fn constraint(
                 inside(Spanned::new(require.value.text.as_str(), require.span), &range)
             });
             let mut diagnostic = Diagnostic::new(
-                Code::ConstraintBroken,
+                codes::CONSTRAINT_BROKEN,
                 place,
                 format!("the defaults of `{}` break `{}`", device.key, shorten(&constraint.name)),
             )

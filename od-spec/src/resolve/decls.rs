@@ -8,8 +8,8 @@ use super::libraries;
 use super::scope::{Scope, unknown};
 use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
 use crate::check::keys_have_effect;
-use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::model::{DataType, Index, Origin, SubIndex};
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::model::{DataType, Departure, Fact, Index, Origin, Part, SubIndex};
 use crate::source::Spanned;
 
 /// A declaration that is ready to be resolved for one device.
@@ -17,7 +17,7 @@ pub(super) struct Declared<'a> {
     pub decl: Cow<'a, ObjectDecl>,
     pub origin: Origin,
     pub profile: Option<String>,
-    pub differs: Vec<String>,
+    pub departures: Vec<Departure>,
 }
 
 /// All declarations of a device by index.
@@ -37,7 +37,7 @@ pub(super) fn of_device<'a>(
             let Some(decl) = library.objects.iter().find(|decl| decl.index == *index) else {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::NotInLibrary,
+                        codes::NOT_IN_LIBRARY,
                         index.span,
                         format!(
                             "feature `{}` names {}, which the library does not define",
@@ -57,7 +57,7 @@ pub(super) fn of_device<'a>(
                 decl,
                 origin: Origin::Profile,
                 profile: library.profile.as_ref().map(|name| name.value.clone()),
-                differs: Vec::new(),
+                departures: Vec::new(),
             });
         }
     }
@@ -88,7 +88,7 @@ fn own<'a>(
             Some(from) => from_library(decl, from, libraries, scope, diagnostics),
             None => {
                 let (origin, decl) = (Origin::Manual, Cow::Borrowed(decl));
-                Some(Declared { decl, origin, profile: None, differs: Vec::new() })
+                Some(Declared { decl, origin, profile: None, departures: Vec::new() })
             }
         };
         if let Some(one) = one {
@@ -148,7 +148,7 @@ fn features<'a>(
                 } else {
                     format!("did you mean {}?", alike.join(" or "))
                 };
-                diagnostics.push(unknown(Code::UnknownFeature, &name, "feature", known, &otherwise));
+                diagnostics.push(unknown(codes::UNKNOWN_FEATURE, &name, "feature", known, &otherwise));
             }
         }
     }
@@ -174,10 +174,10 @@ fn from_library<'a>(
         diagnostics.push(libraries::not_there(from, &what).help("write the object in full, without `from:`"));
         return None;
     };
-    let (merged, differs) = lay_over(decl, &below, scope);
+    let (merged, departures) = lay_over(decl, &below, scope);
     check_own_keys(decl, &merged, diagnostics);
     let merged = Cow::Owned(merged);
-    Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), differs })
+    Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), departures })
 }
 
 /// Checks that what the declaration itself says has an effect on the object that it makes with the library's.
@@ -186,7 +186,7 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
     keys_have_effect::check_object(&shaped, diagnostics);
     if let (Some(from), Some(alias)) = (&decl.from, &decl.alias) {
         diagnostics.push(
-            Diagnostic::new(Code::ConflictingKeys, alias.span, "an alias takes nothing from a library")
+            Diagnostic::new(codes::CONFLICTING_KEYS, alias.span, "an alias takes nothing from a library")
                 .with(from.span, "the library")
                 .help("keep one of `alias:` and `from:`"),
         );
@@ -203,7 +203,7 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
         if let Some(span) = span {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::ConflictingKeys,
+                    codes::CONFLICTING_KEYS,
                     span,
                     format!("`{key}` has no effect here: the library's entries have their own"),
                 )
@@ -221,7 +221,7 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
     for sub in decl.omit.iter().filter(|sub| !has(sub.value)) {
         diagnostics.push(
             Diagnostic::new(
-                Code::UnknownEntry,
+                codes::UNKNOWN_ENTRY,
                 sub.span,
                 format!("{} has no sub-index {} that could be left out", decl.index.value, sub.value),
             )
@@ -231,24 +231,19 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
 }
 
 /// The declaration over the library's, and the facts in which they differ.
-fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl, Vec<String>) {
-    let mut differs = Vec::new();
+fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl, Vec<Departure>) {
+    let mut departures = Vec::new();
     let differences = |over: &EntryDecl, below: &EntryDecl| differences(over, below, scope);
-    let mut note = |prefix: &str, facts: Vec<&'static str>| {
-        for fact in facts
-            .into_iter()
-            .filter(|fact| !matches!(*fact, "about" | "since" | "stored" | "eds" | "capacity" | "identifier"))
-        {
-            let fact = fact.trim_end_matches("_name").replace('_', "-");
-            differs.push(format!("{prefix}{fact}"));
-        }
+    let mut note = |part: Part, facts: Vec<Fact>| {
+        let departing = facts.into_iter().filter(|fact| is_fixed_by_standards(*fact));
+        departures.extend(departing.map(|fact| Departure { part, fact }));
     };
-    note("", differences(&over.entry, &below.entry));
+    note(Part::Object, differences(&over.entry, &below.entry));
     let array = match (&over.array, &below.array) {
         (Some(over), Some(below)) => {
-            note("elements: ", differences(&over.entry, &below.entry));
+            note(Part::Elements, differences(&over.entry, &below.entry));
             if over.count.is_some() && over.count != below.count {
-                note("", vec!["count"]);
+                note(Part::Object, vec![Fact::Count]);
             }
             Some(ArrayDecl {
                 span: over.span,
@@ -278,13 +273,13 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
     };
     let sub0 = match (&over.sub0, &below.sub0) {
         (Some(over), Some(below)) => {
-            note("sub-index 0: ", differences(over, below));
+            note(Part::Entry(SubIndex(0)), differences(over, below));
             Some(over.over(below))
         }
         (over, below) => over.clone().or_else(|| below.clone()),
     };
     if over.array.is_some() != below.array.is_some() && (over.array.is_some() || over.record.is_some()) {
-        note("", vec!["object-type"]);
+        note(Part::Object, vec![Fact::ObjectType]);
     }
     let merged = ObjectDecl {
         index: over.index,
@@ -299,12 +294,18 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
         omit: over.omit.clone(),
         entry: over.entry.over(&below.entry),
     };
-    (merged, differs)
+    (merged, departures)
 }
 
-/// Names of the facts in which an entry differs. A type of the same width and sign with other bits or values differs in
-/// its meaning only.
-fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<&'static str> {
+/// Whether a standard has a say in a fact. What is stored, how much fits and what things are called in code is the maker's
+/// affair.
+const fn is_fixed_by_standards(fact: Fact) -> bool {
+    !matches!(fact, Fact::About | Fact::Since | Fact::Storage | Fact::Eds | Fact::Capacity | Fact::Identifier)
+}
+
+/// The facts in which an entry differs. A type of the same width and sign with other bits or values differs in its meaning
+/// only.
+fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<Fact> {
     let on_the_bus = |entry: &EntryDecl| {
         let name = &entry.type_name.as_ref()?.value;
         DataType::from_name(name).or_else(|| Some(scope.types.get(name)?.base))
@@ -312,17 +313,17 @@ fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<&'stat
     let same = on_the_bus(over).is_some() && on_the_bus(over) == on_the_bus(below);
     let lower = |entry: &EntryDecl| entry.name.as_ref().map(|name| name.value.to_lowercase());
     // What the library leaves to the device is no difference, nor is a name with other capitals.
-    let left = |fact: &str| match fact {
-        "name" => lower(over) == lower(below),
-        "default" => below.default.is_none(),
-        "min" => below.min.is_none(),
-        "max" => below.max.is_none(),
-        "unit" => below.unit.is_none(),
-        "special" => below.special.is_none(),
+    let left_open = |fact: Fact| match fact {
+        Fact::Name => lower(over) == lower(below),
+        Fact::Default => below.default.is_none(),
+        Fact::LowLimit => below.min.is_none(),
+        Fact::HighLimit => below.max.is_none(),
+        Fact::Unit => below.unit.is_none(),
+        Fact::Special => below.special.is_none(),
         _ => false,
     };
-    let facts = over.differences(below).into_iter().filter(|fact| !left(fact));
-    facts.map(|fact| if fact == "type_name" && same { "meaning" } else { fact }).collect()
+    let facts = over.differences(below).into_iter().filter(|fact| !left_open(*fact));
+    facts.map(|fact| if fact == Fact::Type && same { Fact::Meaning } else { fact }).collect()
 }
 
 /// The library's elements that an array with this count still has.
@@ -337,7 +338,7 @@ fn merge_members(
     over: &Members,
     below: &Members,
     scope: &Scope,
-    note: &mut impl FnMut(&str, Vec<&'static str>),
+    note: &mut impl FnMut(Part, Vec<Fact>),
 ) -> Members {
     let mut merged: BTreeMap<SubIndex, (Spanned<SubIndex>, EntryDecl)> =
         below.iter().map(|(sub, entry)| (sub.value, (*sub, entry.clone()))).collect();
@@ -345,7 +346,7 @@ fn merge_members(
     for (sub, entry) in over {
         let laid = match merged.get(&sub.value) {
             Some((_, below)) => {
-                note(&format!("sub-index {}: ", sub.value), differences(entry, below, scope));
+                note(Part::Entry(sub.value), differences(entry, below, scope));
                 entry.over(below)
             }
             None => {
@@ -357,8 +358,8 @@ fn merge_members(
     }
     match added.as_slice() {
         [] => {}
-        [one] => note(&format!("sub-index {one}: "), vec!["added"]),
-        [first, .., last] => note(&format!("sub-indices {first} to {last}: "), vec!["added"]),
+        [one] => note(Part::Entry(*one), vec![Fact::Presence]),
+        [first, .., last] => note(Part::Entries { first: *first, last: *last }, vec![Fact::Presence]),
     }
     merged.into_values().collect()
 }

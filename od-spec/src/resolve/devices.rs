@@ -9,10 +9,10 @@ use super::scope::{Scope, unknown};
 use super::types::words;
 use super::{objects, pdos, refs, to_u8, to_u16, to_u32};
 use crate::ast::{DeviceDecl, Name, Spec};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index, Object,
-    ObjectKind, Outside, PdoMapping, Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
+    AccessRight, Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index,
+    Object, ObjectKind, Outside, PdoMapping, Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
 };
 use crate::source::Spanned;
 
@@ -89,7 +89,7 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
     let used = lists.into_iter().flatten().flatten().chain(root.pdos.iter().map(|(key, _)| key));
     for key in used.filter(|key| !known.contains(&key.value.as_str())) {
         diagnostics.push(unknown(
-            Code::UnknownDevice,
+            codes::UNKNOWN_DEVICE,
             key,
             "device",
             known.iter().copied(),
@@ -121,7 +121,7 @@ impl Builder<'_> {
             if pdos::is_pdo_index(*index) {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::PdoByHand,
+                        codes::PDO_BY_HAND,
                         one.decl.index.span,
                         format!("{index} is a PDO parameter object"),
                     )
@@ -147,7 +147,7 @@ impl Builder<'_> {
             if let Some(target) = alias_named(reference, declared) {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::AliasOfAlias,
+                        codes::ALIAS_OF_ALIAS,
                         reference.span,
                         format!("{} is an alias itself", target.value),
                     )
@@ -193,18 +193,25 @@ impl Builder<'_> {
         ];
         if let Some(place) = own.into_iter().flatten().next() {
             diagnostics.push(
-                Diagnostic::new(Code::ConflictingKeys, place, "an alias has no storage or value of its own")
-                    .with(reference.span, "its target")
-                    .help("remove `array`, `record`, `stored` and `default`; they are the target's"),
+                Diagnostic::new(
+                    codes::CONFLICTING_KEYS,
+                    place,
+                    "an alias has no storage or value of its own",
+                )
+                .with(reference.span, "its target")
+                .help("remove `array`, `record`, `stored` and `default`; they are the target's"),
             );
             return None;
         }
         let mut whole = decl.entry.clone();
-        let access = whole.access.get_or_insert(Spanned::new((target.access, target.locked), reference.span));
-        if access.value.0.is_writable() && !target.access.is_writable() {
+        let access = whole.access.get_or_insert(Spanned::new(
+            AccessRight { access: target.access, locked: target.locked },
+            reference.span,
+        ));
+        if access.value.access.is_writable() && !target.access.is_writable() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BadAlias,
+                    codes::BAD_ALIAS,
                     access.span,
                     format!("{id} is `{}`: its alias cannot be written", target.access.word()),
                 )
@@ -214,8 +221,8 @@ impl Builder<'_> {
             return None;
         }
         // A lock on the target also locks its views.
-        access.value.1 |= target.locked && access.value.0.is_writable();
-        let mapping = match (access.value.0.is_writable(), target.pdo) {
+        access.value.locked |= target.locked && access.value.access.is_writable();
+        let mapping = match (access.value.access.is_writable(), target.pdo) {
             (false, PdoMapping::Both) => PdoMapping::Transmit,
             (false, PdoMapping::Receive) => PdoMapping::None,
             (_, mapping) => mapping,
@@ -262,7 +269,7 @@ impl Builder<'_> {
             kind: ObjectKind::Var,
             origin: one.origin,
             profile: one.profile.clone(),
-            differs: one.differs.clone(),
+            departures: one.departures.clone(),
             category: decl.entry.category.map(|category| category.value),
             since: decl.entry.since.as_ref().map(|since| since.value.clone()),
             about: words(&decl.entry.about),
@@ -294,7 +301,7 @@ impl Builder<'_> {
                     let device = crate::model::format_value(entry, &value);
                     diagnostics.push(
                         Diagnostic::new(
-                            Code::ConflictingKeys,
+                            codes::CONFLICTING_KEYS,
                             entry.span,
                             format!(
                                 "{id} says {}, the device {device}",
@@ -344,7 +351,7 @@ fn check_alias(
     let place = type_name.map_or(reference.span, |name| name.span);
     let mut refuse = |message: String, help: &str| {
         diagnostics.push(
-            Diagnostic::new(Code::BadAlias, place, message)
+            Diagnostic::new(codes::BAD_ALIAS, place, message)
                 .with(reference.span, "its target")
                 .help(help.to_owned()),
         );
@@ -408,7 +415,7 @@ fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
         } else if (10..=1000).contains(&rate.value) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BadBitRate,
+                    codes::BAD_BIT_RATE,
                     rate.span,
                     format!("{} kbit/s is not a CANopen bit rate", rate.value),
                 )
@@ -419,7 +426,7 @@ fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
     if device.bit_rates.is_empty() {
         diagnostics.push(
             Diagnostic::new(
-                Code::NoBitRate,
+                codes::NO_BIT_RATE,
                 device.key.span,
                 format!("device `{}` supports no bit rate", device.key.value),
             )
@@ -435,7 +442,7 @@ fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
             None => {
                 let known = DataType::ALL.into_iter().filter(|t| t.is_dummy()).map(DataType::name);
                 let otherwise = "placeholders are boolean, integer8/16/32 and unsigned8/16/32";
-                diagnostics.push(unknown(Code::UnknownType, name, "placeholder type", known, otherwise));
+                diagnostics.push(unknown(codes::UNKNOWN_TYPE, name, "placeholder type", known, otherwise));
             }
         }
     }

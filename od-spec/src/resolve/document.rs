@@ -9,7 +9,7 @@ use super::to_u16;
 use super::types::words;
 use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
     Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
     TableContent, TypeKind,
@@ -109,7 +109,7 @@ pub(super) fn errata(
             && let Some(span) = decl.place.as_ref().map(|place| place.span)
         {
             diagnostics.push(
-                Diagnostic::new(Code::UnknownReference, span, format!("there is no Table {number}"))
+                Diagnostic::new(codes::UNKNOWN_REFERENCE, span, format!("there is no Table {number}"))
                     .help("correct the number, or add the table to `document:`"),
             );
         }
@@ -157,7 +157,7 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
         {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::DuplicateValue,
+                    codes::DUPLICATE_VALUE,
                     number.span,
                     format!("table {} stands twice", number.value),
                 )
@@ -169,13 +169,13 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
         match decl.contents.as_slice() {
             [content] => check_content(&content.value, root, system, broken, diagnostics),
             [first, second, ..] => diagnostics.push(
-                Diagnostic::new(Code::ConflictingKeys, second.span, "a table is filled by one key only")
+                Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a table is filled by one key only")
                     .with(first.span, "filled here")
                     .help("keep one of the keys, or make two tables"),
             ),
             [] if decl.unsure => {}
             [] => diagnostics.push(
-                Diagnostic::new(Code::MissingKey, decl.span, "a table needs a key that fills it")
+                Diagnostic::new(codes::MISSING_KEY, decl.span, "a table needs a key that fills it")
                     .help("write one of `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
             ),
         }
@@ -202,7 +202,7 @@ fn check_content(
     };
     let mut known = |name: &Name, what: &str, names: Vec<&str>, help: &str| {
         if !names.contains(&name.value.as_str()) && !lost(&name.value) {
-            diagnostics.push(unknown(Code::UnknownReference, name, what, names, help));
+            diagnostics.push(unknown(codes::UNKNOWN_REFERENCE, name, what, names, help));
         }
     };
     match content {
@@ -212,7 +212,7 @@ fn check_content(
                 if !known && !broken.has(index.value) {
                     diagnostics.push(
                         Diagnostic::new(
-                            Code::UnknownEntry,
+                            codes::UNKNOWN_ENTRY,
                             index.span,
                             format!("there is no object {}", index.value),
                         )
@@ -253,7 +253,7 @@ fn check_content(
                 if !range.is_some_and(|(first, last)| (first..=last).all(has)) {
                     diagnostics.push(
                         Diagnostic::new(
-                            Code::UnknownReference,
+                            codes::UNKNOWN_REFERENCE,
                             code.span,
                             format!("there is no error code `{}`", shorten(&code.value)),
                         )
@@ -266,7 +266,7 @@ fn check_content(
             for row in rows.iter().filter(|row| row.value.len() != columns.len()) {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::CountMismatch,
+                        codes::COUNT_MISMATCH,
                         row.span,
                         format!(
                             "this row has {} cells, the table has {} columns",

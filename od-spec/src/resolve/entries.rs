@@ -6,10 +6,10 @@ use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
 use crate::ast::{BitErrorDecl, EntryDecl, Name, SpecialDecl};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, DataType, EdsPolicy, Entry, NamedType, PdoMapping, SpecialValue, Storage, SubIndex, TypeKind,
-    Unit, Value,
+    Access, AccessRight, DataType, EdsPolicy, Entry, Fact, NamedType, PdoMapping, SpecialValue, Storage,
+    SubIndex, TypeKind, Unit, Value,
 };
 use crate::source::{FileId, Spanned};
 use crate::yaml::shorten;
@@ -59,16 +59,16 @@ pub(super) fn resolve(
             return None;
         }
         diagnostics
-            .push(Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `access`").help(
+            .push(Diagnostic::new(codes::MISSING_KEY, decl.span, "an entry needs the key `access`").help(
             "add `access: ro`, `wo`, `rw`, `rwr`, `rww` or `const`, here or where the entry inherits from",
         ));
         return None;
     };
-    let Spanned { value: (access, locked), span: access_span } = *access;
+    let Spanned { value: AccessRight { access, locked }, span: access_span } = *access;
     if locked && !access.is_writable() {
         diagnostics.push(
             Diagnostic::new(
-                Code::LockedReadOnly,
+                codes::LOCKED_READ_ONLY,
                 access_span,
                 format!("`{}` cannot be locked", access.word()),
             )
@@ -105,7 +105,7 @@ pub(super) fn resolve(
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
         eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
         about: words(&decl.about),
-        standard: decl.not_from(around.file).into_iter().map(fact).collect(),
+        facts: decl.facts(around.file),
         span: decl.span,
         named_type,
         unit,
@@ -116,7 +116,7 @@ pub(super) fn resolve(
     if let Some(condition) = decl.writable_when.as_ref().filter(|_| !access.is_writable()) {
         diagnostics.push(
             Diagnostic::new(
-                Code::ConflictingKeys,
+                codes::CONFLICTING_KEYS,
                 condition.span,
                 format!("`writable-when` has no effect here: the entry is `{}`", access.word()),
             )
@@ -131,7 +131,7 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
     if !data_type.is_string() {
         diagnostics.push(
             Diagnostic::new(
-                Code::ConflictingKeys,
+                codes::CONFLICTING_KEYS,
                 capacity.span,
                 format!("`capacity` has no effect here: {data_type} is no string"),
             )
@@ -142,8 +142,12 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
     let bytes = super::to_u16(capacity.value);
     if data_type == DataType::UnicodeString && bytes % 2 == 1 {
         diagnostics.push(
-            Diagnostic::new(Code::BadNotation, capacity.span, "a UNICODE_STRING has an even number of bytes")
-                .help("write the number of 16-bit units times two"),
+            Diagnostic::new(
+                codes::BAD_NOTATION,
+                capacity.span,
+                "a UNICODE_STRING has an even number of bytes",
+            )
+            .help("write the number of 16-bit units times two"),
         );
         return None;
     }
@@ -159,8 +163,12 @@ pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Opt
         return Some(name.value.clone());
     }
     diagnostics.push(
-        Diagnostic::new(Code::BadNotation, name.span, format!("`{}` is no identifier", shorten(&name.value)))
-            .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`"),
+        Diagnostic::new(
+            codes::BAD_NOTATION,
+            name.span,
+            format!("`{}` is no identifier", shorten(&name.value)),
+        )
+        .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`"),
     );
     None
 }
@@ -174,7 +182,7 @@ fn check_length(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) 
     if i128::try_from(length).is_ok_and(|length| length > capacity.value) {
         diagnostics.push(
             Diagnostic::new(
-                Code::ValueDoesNotFit,
+                codes::VALUE_DOES_NOT_FIT,
                 text.span,
                 format!("the default has {length} bytes, the capacity is {}", capacity.value),
             )
@@ -195,7 +203,7 @@ pub(super) fn entry_type(
             return None;
         }
         diagnostics.push(
-            Diagnostic::new(Code::MissingKey, decl.span, "an entry needs the key `type`")
+            Diagnostic::new(codes::MISSING_KEY, decl.span, "an entry needs the key `type`")
                 .help("add `type:` with a data type or a named type, here or where the entry inherits from"),
         );
         return None;
@@ -210,7 +218,7 @@ pub(super) fn entry_type(
         let named = scope.types.keys().map(String::as_str);
         let known = named.chain(DataType::ALL.iter().map(|data_type| data_type.name()));
         diagnostics.push(unknown(
-            Code::UnknownType,
+            codes::UNKNOWN_TYPE,
             name,
             "type",
             known,
@@ -234,7 +242,7 @@ fn mapping(
     }
     if !data_type.is_mappable() {
         diagnostics.push(
-            Diagnostic::new(Code::TypeNotMappable, span, format!("{data_type} cannot travel in a PDO"))
+            Diagnostic::new(codes::TYPE_NOT_MAPPABLE, span, format!("{data_type} cannot travel in a PDO"))
                 .help("remove `pdo:`; only types of fixed length can be mapped"),
         );
         return PdoMapping::None;
@@ -248,7 +256,7 @@ fn mapping(
         let words =
             allowed.iter().map(|pdo| format!("`pdo: {}`", pdo.word())).collect::<Vec<_>>().join(" or ");
         let mut diagnostic = Diagnostic::new(
-            Code::MappingAgainstAccess,
+            codes::MAPPING_AGAINST_ACCESS,
             span,
             format!("an entry that is `{}` cannot be mapped as `{}`", access.word(), pdo.word()),
         )
@@ -271,7 +279,7 @@ fn special_values(
     let Some(list) = list else { return Vec::new() };
     if data_type.range().is_none() {
         diagnostics.push(
-            Diagnostic::new(Code::LimitOnType, list.span, format!("{data_type} has no special values"))
+            Diagnostic::new(codes::LIMIT_ON_TYPE, list.span, format!("{data_type} has no special values"))
                 .help("remove `special:`; only integers have such values"),
         );
         return Vec::new();
@@ -301,7 +309,7 @@ fn limits(
         if !expected.data_type.is_integer() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::LimitOnType,
+                    codes::LIMIT_ON_TYPE,
                     text.span,
                     format!("{} has no limits", expected.data_type),
                 )
@@ -312,7 +320,7 @@ fn limits(
         let value = values::read_into(Some(text), expected, diagnostics)?;
         if value.integer().is_none() {
             diagnostics.push(
-                Diagnostic::new(Code::BadValue, text.span, "a limit cannot depend on the node-ID")
+                Diagnostic::new(codes::BAD_VALUE, text.span, "a limit cannot depend on the node-ID")
                     .help("write a number"),
             );
         }
@@ -324,7 +332,7 @@ fn limits(
     {
         diagnostics.push(
             Diagnostic::new(
-                Code::LimitsSwapped,
+                codes::LIMITS_SWAPPED,
                 min.span,
                 format!(
                     "the low limit `{}` is above the high limit `{}`",
@@ -351,7 +359,7 @@ fn check_default(entry: &Entry, text: Option<&Name>, diagnostics: &mut Diagnosti
                 if matches!(value, Value::NodeId(_)) { format!(" for node {node}") } else { String::new() };
             diagnostics.push(
                 Diagnostic::new(
-                    Code::DefaultOutsideLimits,
+                    codes::DEFAULT_OUTSIDE_LIMITS,
                     text.span,
                     format!("the default `{}` is outside the limits{of_node}", shorten(&text.value)),
                 )
@@ -379,7 +387,7 @@ fn check_const(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {
         && entry.stored != Storage::No
     {
         diagnostics.push(
-            Diagnostic::new(Code::ConstStored, stored.span, "a constant is not stored: it never changes")
+            Diagnostic::new(codes::CONST_STORED, stored.span, "a constant is not stored: it never changes")
                 .help("remove `stored:`, or correct the access"),
         );
     }
@@ -401,7 +409,7 @@ fn bit_errors(
         if !fields.iter().any(|field| (field.first, field.last) == (first, last)) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::UnknownBit,
+                    codes::UNKNOWN_BIT,
                     decl.bits.span,
                     match named {
                         Some(named) if !fields.is_empty() => {
@@ -442,7 +450,7 @@ fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPoli
     let default = match defaults {
         EdsDefaults::All => true,
         EdsDefaults::Safe => !protected,
-        EdsDefaults::Own => !protected && !entry.standard.contains(&"default"),
+        EdsDefaults::Own => !protected && !entry.is_only_standard(Fact::Default),
     };
     EdsPolicy {
         access: own.and_then(|eds| eds.access).unwrap_or(access),
@@ -459,20 +467,10 @@ pub(super) fn alias_policy(
     decl: &EntryDecl,
     defaults: EdsDefaults,
 ) -> EdsPolicy {
-    let standard = target.standard.clone();
-    let as_target = Entry { locked: target.locked, stored: target.stored, standard, ..alias.clone() };
+    let facts = target.facts.clone();
+    let as_target = Entry { locked: target.locked, stored: target.stored, facts, ..alias.clone() };
     let policy = eds_policy(&as_target, decl, defaults);
     EdsPolicy { no_write: policy.no_write || target.eds.no_write, ..policy }
-}
-
-/// The key of a fact.
-fn fact(field: &'static str) -> &'static str {
-    match field {
-        "type_name" => "type",
-        "writable_when" => "writable-when",
-        "bit_errors" => "bit-errors",
-        other => other,
-    }
 }
 
 /// The unit of an entry, for messages and alias factors.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::libraries;
 use super::types::words;
 use crate::ast::{ErrorDecl, Spec};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{ErrorCode, Text};
 use crate::source::Span;
 
@@ -16,7 +16,7 @@ pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
         if let Some((code, (before, _))) = codes.range(first..=last).next() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::DuplicateValue,
+                    codes::DUPLICATE_VALUE,
                     decl.codes.span,
                     format!("error code {code:04X}h is defined twice"),
                 )
@@ -62,7 +62,7 @@ fn error(
     let Some(name) = name(decl).or_else(|| name(below?)).or_else(|| decl.unsure.then(String::new)) else {
         diagnostics.push(
             Diagnostic::new(
-                Code::MissingKey,
+                codes::MISSING_KEY,
                 decl.codes.span,
                 "an error code needs the key `name` or `from`",
             )

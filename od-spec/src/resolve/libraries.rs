@@ -2,7 +2,7 @@
 
 use super::scope::unknown;
 use crate::ast::{Axes, EntryDecl, Name, ObjectDecl, Spec};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::Index;
 use crate::source::Spanned;
 
@@ -17,14 +17,18 @@ pub(super) fn library<'a>(
     if found.is_none() {
         let known = libraries.iter().filter_map(|library| Some(library.profile.as_ref()?.value.as_str()));
         let otherwise = "name the library in `uses:` at the top of the file";
-        diagnostics.push(unknown(Code::UnknownLibrary, from, "library", known, otherwise));
+        diagnostics.push(unknown(codes::UNKNOWN_LIBRARY, from, "library", known, otherwise));
     }
     found
 }
 
 /// A library lacks what `from:` takes from it.
 pub(super) fn not_there(from: &Name, what: &str) -> Diagnostic {
-    Diagnostic::new(Code::NotInLibrary, from.span, format!("library `{}` does not define {what}", from.value))
+    Diagnostic::new(
+        codes::NOT_IN_LIBRARY,
+        from.span,
+        format!("library `{}` does not define {what}", from.value),
+    )
 }
 
 /// What a library says about an object, on any axis.

@@ -9,7 +9,7 @@ use super::scope::unknown;
 use super::types::words;
 use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{BitPattern, Command, Dictionary, EntryId, State, StateMachine, Transition};
 use crate::source::{Span, Spanned};
 use crate::yaml::shorten;
@@ -46,7 +46,7 @@ fn whole<'a>(
         for (key, _) in keys.into_iter().filter(|(_, missing)| *missing && !decl.unsure) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::MissingKey,
+                    codes::MISSING_KEY,
                     decl.name.span,
                     format!("a state machine needs the key `{key}`, or `from`"),
                 )
@@ -131,7 +131,7 @@ fn machine(
             {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::DuplicateName,
+                        codes::DUPLICATE_NAME,
                         decl.name.span,
                         format!(
                             "state machine `{}` has other entries on `{}` than on `{}`",
@@ -164,7 +164,7 @@ fn machine(
         let found = names.clone().any(|state| state == name.value);
         if !found {
             let otherwise = "name one of the machine's states";
-            diagnostics.push(unknown(Code::UnknownState, name, "state", names, otherwise));
+            diagnostics.push(unknown(codes::UNKNOWN_STATE, name, "state", names, otherwise));
         }
         found
     };
@@ -217,7 +217,7 @@ fn commands(
         {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::CommandMismatch,
+                    codes::COMMAND_MISMATCH,
                     send.span,
                     format!("{:04X}h does not give this command", send.value),
                 )
@@ -230,7 +230,7 @@ fn commands(
             if !decl.transitions.iter().any(|transition| transition.number.value == number.value) {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::UnknownState,
+                        codes::UNKNOWN_STATE,
                         number.span,
                         format!("there is no transition {}", number.value),
                     )
@@ -253,7 +253,7 @@ fn commands(
 fn check_complete(decl: &MachineDecl, diagnostics: &mut Diagnostics) {
     let mut missing = |span: Span, what: &str, key: &str| {
         diagnostics.push(
-            Diagnostic::new(Code::MissingKey, span, format!("{what} needs the key `{key}`"))
+            Diagnostic::new(codes::MISSING_KEY, span, format!("{what} needs the key `{key}`"))
                 .help(format!("add `{key}:`")),
         );
     };
@@ -285,7 +285,7 @@ fn check_width(
     }
     diagnostics.push(
         Diagnostic::new(
-            Code::PatternWidth,
+            codes::PATTERN_WIDTH,
             pattern.span,
             format!("the pattern has {given} bits, {entry} has {width}"),
         )
@@ -308,7 +308,7 @@ fn check_states_differ(decl: &MachineDecl, states: &[State], diagnostics: &mut D
             let (Some(here), Some(there)) = (span(&other.name), span(&state.name)) else { continue };
             diagnostics.push(
                 Diagnostic::new(
-                    Code::AmbiguousStates,
+                    codes::AMBIGUOUS_STATES,
                     here,
                     format!("`{}` and `{}` can look the same in the status entry", state.name, other.name),
                 )

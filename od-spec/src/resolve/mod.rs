@@ -17,7 +17,7 @@ mod types;
 pub(crate) mod values;
 
 use crate::ast::Spec;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{System, Vendor};
 use crate::source::Span;
 
@@ -46,7 +46,7 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
     };
     if root.profile.is_none() && root.devices.is_empty() && !root.unsure {
         diagnostics.push(
-            Diagnostic::new(Code::NoDevice, start(root.span), "the specification describes no device")
+            Diagnostic::new(codes::NO_DEVICE, start(root.span), "the specification describes no device")
                 .help("add `devices:` with at least one device, such as `drive: {name: My drive}`"),
         );
     }

@@ -4,10 +4,12 @@ use super::decls::Declared;
 use super::entries::{self, Surroundings};
 use super::types::words;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, DataType, EdsPolicy, Entry, Object, ObjectKind, PdoMapping, Storage, SubIndex, Text, Value,
+    Access, AccessRight, DataType, EdsPolicy, Entry, Facts, Object, ObjectKind, PdoMapping, Storage,
+    SubIndex, Text, Value,
 };
+use crate::source::Spanned;
 use crate::yaml::shorten;
 
 /// Resolves a declaration; `None` when nothing usable is left of it.
@@ -23,7 +25,7 @@ pub(super) fn resolve(
         }
         diagnostics.push(
             Diagnostic::new(
-                Code::MissingKey,
+                codes::MISSING_KEY,
                 decl.index.span,
                 format!("object {} needs the key `name`", decl.index.value),
             )
@@ -39,7 +41,7 @@ pub(super) fn resolve(
         (Some(_), Some(_)) => {
             let [Some((_, array)), Some((_, record))] = shapes else { return None };
             diagnostics.push(
-                Diagnostic::new(Code::ConflictingKeys, record, "an object is either an array or a record")
+                Diagnostic::new(codes::CONFLICTING_KEYS, record, "an object is either an array or a record")
                     .with(array, "the array")
                     .help("keep one of `array:` and `record:`"),
             );
@@ -60,7 +62,7 @@ pub(super) fn resolve(
         kind,
         origin: declared.origin,
         profile: declared.profile.clone(),
-        differs: declared.differs.clone(),
+        departures: declared.departures.clone(),
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
         about: words(&decl.entry.about),
@@ -96,7 +98,7 @@ fn elements(
             let (sub, _) = array.elements.last()?;
             diagnostics.push(
                 Diagnostic::new(
-                    Code::CountMismatch,
+                    codes::COUNT_MISMATCH,
                     sub.span,
                     format!("element {highest} of an array of {}", count.value),
                 )
@@ -111,7 +113,7 @@ fn elements(
             if !array.entry.unsure {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::MissingKey,
+                        codes::MISSING_KEY,
                         array.span,
                         "an array needs the key `count` or `elements`",
                     )
@@ -133,7 +135,7 @@ fn elements(
             if !merged.unsure {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::MissingKey,
+                        codes::MISSING_KEY,
                         array.span,
                         format!("element {sub} of this array has no name"),
                     )
@@ -155,7 +157,7 @@ fn elements(
     {
         diagnostics.push(
             Diagnostic::new(
-                Code::MixedArray,
+                codes::MIXED_ARRAY,
                 other.span,
                 format!("element {} is {}, the first is {first}", other.sub, other.data_type),
             )
@@ -182,7 +184,7 @@ fn members(
             if !member.unsure {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::MissingKey,
+                        codes::MISSING_KEY,
                         sub.span,
                         format!("member {} needs the key `name`", sub.value),
                     )
@@ -206,7 +208,7 @@ fn members(
 
 /// A condition that the object states for all its members concerns those that can be written.
 fn with_fitting_condition(merged: EntryDecl, own: &EntryDecl) -> EntryDecl {
-    let writable = merged.access.is_some_and(|access| access.value.0.is_writable());
+    let writable = merged.access.is_some_and(|access| access.value.access.is_writable());
     let writable_when = if writable { merged.writable_when } else { own.writable_when.clone() };
     EntryDecl { writable_when, ..merged }
 }
@@ -221,7 +223,7 @@ fn finish(
     let Some(highest) = list.last().map(|entry| entry.sub) else {
         diagnostics.push(
             Diagnostic::new(
-                Code::EmptyObject,
+                codes::EMPTY_OBJECT,
                 decl.index.span,
                 format!("{} has no entry beside sub-index 0", decl.index.value),
             )
@@ -234,7 +236,7 @@ fn finish(
         let Some(before) = names.insert(entry.name.as_str(), entry) else { continue };
         let (first, second) = (format!("sub-index {}", before.sub), format!("sub-index {}", entry.sub));
         let diagnostic = Diagnostic::new(
-            Code::DuplicateName,
+            codes::DUPLICATE_NAME,
             entry.span,
             format!("two entries are named `{}`", shorten(&entry.name)),
         );
@@ -274,14 +276,14 @@ fn finish(
         identifier: None,
         bit_errors: Vec::new(),
         eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
-        standard: Vec::new(),
+        facts: Facts::none(),
         about: Text::default(),
         span,
     };
     if let Some(own) = own {
         let usual = EntryDecl {
-            type_name: Some(crate::source::Spanned::new("unsigned8".to_owned(), span)),
-            access: Some(crate::source::Spanned::new((Access::Ro, false), span)),
+            type_name: Some(Spanned::new("unsigned8".to_owned(), span)),
+            access: Some(Spanned::new(AccessRight { access: Access::Ro, locked: false }, span)),
             ..EntryDecl::empty(span)
         };
         let name = own.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());

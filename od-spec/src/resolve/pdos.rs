@@ -7,10 +7,10 @@ use super::types::words;
 use super::values::{self, Expected};
 use super::{to_u8, to_u16};
 use crate::ast::{Name, PdoDecl};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, DataType, DeviceInfo, Direction, EdsPolicy, Entry, EntryId, Index, Mapped, Object, ObjectKind,
-    Origin, Pdo, PdoMapping, PdoTarget, Storage, SubIndex, Text, Value,
+    Access, DataType, DeviceInfo, Direction, EdsPolicy, Entry, EntryId, Facts, Index, Mapped, Object,
+    ObjectKind, Origin, Pdo, PdoMapping, PdoTarget, Storage, SubIndex, Text, Value,
 };
 use crate::source::Span;
 
@@ -69,8 +69,9 @@ fn pdo(
     let bits: u32 = map.iter().map(|mapped| u32::from(mapped.bits)).sum();
     if bits > 64 {
         let parts = map.iter().map(|mapped| mapped.bits.to_string()).collect::<Vec<_>>().join(" + ");
-        let diagnostic = Diagnostic::new(Code::PdoTooLong, decl.span, format!("{title} carries {bits} bits"))
-            .label(format!("{parts} bits; a PDO holds 64"));
+        let diagnostic =
+            Diagnostic::new(codes::PDO_TOO_LONG, decl.span, format!("{title} carries {bits} bits"))
+                .label(format!("{parts} bits; a PDO holds 64"));
         diagnostics.push(match narrower(&map, objects) {
             Some(hint) => diagnostic.help(hint),
             None => diagnostic.help("move entries to another PDO"),
@@ -82,7 +83,7 @@ fn pdo(
     if decl.direction == Direction::Receive && decl.no_rtr.is_some_and(|flag| flag.value) {
         let span = decl.no_rtr.map_or(decl.span, |flag| flag.span);
         diagnostics.push(
-            Diagnostic::new(Code::BadPdoKey, span, "an RPDO is not asked for by remote frames")
+            Diagnostic::new(codes::BAD_PDO_KEY, span, "an RPDO is not asked for by remote frames")
                 .help("remove `no-rtr:`; bit 30 of an RPDO's COB-ID is reserved"),
         );
     }
@@ -92,7 +93,7 @@ fn pdo(
     if let (true, Some(value)) = (reserved, &decl.transmission) {
         diagnostics.push(
             Diagnostic::new(
-                Code::BadTransmission,
+                codes::BAD_TRANSMISSION,
                 value.span,
                 format!("transmission type {transmission} is reserved for {title}"),
             )
@@ -131,7 +132,7 @@ fn check_granularity(
     if let Some(mapped) = map.iter().find(|mapped| mapped.bits % granularity != 0) {
         diagnostics.push(
             Diagnostic::new(
-                Code::BadPdoKey,
+                codes::BAD_PDO_KEY,
                 decl.span,
                 format!("{title} maps {} bits, the device's granularity is {granularity}", mapped.bits),
             )
@@ -165,7 +166,7 @@ fn cob_id(decl: &PdoDecl, valid: bool, diagnostics: &mut Diagnostics) -> Option<
         None => {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::MissingKey,
+                    codes::MISSING_KEY,
                     decl.number.span,
                     format!("{} {} needs the key `cob-id`", decl.direction.pdo(), decl.number.value),
                 )
@@ -209,7 +210,7 @@ fn check_cob_id(value: &Value, text: &Name, diagnostics: &mut Diagnostics) -> Op
         };
         if let Some(problem) = problem {
             diagnostics.push(
-                Diagnostic::new(Code::BadCobId, text.span, problem)
+                Diagnostic::new(codes::BAD_COB_ID, text.span, problem)
                     .help("write a free identifier without flag bits; `valid:` and `no-rtr:` set these")
                     .note("CiA 301 table 35: restricted CAN identifiers"),
             );
@@ -231,7 +232,7 @@ fn capacity(
         if map.is_empty() {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BadPdoKey,
+                    codes::BAD_PDO_KEY,
                     decl.span,
                     format!("{title} has a fixed mapping of nothing"),
                 )
@@ -249,7 +250,7 @@ fn capacity(
         let span = decl.capacity.map_or(decl.span, |capacity| capacity.span);
         diagnostics.push(
             Diagnostic::new(
-                Code::BadPdoKey,
+                codes::BAD_PDO_KEY,
                 span,
                 format!("{title} maps {used} entries, but offers {capacity}"),
             )
@@ -279,7 +280,7 @@ fn mapped(
         };
         if let Some(problem) = problem {
             diagnostics.push(
-                Diagnostic::new(Code::BadDummy, name.span, problem)
+                Diagnostic::new(codes::BAD_DUMMY, name.span, problem)
                     .help("list the type in the device's `dummies:`; placeholders stand in RPDOs only"),
             );
             return None;
@@ -311,7 +312,7 @@ fn mapped(
             None => format!("give the entry `pdo: {}`, or map another one", decl.direction.word()),
         };
         diagnostics.push(
-            Diagnostic::new(Code::NotMappable, name.span, problem)
+            Diagnostic::new(codes::NOT_MAPPABLE, name.span, problem)
                 .label(entry.name.clone())
                 .with(entry.span, format!("`pdo: {}`, `{}`", entry.pdo.word(), entry.access.word()))
                 .help(help),
@@ -373,7 +374,7 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
             identifier: None,
             bit_errors: Vec::new(),
             eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
-            standard: Vec::new(),
+            facts: Facts::none(),
             about: english(parameter.about),
             span,
         }
@@ -385,7 +386,7 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
         kind: ObjectKind::Record,
         origin: Origin::Pdo,
         profile: None,
-        differs: Vec::new(),
+        departures: Vec::new(),
         category: None,
         since: None,
         about: Text::default(),

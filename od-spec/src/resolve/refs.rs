@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::ast::Name;
 use crate::decode::{lexical, nearest};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, EntryId, Index, Object, SubIndex};
 use crate::yaml::shorten;
 
@@ -75,7 +75,7 @@ impl Names {
             }
             if !broken.has(id.index) {
                 diagnostics.push(
-                    Diagnostic::new(Code::UnknownEntry, reference.span, format!("there is no entry {id}"))
+                    Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, format!("there is no entry {id}"))
                         .help("correct the index or sub-index, or define the object on this device"),
                 );
             }
@@ -84,7 +84,7 @@ impl Names {
         let found = self.by_name.get(text).copied();
         if found.is_none() && !broken.has_name(text) {
             let message = format!("there is no entry named `{}`", shorten(text));
-            let diagnostic = Diagnostic::new(Code::UnknownEntry, reference.span, message);
+            let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
             diagnostics.push(match nearest(text, self.by_name.keys().map(String::as_str)) {
                 Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
                 None => diagnostic.help("write an object's name, `object.entry` for a member, or an index"),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::types;
 use crate::ast::{Name, Spec, UnitDecl};
 use crate::decode::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::model::{Base, NamedType, Ratio, Unit};
 use crate::source::Span;
 use crate::yaml::shorten;
@@ -63,7 +63,7 @@ impl Scope {
         if unit.is_none() && !self.is_broken(&name.value) {
             let by_symbol = self.units.values().find(|unit| unit.symbol == name.value);
             diagnostics.push(unknown(
-                Code::UnknownUnit,
+                codes::UNKNOWN_UNIT,
                 name,
                 "unit",
                 self.units.keys().map(String::as_str),
@@ -78,7 +78,7 @@ impl Scope {
 
 /// A message about a name that stands for nothing.
 pub(super) fn unknown<'a>(
-    code: Code,
+    code: &'static Code,
     name: &Name,
     what: &str,
     known: impl IntoIterator<Item = &'a str>,
@@ -103,7 +103,7 @@ fn check_unique(
     if let (false, Some(before)) = (fine, before) {
         diagnostics.push(
             Diagnostic::new(
-                Code::DuplicateName,
+                codes::DUPLICATE_NAME,
                 name.span,
                 format!("{what} `{}` has two meanings", shorten(&name.value)),
             )

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::to_u16;
 use crate::ast::{BitDecl, TypeDecl, ValueDecl, Words};
 use crate::decode::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Text, TypeKind};
 use crate::source::{Span, Spanned};
 use crate::yaml::shorten;
@@ -18,7 +18,7 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
             DataType::ALL.into_iter().filter(|data_type| data_type.is_integer()).map(DataType::name);
         diagnostics.push(
             Diagnostic::new(
-                Code::BadBaseType,
+                codes::BAD_BASE_TYPE,
                 name.span,
                 format!("`{}` cannot carry values or bits", shorten(&name.value)),
             )
@@ -35,7 +35,7 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
             if list.is_empty() && !decl.unsure {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::MissingKey,
+                        codes::MISSING_KEY,
                         decl.name.span,
                         format!("enum `{}` has no values", shorten(&decl.name.value)),
                     )
@@ -48,7 +48,7 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
         (Some(_), Some(_)) => {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::ConflictingKeys,
+                    codes::CONFLICTING_KEYS,
                     decl.name.span,
                     format!("type `{}` has `values` and `bits`", shorten(&decl.name.value)),
                 )
@@ -60,7 +60,7 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
             if !decl.unsure {
                 diagnostics.push(
                     Diagnostic::new(
-                        Code::MissingKey,
+                        codes::MISSING_KEY,
                         decl.name.span,
                         format!("type `{}` needs the key `values` or `bits`", shorten(&decl.name.value)),
                     )
@@ -91,7 +91,7 @@ fn values(
         if !(low..=high).contains(&value) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::ValueDoesNotFit,
+                    codes::VALUE_DOES_NOT_FIT,
                     decl.value.span,
                     format!("{value} does not fit {carrier}"),
                 )
@@ -122,7 +122,7 @@ fn unique_name<'a>(
     if let Some(before) = names.insert(name, span) {
         diagnostics.push(
             Diagnostic::new(
-                Code::DuplicateName,
+                codes::DUPLICATE_NAME,
                 span,
                 format!("the name `{}` stands twice in this type", shorten(name)),
             )
@@ -147,7 +147,7 @@ fn bits(
         let Spanned { value: (first, last), span } = bit.bits;
         if last >= width {
             diagnostics.push(
-                Diagnostic::new(Code::ValueDoesNotFit, span, format!("{base} has no bit {last}"))
+                Diagnostic::new(codes::VALUE_DOES_NOT_FIT, span, format!("{base} has no bit {last}"))
                     .label(format!("bits 0 to {}", width - 1))
                     .help("correct the bit number or take a wider type"),
             );
@@ -159,7 +159,7 @@ fn bits(
         owner[range].iter_mut().for_each(|bit| *bit = bit.or(Some(span)));
         if let Some(before) = taken {
             diagnostics.push(
-                Diagnostic::new(Code::OverlappingBits, span, "these bits overlap with others")
+                Diagnostic::new(codes::OVERLAPPING_BITS, span, "these bits overlap with others")
                     .label("overlaps")
                     .with(before, "taken here")
                     .help("each bit belongs to one field"),
@@ -180,7 +180,7 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
     let (first, last) = bit.bits.value;
     if bit.usage == BitUsage::Used && bit.name.is_none() && bit.modes.is_empty() {
         diagnostics.push(
-            Diagnostic::new(Code::MissingKey, bit.bits.span, "a bit needs the key `name`")
+            Diagnostic::new(codes::MISSING_KEY, bit.bits.span, "a bit needs the key `name`")
                 .help("name it, or write `reserved` or `unused`"),
         );
     }
@@ -229,7 +229,7 @@ fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, dia
             let runs = runs.collect::<Vec<_>>().join(", ");
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BitsMissing,
+                    codes::BITS_MISSING,
                     decl.name.span,
                     format!("type `{}` leaves out bits {runs}", shorten(&decl.name.value)),
                 )

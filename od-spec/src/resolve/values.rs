@@ -2,7 +2,7 @@
 
 use crate::ast::Name;
 use crate::decode::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
 use crate::source::Span;
 use crate::yaml::scalar::{self, NumberError};
@@ -19,7 +19,7 @@ pub(crate) struct Expected<'a> {
 /// Reads a value that is written at `span`.
 pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
     let bad = |message: String, help: &str| {
-        Err(Box::new(Diagnostic::new(Code::BadValue, span, message).help(help)))
+        Err(Box::new(Diagnostic::new(codes::BAD_VALUE, span, message).help(help)))
     };
     let shown = shorten(text);
     match expected.data_type {
@@ -84,7 +84,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
         };
         let Some(offset) = offset.and_then(|offset| u64::try_from(offset).ok()) else {
             return Err(Box::new(
-                Diagnostic::new(Code::BadFormula, span, format!("cannot read the formula `{shown}`"))
+                Diagnostic::new(codes::BAD_FORMULA, span, format!("cannot read the formula `{shown}`"))
                     .help("write `$NODEID`, or `$NODEID + 0x180`")
                     .note("CiA 306 4.3: a formula is $NODEID and at most one added number"),
             ));
@@ -106,7 +106,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
             None if !values.is_empty() => {
                 let names = values.iter().map(|value| value.name.as_str());
                 let diagnostic = Diagnostic::new(
-                    Code::UnknownEnumValue,
+                    codes::UNKNOWN_ENUM_VALUE,
                     span,
                     format!("`{shown}` is not a value of this enum"),
                 );
@@ -118,7 +118,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
             None => {
                 return Err(Box::new(
                     Diagnostic::new(
-                        Code::BadValue,
+                        codes::BAD_VALUE,
                         span,
                         format!("found `{shown}`, expected a value of type {}", expected.data_type),
                     )
@@ -133,7 +133,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
         },
         Err(error) => {
             return Err(Box::new(
-                Diagnostic::new(Code::BadNumber, span, format!("found `{shown}`, expected an integer"))
+                Diagnostic::new(codes::BAD_NUMBER, span, format!("found `{shown}`, expected an integer"))
                     .help(error.help()),
             ));
         }
@@ -141,7 +141,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
     fits(raw, span, expected.data_type, &format!("{raw}"))?;
     if !values.is_empty() && !values.iter().any(|value| value.value == raw) {
         return Err(Box::new(
-            Diagnostic::new(Code::UnknownEnumValue, span, format!("{raw} is not a value of this enum"))
+            Diagnostic::new(codes::UNKNOWN_ENUM_VALUE, span, format!("{raw} is not a value of this enum"))
                 .help(format!("its values are {}", list(values.iter().map(|value| value.name.as_str())))),
         ));
     }
@@ -167,9 +167,10 @@ pub(crate) fn fits(raw: i128, span: Span, data_type: DataType, what: &str) -> Re
     let note = (data_type.is_signed() && raw > high && raw <= 2 * high + 1).then(|| {
         format!("as a bit pattern this would be {}; write signed values in decimal", raw - 2 * high - 2)
     });
-    let diagnostic = Diagnostic::new(Code::ValueDoesNotFit, span, format!("{what} does not fit {data_type}"))
-        .label(format!("allowed: {low} to {high}"))
-        .help("correct the value or the type");
+    let diagnostic =
+        Diagnostic::new(codes::VALUE_DOES_NOT_FIT, span, format!("{what} does not fit {data_type}"))
+            .label(format!("allowed: {low} to {high}"))
+            .help("correct the value or the type");
     Err(Box::new(match note {
         Some(note) => diagnostic.note(note),
         None => diagnostic,
@@ -190,7 +191,7 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
     let Some(unit) = unit else {
         return Err(Box::new(
             Diagnostic::new(
-                Code::WrongSymbol,
+                codes::WRONG_SYMBOL,
                 span,
                 format!("`{}` has no meaning here: the entry has no unit", shorten(symbol)),
             )
@@ -202,7 +203,7 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
         let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };
         return Err(Box::new(
             Diagnostic::new(
-                Code::WrongSymbol,
+                codes::WRONG_SYMBOL,
                 span,
                 format!("`{}` is not the symbol of unit `{}`", shorten(symbol), unit.name),
             )
@@ -211,14 +212,14 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
     };
     let steps = number.checked_div(step).ok_or_else(|| {
         Box::new(
-            Diagnostic::new(Code::ValueDoesNotFit, span, "the value is too large to be computed exactly")
+            Diagnostic::new(codes::VALUE_DOES_NOT_FIT, span, "the value is too large to be computed exactly")
                 .help("correct the value"),
         )
     })?;
     steps.to_whole().ok_or_else(|| {
         let below = steps.floor();
         Box::new(
-            Diagnostic::new(Code::InexactValue, span, "the value does not fit the unit's scale")
+            Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
                 .label(format!("{steps} steps of {step} {symbol}"))
                 .help(format!(
                     "write {} (raw {below}) or {} (raw {}), or a raw value",

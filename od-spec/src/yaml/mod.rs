@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::source::{FileId, SourceFile, Span, Spanned};
 
 /// Deepest nesting that is read.
@@ -143,7 +143,7 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
                 let span = builder.point(at);
                 builder.diagnostics.push(
                     Diagnostic::new(
-                        Code::YamlSyntax,
+                        codes::YAML_SYNTAX,
                         span,
                         format!("this is not YAML: {}", error.kind().to_string().replace(['`', '\n'], "'")),
                     )
@@ -164,7 +164,7 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
         Some(Node { kind: NodeKind::Null, .. }) | None => {
             let span = builder.point(0);
             diagnostics
-                .push(Diagnostic::new(Code::EmptyDocument, span, "the file holds no specification").help(
+                .push(Diagnostic::new(codes::EMPTY_DOCUMENT, span, "the file holds no specification").help(
                     "start with `od-spec: 1`; `odgen explain OD0110` shows the smallest specification",
                 ));
             None
@@ -218,7 +218,7 @@ impl Builder<'_> {
                 self.documents += 1;
                 if self.documents > 1 {
                     self.diagnostics.push(
-                        Diagnostic::new(Code::SeveralDocuments, span, "a second YAML document starts here")
+                        Diagnostic::new(codes::SEVERAL_DOCUMENTS, span, "a second YAML document starts here")
                             .help("a specification is one document: remove `---`, or split the file"),
                     );
                     return false;
@@ -251,7 +251,7 @@ impl Builder<'_> {
             Event::UnresolvedAlias(name) => {
                 self.diagnostics.push(
                     Diagnostic::new(
-                        Code::UnknownAnchor,
+                        codes::UNKNOWN_ANCHOR,
                         span,
                         format!("no anchor `&{name}` stands before this alias"),
                     )
@@ -269,7 +269,7 @@ impl Builder<'_> {
         if tagged {
             let span = self.tag_before(value);
             self.diagnostics.push(
-                Diagnostic::new(Code::YamlTag, span, "YAML tags (`!name`) have no meaning here")
+                Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
                     .help("remove the tag; the place decides how a value is read"),
             );
         }
@@ -296,7 +296,7 @@ impl Builder<'_> {
 
     fn too_deep(&mut self, span: Span) -> bool {
         self.diagnostics.push(
-            Diagnostic::new(Code::TooDeep, span, format!("more than {MAX_DEPTH} levels of lists and maps"))
+            Diagnostic::new(codes::TOO_DEEP, span, format!("more than {MAX_DEPTH} levels of lists and maps"))
                 .help("no specification needs this depth; is a bracket missing?"),
         );
         false
@@ -306,7 +306,7 @@ impl Builder<'_> {
         let Some(target) = self.anchors.get(&anchor) else {
             // The anchor is on a collection that is still open, or on something that was dropped.
             self.diagnostics.push(
-                Diagnostic::new(Code::UnknownAnchor, span, "this alias refers to a value that contains it")
+                Diagnostic::new(codes::UNKNOWN_ANCHOR, span, "this alias refers to a value that contains it")
                     .label("the anchored value is not complete yet")
                     .help("write the value out; it cannot be a part of itself"),
             );
@@ -317,7 +317,7 @@ impl Builder<'_> {
         if self.alias_nodes > MAX_ALIAS_NODES {
             self.diagnostics.push(
                 Diagnostic::new(
-                    Code::AliasBomb,
+                    codes::ALIAS_BOMB,
                     span,
                     format!("aliases expand to more than {MAX_ALIAS_NODES} values"),
                 )
@@ -406,7 +406,7 @@ fn read_key(
         if !matches!(node.kind, NodeKind::Broken) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::BadKey,
+                    codes::BAD_KEY,
                     span,
                     format!("a key must be a word or a number, found {}", node.describe()),
                 )
@@ -417,7 +417,7 @@ fn read_key(
     };
     if text == MERGE {
         diagnostics.push(
-            Diagnostic::new(Code::BadKey, span, "merge keys (`<<`) are not part of the language")
+            Diagnostic::new(codes::BAD_KEY, span, "merge keys (`<<`) are not part of the language")
                 .help("name a type or take an object with `from:` instead"),
         );
         // The key stays, so that nobody misses what it would have brought.
@@ -426,7 +426,7 @@ fn read_key(
     if let Some(first) = earlier(&text, entries, seen) {
         diagnostics.push(
             Diagnostic::new(
-                Code::DuplicateKey,
+                codes::DUPLICATE_KEY,
                 span,
                 format!("key `{}` stands twice in this map", shorten(&text)),
             )

@@ -7,7 +7,7 @@ use std::path::Path;
 use od_gen::files::{Outcome, write_all};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, Origin, PdoMapping, System};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
     }
     if let Some(path) = clash(&set) {
         return report.refuse(
-            Diagnostic::without_place(Code::DuplicateName, format!("two devices would both write {path}"))
+            Diagnostic::without_place(codes::DUPLICATE_NAME, format!("two devices would both write {path}"))
                 .help(
                     "give the devices different keys, or build the specifications into different directories",
                 ),
@@ -81,7 +81,7 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
             print(&text)
         }
         Err(error) => report.refuse(
-            Diagnostic::without_place(Code::WriteFailed, error.to_string())
+            Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
                 .help("nothing was changed; check the directory, its permissions and the free space"),
         ),
     }

@@ -7,7 +7,7 @@ use od_gen::Artifact;
 use od_gen::eds::{Commissioning, write_dcf};
 use od_gen::files::write_all;
 use od_gen::source::FileLoader;
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::{SourceMap, Spanned};
 use od_spec::{assign, eds_text_problem};
@@ -59,7 +59,7 @@ fn dcf(args: &DcfArgs, report: &Report) -> Result<String, u8> {
     let artifact = Artifact { path: name, bytes, purpose: String::new() };
     write_all(directory, std::slice::from_ref(&artifact)).map_err(|error| {
         refuse(
-            Diagnostic::without_place(Code::WriteFailed, error.to_string())
+            Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
                 .help("nothing was changed; check the directory, its permissions and the free space"),
         )
     })?;
@@ -88,7 +88,7 @@ fn text(option: &str, text: &str, longest: usize) -> Result<String, Diagnostic> 
     match eds_text_problem(text, longest) {
         None => Ok(text.to_owned()),
         Some(problem) => {
-            Err(Diagnostic::without_place(Code::NotForEds, format!("the text of `{option}` {problem}"))
+            Err(Diagnostic::without_place(codes::NOT_FOR_EDS, format!("the text of `{option}` {problem}"))
                 .help("choose another text"))
         }
     }
@@ -98,7 +98,7 @@ fn text(option: &str, text: &str, longest: usize) -> Result<String, Diagnostic> 
 fn file_name(path: &Path, read: &[PathBuf]) -> Result<String, Diagnostic> {
     let refuse = |problem: &str, help: &str| {
         let message = format!("cannot write `{}`: {problem}", path.display());
-        Err(Diagnostic::without_place(Code::WriteFailed, message).help(help.to_owned()))
+        Err(Diagnostic::without_place(codes::WRITE_FAILED, message).help(help.to_owned()))
     };
     let Some(name) = path.file_name() else {
         return refuse("it names no file", "write the file's name behind the directory");
@@ -121,7 +121,7 @@ fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {
     let rate = text.trim().parse::<u16>().ok().filter(|rate| device.info.bit_rates.contains(rate));
     rate.ok_or_else(|| {
         Diagnostic::without_place(
-            Code::BitRateUnsupported,
+            codes::BIT_RATE_UNSUPPORTED,
             format!("`{}` does not support a bit rate of `{text}` kbit/s", device.key),
         )
         .help(format!("it supports {rates} kbit/s"))

@@ -6,7 +6,7 @@ use std::path::Path;
 use od_gen::Artifact;
 use od_gen::docs::{self, TemplateError, Templates};
 use od_gen::files::write_all;
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &DocsArgs, report: &Report) -> u8 {
     if let Some(path) = clash(&set) {
         return report.refuse(
             Diagnostic::without_place(
-                Code::DuplicateName,
+                codes::DUPLICATE_NAME,
                 format!("two specifications would both write {path}"),
             )
             .help("print specifications of one file name into different directories"),
@@ -69,7 +69,7 @@ fn write(out: &Path, set: &[Artifact], report: &Report) -> u8 {
     match write_all(out, set) {
         Ok(outcomes) => print(&list(out, set, &outcomes)),
         Err(error) => report.refuse(
-            Diagnostic::without_place(Code::WriteFailed, error.to_string())
+            Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
                 .help("nothing was changed; check the directory, its permissions and the free space"),
         ),
     }
@@ -84,7 +84,7 @@ fn language<'a>(code: &str, systems: impl Iterator<Item = &'a System>) -> Result
     known.iter().find(|one| one.eq_ignore_ascii_case(code)).map(|one| (*one).to_owned()).ok_or_else(|| {
         let list = known.iter().map(|one| format!("`{one}`")).collect::<Vec<_>>().join(", ");
         Box::new(
-            Diagnostic::without_place(Code::UnknownWord, format!("there is no language `{code}`"))
+            Diagnostic::without_place(codes::UNKNOWN_WORD, format!("there is no language `{code}`"))
                 .help(format!("the languages are {list}")),
         )
     })
@@ -122,11 +122,11 @@ impl Problem {
     pub(crate) fn show(self, report: &Report) -> u8 {
         match self {
             Problem::Unreadable(message) => report.refuse(
-                Diagnostic::without_place(Code::Unreadable, message)
+                Diagnostic::without_place(codes::UNREADABLE, message)
                     .help("`odgen docs --export-templates DIR` writes templates to start from"),
             ),
             Problem::Template(error, _) if error.template.is_empty() => report.refuse(
-                Diagnostic::without_place(Code::BadTemplate, error.message)
+                Diagnostic::without_place(codes::BAD_TEMPLATE, error.message)
                     .help("give the device another key, or the template of devices another extension"),
             ),
             Problem::Template(error, directory) => {
@@ -142,7 +142,7 @@ impl Problem {
                 let span = sources.whole(file);
                 let (start, end) = (error.range.start, error.range.end);
                 diagnostics.push(
-                    Diagnostic::new(Code::BadTemplate, span.part(start, end.max(start + 1)), error.message)
+                    Diagnostic::new(codes::BAD_TEMPLATE, span.part(start, end.max(start + 1)), error.message)
                         .help("`odgen docs --dump-context` prints what templates see"),
                 );
                 report.show(&diagnostics, &sources);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use od_spec::diag::{Code, Diagnostic};
+use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Erratum, ErratumKind, ErratumPlace, Index, System};
 
 use super::ERRORS;
@@ -13,7 +13,7 @@ pub(crate) fn run(args: &ErrataArgs, report: &Report) -> u8 {
     let kind = match args.kind.as_deref().map(|word| (word, ErratumKind::from_word(word))) {
         Some((word, None)) => {
             return report.refuse(
-                Diagnostic::without_place(Code::UnknownWord, format!("there is no kind `{word}`"))
+                Diagnostic::without_place(codes::UNKNOWN_WORD, format!("there is no kind `{word}`"))
                     .help(format!("kinds are {}", ErratumKind::WORDS.join(", "))),
             );
         }
@@ -23,7 +23,7 @@ pub(crate) fn run(args: &ErrataArgs, report: &Report) -> u8 {
     let at = match args.at.as_deref().map(|text| (text, index(text))) {
         Some((text, None)) => {
             return report.refuse(
-                Diagnostic::without_place(Code::BadNotation, format!("found `{text}`, expected an index"))
+                Diagnostic::without_place(codes::BAD_NOTATION, format!("found `{text}`, expected an index"))
                     .help("write it in hexadecimal: `6041`, `0x6041` or `6041h`"),
             );
         }

@@ -14,7 +14,7 @@ use std::process::ExitCode;
 
 use args::{Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
-use od_spec::diag::{Code, Diagnostic};
+use od_spec::diag::{Code, Diagnostic, codes};
 
 /// Nothing to object to.
 const FINE: u8 = 0;
@@ -64,7 +64,7 @@ fn library(name: Option<&str>, report: &report::Report) -> u8 {
     match od_spec::LIBRARIES.iter().find(|(known, _)| *known == name) {
         Some((_, text)) => report::print(text),
         None => report.refuse(
-            Diagnostic::without_place(Code::UnknownWord, format!("found `{name}`, expected a library"))
+            Diagnostic::without_place(codes::UNKNOWN_WORD, format!("found `{name}`, expected a library"))
                 .help(format!("the libraries are {}", names.collect::<Vec<_>>().join(", "))),
         ),
     }
@@ -72,16 +72,15 @@ fn library(name: Option<&str>, report: &report::Report) -> u8 {
 
 fn explain(id: &str) -> u8 {
     if id.eq_ignore_ascii_case("all") {
-        let list =
-            Code::ALL.iter().map(|code| format!("{code}  {:7}  {}\n", code.severity().word(), code.title()));
-        return report::print(&list.collect::<String>());
+        let line = |code: &Code| format!("{code}  {:7}  {}\n", code.severity.word(), code.title);
+        return report::print(&od_spec::all_codes().into_iter().map(line).collect::<String>());
     }
-    match Code::from_id(id) {
+    match od_spec::code(id) {
         Some(code) => report::print(&format!(
-            "{code} ({}): {}\n\n{}\n",
-            code.severity().word(),
-            code.title(),
-            code.explanation()
+            "{code} ({}): {}\n\n{}",
+            code.severity.word(),
+            code.title,
+            od_spec::explanation(code)
         )),
         None => {
             anstream::eprintln!(

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use od_gen::Artifact;
 use od_gen::files::write_all;
-use od_spec::diag::{Code, Diagnostic};
+use od_spec::diag::{Diagnostic, codes};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile, is_device_key};
 
@@ -137,7 +137,7 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
     let (text, kind) = match args.profile {
         Profile::Cia301 if !args.modes.is_empty() => {
             return Err(Diagnostic::without_place(
-                Code::UnknownWord,
+                codes::UNKNOWN_WORD,
                 "`--modes` is for drives, and cia301 has no modes of operation",
             )
             .help("add `--profile cia402`"));
@@ -153,18 +153,18 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
     if path.symlink_metadata().is_ok() {
         let shown = path.strip_prefix(".").unwrap_or(&path);
         let message = format!("cannot write `{}`: it is there already", shown.display());
-        return Err(Diagnostic::without_place(Code::WriteFailed, message)
+        return Err(Diagnostic::without_place(codes::WRITE_FAILED, message)
             .help("choose another name or, with `--out`, another directory"));
     }
     if args.out.is_file() {
         let message = format!("cannot write into `{}`: it is a file", args.out.display());
         return Err(
-            Diagnostic::without_place(Code::WriteFailed, message).help("name a directory with `--out`")
+            Diagnostic::without_place(codes::WRITE_FAILED, message).help("name a directory with `--out`")
         );
     }
     let objects = count_objects(&name, &text).ok_or_else(|| {
         let message = format!("a specification with the key `{key}` does not compile");
-        Diagnostic::without_place(Code::BadNotation, message).help("choose another name")
+        Diagnostic::without_place(codes::BAD_NOTATION, message).help("choose another name")
     })?;
     write(&args.out, name, text)?;
     let path = path.strip_prefix(".").unwrap_or(&path).display();
@@ -179,7 +179,7 @@ fn check_key(key: &str) -> Result<(), Diagnostic> {
         return Ok(());
     }
     let message = format!("found `{key}`, expected the key of a device");
-    Err(Diagnostic::without_place(Code::BadNotation, message)
+    Err(Diagnostic::without_place(codes::BAD_NOTATION, message)
         .help("a key has up to 32 small letters, digits and hyphens, such as `my-device`"))
 }
 
@@ -191,7 +191,7 @@ fn modes(words: &[String]) -> Result<Vec<&'static Mode>, Diagnostic> {
     };
     if words.is_empty() {
         let message = "`--modes` is missing: a drive has at least one mode of operation";
-        return Err(Diagnostic::without_place(Code::UnknownWord, message).help(known()));
+        return Err(Diagnostic::without_place(codes::UNKNOWN_WORD, message).help(known()));
     }
     let mut wanted = Vec::new();
     for word in words {
@@ -203,7 +203,7 @@ fn modes(words: &[String]) -> Result<Vec<&'static Mode>, Diagnostic> {
         };
         let Some(mode) = MODES.iter().find(is) else {
             let message = format!("found `{word}`, expected a mode of operation");
-            return Err(Diagnostic::without_place(Code::UnknownWord, message).help(known()));
+            return Err(Diagnostic::without_place(codes::UNKNOWN_WORD, message).help(known()));
         };
         wanted.push(mode.bit);
     }
@@ -299,7 +299,7 @@ fn count_objects(name: &str, text: &str) -> Option<usize> {
 fn write(directory: &Path, path: String, text: String) -> Result<(), Diagnostic> {
     let artifact = Artifact { path, bytes: text.into_bytes(), purpose: String::new() };
     write_all(directory, &[artifact]).map(drop).map_err(|error| {
-        Diagnostic::without_place(Code::WriteFailed, error.to_string())
+        Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
             .help("check the directory, its permissions and the free space")
     })
 }

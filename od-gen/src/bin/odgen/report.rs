@@ -7,7 +7,7 @@ use std::path::Path;
 use od_gen::source::{FileLoader, compile_file};
 use od_spec::Compiled;
 use od_spec::diag::render::{self, Format};
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
@@ -35,7 +35,7 @@ impl Report {
         let mut text = render::render(diagnostics, sources, self.format, self.colour);
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {
-            let first = diagnostics.iter().next().map_or("", |first| first.code.id());
+            let first = diagnostics.iter().next().map_or("", |first| first.code.id);
             let _ = writeln!(text, "{summary}; `odgen explain {first}` tells more");
         }
         let _ = std::io::stderr().write_all(text.as_bytes());
@@ -74,10 +74,10 @@ impl Report {
     pub(crate) fn refuse(&self, diagnostic: Diagnostic) -> u8 {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(diagnostic);
-        let code = match diagnostics.iter().next().map(|diagnostic| diagnostic.code) {
-            Some(Code::BadNodeId | Code::UnknownDevice | Code::UnknownWord | Code::BadNotation) => USAGE,
-            _ => ERRORS,
-        };
+        let of_the_command_line =
+            [codes::BAD_NODE_ID, codes::UNKNOWN_DEVICE, codes::UNKNOWN_WORD, codes::BAD_NOTATION];
+        let is_usage = diagnostics.iter().all(|diagnostic| of_the_command_line.contains(&diagnostic.code));
+        let code = if is_usage { USAGE } else { ERRORS };
         self.show(&diagnostics, &SourceMap::new());
         code
     }
@@ -86,7 +86,7 @@ impl Report {
     pub(crate) fn unknown_device<'a>(&self, systems: impl Iterator<Item = &'a System>, key: &str) -> u8 {
         let keys = systems.flat_map(|system| &system.devices).map(|device| format!("`{}`", device.key));
         self.refuse(
-            Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
+            Diagnostic::without_place(codes::UNKNOWN_DEVICE, format!("there is no device `{key}`"))
                 .help(format!("the devices are {}", keys.collect::<Vec<_>>().join(", "))),
         )
     }
@@ -96,7 +96,7 @@ impl Report {
         system.device(key).ok_or_else(|| {
             let keys: Vec<String> = system.devices.iter().map(|device| format!("`{}`", device.key)).collect();
             self.refuse(
-                Diagnostic::without_place(Code::UnknownDevice, format!("there is no device `{key}`"))
+                Diagnostic::without_place(codes::UNKNOWN_DEVICE, format!("there is no device `{key}`"))
                     .help(format!("the specification has {}", keys.join(", "))),
             )
         })
@@ -108,7 +108,7 @@ pub(crate) fn node_id(text: &str) -> Result<u8, Diagnostic> {
     let number =
         od_spec::yaml::scalar::integer(text.trim()).ok().and_then(|number| u8::try_from(number).ok());
     number.filter(|node| (1..=127).contains(node)).ok_or_else(|| {
-        Diagnostic::without_place(Code::BadNodeId, format!("found `{text}`, expected a node-ID"))
+        Diagnostic::without_place(codes::BAD_NODE_ID, format!("found `{text}`, expected a node-ID"))
             .help("node-IDs are 1 to 127")
     })
 }

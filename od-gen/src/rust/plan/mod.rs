@@ -7,7 +7,7 @@ mod vocabulary;
 
 use std::collections::BTreeMap;
 
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
     BitField, DataType, Dictionary, Entry, EntryId, EnumValue, ErrorCode, NamedType, Object, Outside, Pdo,
     Rounding, StateMachine, Storage, System, Text, Unit, Value,
@@ -247,7 +247,7 @@ pub(super) fn plan<'a>(
         else {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::NotInFirmware,
+                    codes::NOT_IN_FIRMWARE,
                     device.span,
                     format!("`{}` has more than {} entries", device.key, NONE - 1),
                 )
@@ -315,7 +315,7 @@ impl<'a> Plan<'a> {
 
 fn too_large(span: Span, what: &str) -> Diagnostic {
     Diagnostic::new(
-        Code::NotInFirmware,
+        codes::NOT_IN_FIRMWARE,
         span,
         format!("{what} needs numbers that generated code does not have"),
     )

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use od_spec::diag::{Code, Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{BitUsage, DataType, Entry, EnumValue, NamedType, Ratio, Text, TypeKind};
 use od_spec::source::Span;
 
@@ -73,7 +73,7 @@ impl Plan<'_> {
         if self.specials.iter().any(|other| other.name == set.name) {
             diagnostics.push(
                 Diagnostic::new(
-                    Code::IdentifierClash,
+                    codes::IDENTIFIER_CLASH,
                     entry.span,
                     format!("`{}` would name two sets of special values", set.name),
                 )

@@ -1,0 +1,30 @@
+//! Every code with its meaning: what `odgen explain` prints and `docs/messages.md` holds.
+
+use std::fmt::Write as _;
+
+use crate::diag::{Code, codes};
+
+/// All codes, ascending: those of reading and looking up, and those of the rules.
+pub fn all_codes() -> Vec<&'static Code> {
+    let mut list: Vec<&Code> = codes::ALL.to_vec();
+    list.sort();
+    list
+}
+
+/// The code with this id, in any case.
+pub fn code(id: &str) -> Option<&'static Code> {
+    all_codes().into_iter().find(|code| code.id.eq_ignore_ascii_case(id))
+}
+
+/// What a code means, as Markdown: explanation, clause, and an example before and after.
+pub fn explanation(code: &Code) -> String {
+    let mut out = format!("{}\n", code.explanation);
+    if let Some(clause) = code.clause {
+        let _ = write!(out, "\nSee {clause}.\n");
+    }
+    if let Some(example) = code.example {
+        let _ = write!(out, "\nRefused:\n\n```yaml\n{}\n```\n", example.before);
+        let _ = write!(out, "\nAccepted:\n\n```yaml\n{}\n```\n", example.after);
+    }
+    out
+}

@@ -1,0 +1,227 @@
+//! Facts: what is said about an entry, an object or a device, where it stands, and who says it.
+//!
+//! A message points at a fact, a departure from a standard is one, a column of the documents shows one, a key of the
+//! specification states one.
+
+use std::fmt;
+
+use crate::source::{FileId, Span};
+
+macro_rules! facts {
+    ($($(#[$meta:meta])* $variant:ident = $word:literal,)+) => {
+        /// A kind of fact about an entry, an object or a device.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Fact { $($(#[$meta])* $variant,)+ }
+
+        impl Fact {
+            /// All kinds, in the order in which they are shown.
+            pub const ALL: &'static [Fact] = &[$(Fact::$variant,)+];
+
+            /// The English word: the key that states the fact, where one key does.
+            pub const fn word(self) -> &'static str {
+                match self { $(Fact::$variant => $word,)+ }
+            }
+        }
+    };
+}
+
+facts! {
+    /// Name of an object or entry.
+    Name = "name",
+    /// VAR, ARRAY, RECORD or DOMAIN.
+    ObjectType = "object-type",
+    /// Number of elements of an array.
+    Count = "count",
+    /// That an entry is there at all.
+    Presence = "added",
+    /// Data type on the bus.
+    Type = "type",
+    /// Named values or bits of a type that is the same on the bus.
+    Meaning = "meaning",
+    /// Physical unit and scale.
+    Unit = "unit",
+    /// Access over the bus, with the lock.
+    Access = "access",
+    /// Into which PDOs it may be mapped.
+    Mapping = "pdo",
+    /// Value after factory reset, or the value that a configuration sets.
+    Default = "default",
+    /// Smallest allowed value.
+    LowLimit = "min",
+    /// Largest allowed value.
+    HighLimit = "max",
+    /// Values with a meaning of their own.
+    Special = "special",
+    /// What keeps the value over power-off.
+    Storage = "stored",
+    /// Whether a standard demands it.
+    Category = "category",
+    /// Manual revision that introduced it.
+    Since = "since",
+    /// Condition under which a write is accepted.
+    WriteCondition = "writable-when",
+    /// Error codes of the bits of a shared type.
+    BitErrors = "bit-errors",
+    /// Most bytes of a string.
+    Capacity = "capacity",
+    /// Name in generated code.
+    Identifier = "identifier",
+    /// What the EDS shows of an entry.
+    Eds = "eds",
+    /// Description.
+    About = "about",
+    /// The entry that an alias shows.
+    Alias = "alias",
+    /// The flag of a COB-ID that forbids remote frames.
+    RemoteFrames = "no-rtr",
+    /// Bit rates that a device supports.
+    BitRates = "bit-rates",
+    /// Granularity of a device's PDO mapping.
+    Granularity = "granularity",
+}
+
+/// Who says a fact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Author {
+    /// The maker of the device, in the specification itself.
+    Maker,
+    /// A library of a standard; the maker has added nothing.
+    Library,
+    /// Nobody: it follows from other facts.
+    Derived,
+    /// Whoever configures a node: a setting laid over the maker's value.
+    Setting,
+}
+
+/// Where a fact stands, and who says it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Statement {
+    /// Where it is written; for a derived fact, where it follows from.
+    pub span: Span,
+    /// Who says it.
+    pub author: Author,
+}
+
+impl Statement {
+    /// A fact that is written at `span`: the maker's if that is in the maker's file.
+    pub const fn written(span: Span, maker: FileId) -> Self {
+        let author = if span.file.same(maker) { Author::Maker } else { Author::Library };
+        Self { span, author }
+    }
+
+    /// A fact that follows from what stands at `span`.
+    pub const fn derived(span: Span) -> Self {
+        Self { span, author: Author::Derived }
+    }
+}
+
+/// What is known about the facts of one thing. A fact that nobody states has no statement.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Facts {
+    /// Ascending by fact; a handful.
+    stated: Vec<(Fact, Statement)>,
+}
+
+impl Facts {
+    /// Nothing stated.
+    pub const fn none() -> Self {
+        Self { stated: Vec::new() }
+    }
+
+    /// Where a fact stands, and who says it.
+    pub fn get(&self, fact: Fact) -> Option<Statement> {
+        let at = self.stated.binary_search_by_key(&fact, |(stated, _)| *stated).ok()?;
+        Some(self.stated[at].1)
+    }
+
+    /// States a fact, or states it anew.
+    pub fn state(&mut self, fact: Fact, statement: Statement) {
+        match self.stated.binary_search_by_key(&fact, |(stated, _)| *stated) {
+            Ok(at) => self.stated[at].1 = statement,
+            Err(at) => self.stated.insert(at, (fact, statement)),
+        }
+    }
+
+    /// The facts that somebody says, in order.
+    pub fn said_by(&self, author: Author) -> impl Iterator<Item = Fact> {
+        self.stated.iter().filter(move |(_, statement)| statement.author == author).map(|(fact, _)| *fact)
+    }
+
+    /// Whether somebody says the fact.
+    pub fn is_said_by(&self, fact: Fact, author: Author) -> bool {
+        self.get(fact).is_some_and(|statement| statement.author == author)
+    }
+}
+
+impl FromIterator<(Fact, Statement)> for Facts {
+    fn from_iter<T: IntoIterator<Item = (Fact, Statement)>>(list: T) -> Self {
+        let mut facts = Self::none();
+        for (fact, statement) in list {
+            facts.state(fact, statement);
+        }
+        facts
+    }
+}
+
+/// A fact in which an object says something else than the standard that it is taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Departure {
+    /// What of the object.
+    pub part: Part,
+    /// The fact.
+    pub fact: Fact,
+}
+
+/// A part of an object.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Part {
+    /// The object itself.
+    Object,
+    /// What all elements of an array have in common.
+    Elements,
+    /// One entry.
+    Entry(super::SubIndex),
+    /// A run of entries.
+    Entries {
+        /// The first.
+        first: super::SubIndex,
+        /// The last.
+        last: super::SubIndex,
+    },
+}
+
+/// `name`, `elements: unit`, `sub-index 3: type`, `sub-indices 4 to 9: added`.
+impl fmt::Display for Departure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fact = self.fact.word();
+        match self.part {
+            Part::Object => f.write_str(fact),
+            Part::Elements => write!(f, "elements: {fact}"),
+            Part::Entry(sub) => write!(f, "sub-index {sub}: {fact}"),
+            Part::Entries { first, last } => write!(f, "sub-indices {first} to {last}: {fact}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+
+    #[test]
+    fn a_fact_is_stated_once_and_by_one() {
+        let mut sources = SourceMap::new();
+        let (maker, library) = (sources.add("maker", "x"), sources.add("library", "x"));
+        let at = |file| Statement::written(sources.whole(file), maker);
+        let mut facts = Facts::none();
+        facts.state(Fact::Default, at(library));
+        facts.state(Fact::Name, at(maker));
+        assert!(facts.is_said_by(Fact::Default, Author::Library));
+        facts.state(Fact::Default, at(maker));
+        assert_eq!(facts.said_by(Author::Maker).collect::<Vec<_>>(), [Fact::Name, Fact::Default]);
+        assert_eq!(facts.get(Fact::Unit), None);
+    }
+}
