@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Category, Dictionary, Direction, Entry, EntryId, Object, ObjectKind, Origin, PdoMapping, PdoTarget,
-    Storage, TypeKind, Value,
+    BitErrors, BitField, Category, Dictionary, Direction, Entry, EntryId, Object, ObjectKind, Origin,
+    PdoMapping, PdoTarget, Storage, TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -390,9 +390,9 @@ impl Uses {
 
 /// Error codes that come with the bits of an entry.
 fn codes(entry: &Entry) -> Vec<u16> {
-    let mut codes: Vec<u16> = entry.bit_errors.iter().flat_map(|(_, codes)| codes.iter().copied()).collect();
+    let mut codes: Vec<u16> = entry.bit_errors.iter().flat_map(BitErrors::error_codes).collect();
     if let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) {
-        codes.extend(fields.iter().flat_map(|field| field.errors.iter().copied()));
+        codes.extend(fields.iter().flat_map(BitField::error_codes));
     }
     codes.sort_unstable();
     codes.dedup();

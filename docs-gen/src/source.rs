@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use od_spec::expr::{EntryRef, Expr, Term};
 use od_spec::model::{
-    DataType, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index, Object, Ratio, System,
-    TableContent, TableId, Text, TypeKind, Unit, Value,
+    BitErrors, BitField, DataType, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index,
+    Object, Ratio, System, TableContent, TableId, Text, TypeKind, Unit, Value,
 };
 
 use crate::Options;
@@ -98,9 +98,8 @@ impl<'a> Source<'a> {
         for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
             let Some(named) = &entry.named_type else { continue };
             let TypeKind::Bits(fields) = &named.kind else { continue };
-            let own = entry.bit_errors.iter().flat_map(|(_, codes)| codes);
-            let codes: BTreeSet<u16> =
-                fields.iter().flat_map(|field| &field.errors).chain(own).copied().collect();
+            let own = entry.bit_errors.iter().flat_map(BitErrors::error_codes);
+            let codes: BTreeSet<u16> = fields.iter().flat_map(BitField::error_codes).chain(own).collect();
             for code in codes {
                 let entries = lookup.showing.entry(code).or_default();
                 if !entries.contains(&id) {

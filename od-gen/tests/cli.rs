@@ -332,7 +332,7 @@ fn dcf_refuses_names_that_a_line_cannot_hold() {
         for name in [&"n".repeat(longest + 1), "a;b", "a#b", "a=b", "a\nb"] {
             let (code, said) = run(option, name);
             assert_eq!(code, 1);
-            assert!(said.starts_with(&format!("error[OD0318]: the text of `{option}` ")), "{said}");
+            assert!(said.starts_with(&format!("error[OD0319]: the text of `{option}` ")), "{said}");
         }
     }
     assert_eq!(files(&scratch.0), ["pmc-5.dcf"]);

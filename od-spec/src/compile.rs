@@ -1,12 +1,14 @@
 //! The one entry point: text in, model and diagnostics out.
 
 use crate::ast::Spec;
+use crate::check::{self, codes as rule_codes};
 use crate::decode::{decode, nearest};
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::System;
 use crate::resolve;
 use crate::source::{FileId, SourceMap, Span};
-use crate::yaml::{self, shorten};
+use crate::yaml;
 
 /// Libraries that come with the compiler: name and text.
 pub const LIBRARIES: &[(&str, &str)] = &[
@@ -44,14 +46,25 @@ impl Loader for NoFiles {
 
 /// Compiles the specification `root` of `sources`; libraries are added to `sources`.
 pub fn compile(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader) -> Compiled {
+    compile_with(&check::RULES.iter().collect::<Vec<_>>(), sources, root, loader)
+}
+
+/// Compiles under some of the rules.
+pub(crate) fn compile_with(
+    rules: &[&check::Rule],
+    sources: &mut SourceMap,
+    root: FileId,
+    loader: &mut dyn Loader,
+) -> Compiled {
     let mut diagnostics = Diagnostics::new();
-    let system = build(sources, root, loader, &mut diagnostics);
+    let system = build(rules, sources, root, loader, &mut diagnostics);
     diagnostics.sort();
     let system = system.filter(|_| !diagnostics.has_errors());
     Compiled { system, diagnostics }
 }
 
 fn build(
+    rules: &[&check::Rule],
     sources: &mut SourceMap,
     root: FileId,
     loader: &mut dyn Loader,
@@ -63,7 +76,9 @@ fn build(
     drop(node);
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
-    Some(resolve::resolve(&spec, &libraries, diagnostics))
+    let system = resolve::resolve(&spec, &libraries, diagnostics);
+    check::system(rules, &system, diagnostics);
+    Some(system)
 }
 
 fn libraries(
@@ -78,7 +93,7 @@ fn libraries(
         if let Some(first) = root.uses[..at].iter().find(|other| other.value == name.value) {
             diagnostics.push(
                 Diagnostic::new(
-                    codes::DUPLICATE_NAME,
+                    rule_codes::DUPLICATE_NAME,
                     name.span,
                     format!("library `{}` is used twice", shorten(&name.value)),
                 )

@@ -2,12 +2,16 @@
 
 use std::fmt::Write as _;
 
+use crate::check::RULES;
 use crate::diag::{Code, codes};
 
 /// All codes, ascending: those of reading and looking up, and those of the rules.
 pub fn all_codes() -> Vec<&'static Code> {
     let mut list: Vec<&Code> = codes::ALL.to_vec();
+    list.extend(RULES.iter().map(|rule| rule.code));
     list.sort();
+    // One code may be said by several rules.
+    list.dedup();
     list
 }
 

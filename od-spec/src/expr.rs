@@ -14,8 +14,8 @@
 use std::cmp::Ordering;
 use std::fmt;
 
+use crate::diag::shorten;
 use crate::model::{EntryId, Index, Ratio, SubIndex};
-use crate::yaml::shorten;
 
 /// Nesting of parentheses and minus signs that is read.
 const MAX_DEPTH: usize = 32;

@@ -40,10 +40,12 @@ mod resolve;
 pub mod source;
 pub mod yaml;
 
+pub use check::codes as rule_codes;
+pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
 pub use decode::is_device_key;
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
 pub use json_schema::json_schema;
-pub use parameters::{Assignment, ParameterValues, assign, eds_text_problem};
+pub use parameters::{Assignment, ParameterValues, assign};
 pub use reference::reference;

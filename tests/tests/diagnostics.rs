@@ -300,7 +300,7 @@ fn explanations_are_sentences() {
         assert!(explanation.ends_with(['.', '?', '}']), "{code}: {explanation}");
         assert_eq!(
             matches!(code.severity, Severity::Warning | Severity::Note),
-            code.id.starts_with("OD08") || code == codes::CONDITION_UNMET
+            code.id.starts_with("OD08") || code.id == "OD0710"
         );
     }
 }
@@ -584,19 +584,19 @@ fn settings_that_cannot_be_understood() {
 fn settings_that_are_refused() {
     insta::assert_snapshot!(settings(HEATER, "heater", &["temperature.measured=5"]), @r#"
         error[OD0703]: 2001h.4 (measured) is `ro`
-         --> --set:1:1
+         --> --set:1:22
           |
         1 | temperature.measured=5
-          | ^^^^^^^^^^^^^^^^^^^^
+          |                      ^
           |
         help: only entries that can be written over the bus can be set
         "#);
     insta::assert_snapshot!(settings(HEATER, "heater", &["2002=101"]), @r#"
         error[OD0704]: 2002h (calibration) is locked: factory-set, writable only in service
-         --> --set:1:1
+         --> --set:1:6
           |
         1 | 2002=101
-          | ^^^^
+          |      ^^^
           |
         help: leave the entry out; a PLC cannot write it
         "#);
@@ -605,12 +605,12 @@ fn settings_that_are_refused() {
          --> --set:1:1
           |
         1 | 1010.1=save
-          | ^^^^^^
+          | ^^^^^^^^^^^
           |
         help: leave the entry out; writing it triggers a command
         "#);
     insta::assert_snapshot!(settings(HEATER, "heater", &["2001.2=-0.5 °C"]), @r#"
-        error[OD0705]: 2001h.2 (high limit): -0.5 °C is outside 0.0 °C to 60.0 °C
+        error[OD0406]: 2001h.2 (high limit): -0.5 °C is outside 0.0 °C to 60.0 °C
          --> --set:1:8
           |
         1 | 2001.2=-0.5 °C
@@ -651,14 +651,17 @@ fn settings_that_are_refused() {
 #[test]
 fn settings_that_break_conditions() {
     insta::assert_snapshot!(settings(HEATER, "heater", &["2001.1=50.0 °C"]), @r#"
-        error[OD0606]: the settings break `limits keep their order`
-          --> --set:1:1
+        error[OD0606]: the values of `heater` break `limits keep their order`
+          --> --set:1:8
            |
          1 | 2001.1=50.0 °C
-           | ^^^^^^^^^^^^^^ 2001h.1 is 50, 2001h.2 is 40: not <
+           |        ^^^^^^^ 2001h.1 is 50, 2001h.2 is 40: not <
            |
-          ::: spec.od.yaml:28:38
+          ::: spec.od.yaml:21:38
            |
+        21 |       2: {name: high limit, default: 40.0 °C, min: 0.0 °C, max: 60.0 °C, special: {32767: no limit}}
+           |                                      ------- 2001h.2 is 40
+        ...
         28 |   limits keep their order: {require: "0x2001.1 < 0x2001.2"}
            |                                      --------------------- the constraint
            |
@@ -666,10 +669,10 @@ fn settings_that_break_conditions() {
         "#);
     insta::assert_snapshot!(settings(HEATER, "heater", &["2001.3=25.0 °C", "2000=manual"]), @r#"
         warning[OD0710]: the device accepts 2001h.3 only while `0x2000 == 2`
-         --> --set #1:1:1
+         --> --set #1:1:8
           |
         1 | 2001.3=25.0 °C
-          | ^^^^^^^^^^^^^^
+          |        ^^^^^^^
           |
         help: a download at boot will be refused unless the device is brought into that state first
         "#);
@@ -726,13 +729,14 @@ fn first_lines(device: &str, spec: &str, list: &[&[&str]]) -> String {
 #[test]
 fn settings_through_a_view_keep_the_limits_of_its_target() {
     insta::assert_snapshot!(settings(VIEWS, "views", &["5064=30000"]), @r#"
-        error[OD0705]: 5064h (short position): 30000 is 30000 in 6064h (position), which is outside 0 to 1000
+        error[OD0406]: 6064h (position): 30000 is outside 0 to 1000
          --> --set:1:6
           |
         1 | 5064=30000
           |      ^^^^^
           |
         help: write a value within the limits; the device refuses any other
+        note: 5064h is a view of 6064h
         "#);
     insta::assert_snapshot!(first_lines("views", VIEWS, &[
         &["5064=-1"],
@@ -742,9 +746,9 @@ fn settings_through_a_view_keep_the_limits_of_its_target() {
         &["5066=1500 mV"],
         &["5066=3000 mV"],
     ]), @r#"
-        5064=-1: error[OD0705]: 5064h (short position): -1 is -1 in 6064h (position), which is outside 0 to 1000
+        5064=-1: error[OD0406]: 6064h (position): -1 is outside 0 to 1000
         5064=800: 5064h = Integer(800)
-        5065=10 V, 2000=1: error[OD0705]: 5065h (coarse voltage): 10 V is 10000 mV in 6065h (voltage), which is outside 0 mV to 9000 mV
+        5065=10 V, 2000=1: error[OD0406]: 6065h (voltage): 10000 mV is outside 0 mV to 9000 mV
         5065=7 V, 2000=1: 2000h = Integer(1)
         5066=1500 mV: error[OD0412]: 5066h (fine voltage): 1500 mV is no whole number of steps of 6066h (battery)
         5066=3000 mV: 5066h = Integer(3000)
@@ -763,10 +767,10 @@ fn settings_with_a_formula_are_those_of_the_node() {
     ]), @r#"
         2005=$NODEID + 0x80: 2005h = NodeId(128)
         2005=$NODEID + 0xFB: 2005h = NodeId(251)
-        2005=$NODEID + 0xFC: error[OD0705]: 2005h (own identifier): 257 is outside 0 to 256
-        2006=0x15: error[OD0606]: the settings break `identifiers differ`
-        2006=$NODEID + 0x10: error[OD0606]: the settings break `identifiers differ`
-        2005=0x10: error[OD0606]: the settings break `identifiers differ`
+        2005=$NODEID + 0xFC: error[OD0406]: 2005h (own identifier): 257 is outside 0 to 256
+        2006=0x15: error[OD0606]: the values of `views` break `identifiers differ`
+        2006=$NODEID + 0x10: error[OD0606]: the values of `views` break `identifiers differ`
+        2005=0x10: error[OD0606]: the values of `views` break `identifiers differ`
         "#);
 }
 
@@ -781,11 +785,11 @@ fn settings_are_seen_by_conditions_under_every_name() {
         &["5065=7 V"],
         &["6065=7 V"],
     ]), @r#"
-        2000=3: error[OD0606]: the settings break `only in mode 0`
-        6064=950: error[OD0606]: the settings break `position keeps below`
-        5064=950: error[OD0606]: the settings break `position keeps below`
-        6065=8500 mV: error[OD0606]: the settings break `voltage keeps below`
-        5065=8 V, 2000=1: error[OD0606]: the settings break `voltage keeps below`
+        2000=3: error[OD0606]: the values of `views` break `only in mode 0`
+        6064=950: error[OD0606]: the values of `views` break `position keeps below`
+        5064=950: error[OD0606]: the values of `views` break `position keeps below`
+        6065=8500 mV: error[OD0606]: the values of `views` break `voltage keeps below`
+        5065=8 V, 2000=1: error[OD0606]: the values of `views` break `voltage keeps below`
         5065=7 V: warning[OD0710]: the device accepts 5065h only while `0x2000 == 1`
         6065=7 V: 6065h = Integer(7000)
         "#);
@@ -826,29 +830,29 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         1400.1=0x80000601: error[OD0503]: 1400h.1: 601h is kept for another service
         1400.1=0x800: error[OD0503]: 1400h.1: 800h is no 11-bit identifier
         1400.1=0x20000300: error[OD0503]: 1400h.1: 20000300h is no 11-bit identifier
-        1400.1=0xC0000300: 1400h.1 = Integer(3221226240)
+        1400.1=0xC0000300: error[OD0508]: 1400h.1: an RPDO is not asked for by remote frames
         1400.1=0x80000000: 1400h.1 = Integer(2147483648)
-        1400.1=$NODEID+0x180: error[OD0504]: 1400h.1: RPDO 1 would have the COB-ID of TPDO 1
+        1400.1=$NODEID+0x180: error[OD0504]: RPDO 1 and TPDO 1 of `views` have one COB-ID
         1400.1=$NODEID+0x80: 1400h.1 = NodeId(128)
         1400.1=$NODEID+0x300: 1400h.1 = NodeId(768)
-        1401.1=$NODEID+0x200: error[OD0504]: 1401h.1: RPDO 2 would have the COB-ID of RPDO 1
+        1401.1=$NODEID+0x200: error[OD0504]: RPDO 1 and RPDO 2 of `views` have one COB-ID
         1401.1=$NODEID+0x200, 1400.1=0x80000000: 1400h.1 = Integer(2147483648)
         1400.2=245: error[OD0505]: 1400h.2: transmission type 245 is reserved for RPDO 1
         1400.2=252: error[OD0505]: 1400h.2: transmission type 252 is reserved for RPDO 1
         1800.2=252: 1800h.2 = Integer(252)
         1800.6=240: 1800h.6 = Integer(240)
-        1800.6=241: error[OD0705]: 1800h.6: the SYNC counter never reaches 241
-        1600.0=9: error[OD0508]: 1600h: 9 entries are more than RPDO 1 can map: 8
+        1800.6=241: error[OD0508]: 1800h.6: the SYNC counter never reaches 241
+        1600.0=9: error[OD0508]: 1600h: RPDO 1 maps 9 entries, but offers 8
         1600.0=0: 1600h = Integer(0)
         1600.0=2: error[OD0508]: 1600h: RPDO 1 maps 2 entries, but entry 2 is empty
         1600.2=0x60670020: error[OD0502]: 1600h.2: 6067h (speed) cannot be mapped into RPDOs
         1600.2=0x60640010: error[OD0502]: 1600h.2: 6064h has 32 bits, not 16
         1600.2=0x70640010: error[OD0310]: 1600h.2: there is no entry 7064h
-        1600.2=0x20000008: error[OD0502]: 1600h.2: 2000h (mode) cannot be mapped into RPDOs
+        1600.2=0x20000008: error[OD0502]: 1600h.2: 2000h (mode) cannot be mapped into PDOs
         1600.0=2, 1600.2=0x60640020: 1600h = Integer(2)
-        1600.0=3, 1600.2=0x60640020, 1600.3=0x00050008: error[OD0507]: 1600h.3: RPDO 1 would carry 72 bits; a PDO holds 64
+        1600.0=3, 1600.2=0x60640020, 1600.3=0x00050008: error[OD0507]: RPDO 1 carries 72 bits
         1600.2=0x00060010: error[OD0506]: 1600h.2: RPDO 1 takes no UNSIGNED16 placeholder
-        1A00.2=0x00050008: error[OD0506]: 1A00h.2: TPDO 1 takes no UNSIGNED8 placeholder
+        1A00.2=0x00050008: error[OD0506]: 1A00h.2: a TPDO has no placeholders
         "#);
 }
 
@@ -879,16 +883,16 @@ fn settings_that_a_dcf_cannot_hold() {
     let lines = lines.replace(&"x".repeat(230), "x…").replace(&"A5".repeat(110), "A5…").replace('\t', "→");
     insta::assert_snapshot!(lines, @r#"
         not in tools=1: error[OD0703]: 2004h (not in tools) is `ro` in the EDS
-        label=x…xxxxxxxxxxx: error[OD0318]: 2001h (label): the value has 241 characters, a line holds 240
+        label=x…xxxxxxxxxxx: error[OD0319]: 2001h (label): the value has 241 characters, a line holds 240
         label=x…xxxxxxxxxx: 2001h = Text("x…xxxxxxxxxx")
-        key=A5…A5A5A5A5A5A5A5A5A5A5A5: error[OD0318]: 2002h (key): the value has 121 bytes, a line holds 120
-        label=a;b: error[OD0318]: 2001h (label): the value holds `;`, which readers misread
-        label=a=b: error[OD0318]: 2001h (label): the value holds `=`, which readers misread
-        label= a: error[OD0318]: 2001h (label): the value has blanks at its ends, which are lost
-        label=: error[OD0318]: 2001h (label): the value is empty, which reads as no value
-        title=≤ 5: error[OD0318]: 2007h (title): the value holds `=`, which readers misread
-        title=Größe: error[OD0318]: 2007h (title): the value has characters that a DCF cannot hold
-        title=a→b: error[OD0318]: 2007h (title): the value holds a control character, which readers misread
+        key=A5…A5A5A5A5A5A5A5A5A5A5A5: error[OD0319]: 2002h (key): the value has 121 bytes, a line holds 120
+        label=a;b: error[OD0319]: 2001h (label): the value holds `;`, which EDS readers misread
+        label=a=b: error[OD0319]: 2001h (label): the value holds `=`, which EDS readers misread
+        label= a: error[OD0319]: 2001h (label): the value has blanks at its ends, which are lost
+        label=: error[OD0319]: 2001h (label): the value is empty, which reads as no value
+        title=≤ 5: error[OD0319]: 2007h (title): the value holds `=`, which EDS readers misread
+        title=Größe: error[OD0319]: 2007h (title): the value has characters that an EDS cannot hold
+        title=a→b: error[OD0319]: 2007h (title): the value holds a control character, which EDS readers misread
         ratio=1e39: error[OD0401]: found `1e39`, expected a finite number
         ratio= 0.5 : 2003h = Real(0.5)
         "#);
@@ -900,7 +904,7 @@ fn settings_of_a_large_specification() {
     let said = |setting| {
         settings(PITCH, "pmm", &[setting]).lines().next().map(ToOwned::to_owned).unwrap_or_default()
     };
-    insta::assert_snapshot!(said("30FA.3=700 V"), @"error[OD0606]: the settings break `dc-link voltage ladder`");
+    insta::assert_snapshot!(said("30FA.3=700 V"), @"error[OD0606]: the values of `pmm` break `dc-link voltage ladder`");
     insta::assert_snapshot!(
         said("dc-link voltage.nominal valu=1"),
         @"error[OD0310]: `pmm` has no entry `dc-link voltage.nominal valu`"

@@ -1,6 +1,8 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
-use od_spec::model::{BitField, BitUsage, DataType, Dictionary, Edge, Entry, EnumValue, NamedType, Object};
+use od_spec::model::{
+    BitErrors, BitField, BitUsage, DataType, Dictionary, Edge, Entry, EnumValue, NamedType, Object,
+};
 
 use super::Columns;
 use super::objects::keys;
@@ -78,10 +80,11 @@ impl Source<'_> {
     /// Error codes of a bit: those of the type, then those of each entry that has the type. Where devices differ, they are
     /// named.
     fn codes(&self, named: &NamedType, field: &BitField) -> Cell {
-        let mut cell = Cell::plain(list(&field.errors));
+        let mut cell = Cell::plain(list(&field.error_codes().collect::<Vec<_>>()));
         let of = |entry: &Entry| -> Vec<u16> {
-            let own = entry.bit_errors.iter().filter(|(bit, _)| (field.first..=field.last).contains(bit));
-            own.flat_map(|(_, codes)| codes.iter().copied()).collect()
+            let own =
+                entry.bit_errors.iter().filter(|errors| (field.first..=field.last).contains(&errors.bit));
+            own.flat_map(BitErrors::error_codes).collect()
         };
         for id in self.with_bit_errors(&named.name).iter().copied() {
             let entry = |device: &Dictionary| {

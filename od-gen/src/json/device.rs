@@ -195,9 +195,9 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
         bit_errors: entry
             .bit_errors
             .iter()
-            .map(|(bit, codes)| {
-                let codes: Vec<String> = codes.iter().map(|code| format!("0x{code:04X}")).collect();
-                json!({"bit": bit, "errors": codes})
+            .map(|errors| {
+                let codes: Vec<String> = errors.error_codes().map(|code| format!("0x{code:04X}")).collect();
+                json!({"bit": errors.bit, "errors": codes})
             })
             .collect(),
         eds: json!({

@@ -98,7 +98,7 @@ fn bit_view(field: &BitField) -> BitView<'_> {
         },
         name: &field.name,
         about: words(&field.about),
-        errors: field.errors.iter().map(|code| format!("0x{code:04X}")).collect(),
+        errors: field.error_codes().map(|code| format!("0x{code:04X}")).collect(),
         clamp: field.clamp.as_deref(),
         active: field.active,
         edge: field.edge.map(model::Edge::word),

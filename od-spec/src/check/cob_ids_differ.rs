@@ -1,68 +1,101 @@
-//! PDOs that are valid after start-up have COB-IDs of their own.
+//! PDOs that exist after start-up, and the services SYNC, TIME and EMCY, have COB-IDs of their own.
 
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, EntryId, Index, Pdo, SubIndex, Value};
+use super::pdo::{NOT_VALID, title};
+use super::subject::entry_id;
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Fact, Value};
+use crate::source::Span;
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
-    let valid: Vec<&Pdo> = device.pdos.iter().filter(|pdo| pdo.valid).collect();
-    for (at, pdo) in valid.iter().enumerate() {
-        check_services(device, pdo, diagnostics);
-        for other in &valid[at + 1..] {
-            if let Some(node) = clash(&pdo.cob_id, &other.cob_id) {
-                let of_node = match (&pdo.cob_id, &other.cob_id) {
-                    (Value::Integer(_), Value::Integer(_)) | (Value::NodeId(_), Value::NodeId(_)) => {
-                        String::new()
-                    }
-                    _ => format!(" on node {node}"),
-                };
-                let name = |pdo: &Pdo| format!("{} {}", pdo.direction.pdo(), pdo.number);
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::COB_ID_CLASH,
-                        other.span,
-                        format!(
-                            "{} and {} of `{}` have one COB-ID{of_node}",
-                            name(pdo),
-                            name(other),
-                            device.key
-                        ),
-                    )
-                    .label(name(other))
-                    .with(pdo.span, name(pdo))
-                    .help("give one of them another `cob-id:`, or make it `valid: no`"),
-                );
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0504",
+    severity: Severity::Error,
+    title: "two services with one COB-ID",
+    explanation: "Two PDOs that are valid after start-up, or a PDO and SYNC, TIME or EMCY, use one identifier; the device would disturb its own traffic, \
+        and a receiver would take one for the other. Give one of them another identifier, or make the PDO `valid: no`.",
+    clause: Some("CiA 301, tables 33 and 34 (pre-defined connection set)"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [level]}, 2: {cob-id: $NODEID + 0x180, map: [level]}}}",
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [level]}, 2: {map: [level]}}}",
+    )),
+};
+
+/// Services whose COB-IDs a PDO must leave alone.
+const SERVICES: [(u16, &str); 3] = [(0x1005, "SYNC"), (0x1012, "TIME"), (0x1014, "EMCY")];
+
+/// Something that has a COB-ID.
+struct User<'a> {
+    name: String,
+    value: &'a Value,
+    place: Span,
+    is_set: bool,
+    is_pdo: bool,
+}
+
+impl User<'_> {
+    /// The identifier on a node, whatever the flag bits.
+    fn identifier(&self, node: u8) -> Option<i128> {
+        self.value.integer_for(node).map(|raw| raw & 0x1FFF_FFFF)
+    }
+}
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let users = users(subject);
+    for (at, second) in users.iter().enumerate().filter(|(_, user)| user.is_pdo) {
+        for first in &users[..at] {
+            let clash =
+                |node: &u8| first.identifier(*node).is_some_and(|id| second.identifier(*node) == Some(id));
+            if let Some(node) = subject.nodes().find(clash) {
+                findings.push_each(finding(subject, first, second, node));
             }
         }
     }
 }
 
-/// Services of the device whose COB-IDs a PDO must leave alone: index and name.
-const SERVICES: [(u16, &str); 3] = [(0x1005, "SYNC"), (0x1012, "TIME"), (0x1014, "EMCY")];
-
-fn check_services(device: &Dictionary, pdo: &Pdo, diagnostics: &mut Diagnostics) {
-    for (index, service) in SERVICES {
-        let id = EntryId { index: Index(index), sub: SubIndex(0) };
-        let Some(own) = device.entry(id).and_then(|entry| entry.default.as_ref()) else { continue };
-        if clash(&pdo.cob_id, own).is_some() {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::COB_ID_CLASH,
-                    pdo.span,
-                    format!(
-                        "{} {} of `{}` has the COB-ID of {service} ({id})",
-                        pdo.direction.pdo(),
-                        pdo.number,
-                        device.key
-                    ),
-                )
-                .help("give the PDO another `cob-id:`"),
-            );
-        }
-    }
+/// The services, and then the PDOs that exist.
+fn users<'a>(subject: &Subject<'a>) -> Vec<User<'a>> {
+    let services = SERVICES.iter().filter_map(|(index, service)| {
+        let id = entry_id(*index, 0);
+        let entry = subject.device.entry(id)?;
+        Some(User {
+            name: format!("{service} ({id})"),
+            value: entry.default.as_ref()?,
+            place: subject.place(entry, Fact::Default),
+            is_set: entry.is_set(),
+            is_pdo: false,
+        })
+    });
+    let pdos = subject.device.pdos.iter().filter_map(|pdo| {
+        let parameter = subject.communication(pdo, 1)?;
+        let exists = |node| parameter.value.integer_for(node).is_some_and(|raw| raw & NOT_VALID == 0);
+        subject.nodes().any(exists).then(|| User {
+            name: title(pdo),
+            value: parameter.value,
+            place: parameter.place,
+            is_set: parameter.entry.is_set(),
+            is_pdo: true,
+        })
+    });
+    services.chain(pdos).collect()
 }
 
-/// The first node on which two COB-IDs are equal, whatever their flag bits.
-fn clash(one: &Value, other: &Value) -> Option<u8> {
-    let identifier = |value: &Value, node| value.integer_for(node).map(|raw| raw & 0x1FFF_FFFF);
-    (1..=127).find(|node| identifier(one, *node).is_some_and(|id| identifier(other, *node) == Some(id)))
+fn finding(subject: &Subject<'_>, first: &User<'_>, second: &User<'_>, node: u8) -> Diagnostic {
+    let differ = matches!(
+        (first.value, second.value),
+        (Value::Integer(_), Value::NodeId(_)) | (Value::NodeId(_), Value::Integer(_))
+    );
+    let on_node = if differ && subject.node.is_none() { format!(" on node {node}") } else { String::new() };
+    let (blamed, namesake) = if first.is_set && !second.is_set { (first, second) } else { (second, first) };
+    let message =
+        format!("{} and {} of `{}` have one COB-ID{on_node}", first.name, second.name, subject.device.key);
+    let diagnostic = Diagnostic::new(CODE, blamed.place, message)
+        .label(blamed.name.clone())
+        .help("give one of them another COB-ID, or make the PDO `valid: no` (bit 31)");
+    // What a library says has no place in the specification.
+    if namesake.place == subject.device.span {
+        return diagnostic;
+    }
+    diagnostic.with(namesake.place, namesake.name.clone())
 }

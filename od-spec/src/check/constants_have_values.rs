@@ -1,25 +1,37 @@
 //! A constant states its value.
 
-use super::own_place;
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Access, DataType, Dictionary, Origin};
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Access, DataType, Fact};
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
-    for (id, object, entry) in device.entries() {
-        if entry.access == Access::Const && entry.default.is_none() && entry.data_type != DataType::Domain {
-            let help = if object.origin == Origin::Profile {
-                format!("write it among the objects: `0x{:04X}: {{from: cia301, default: …}}`", id.index.0)
-            } else {
-                "add `default:`, or make it `ro`".to_owned()
-            };
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::CONST_WITHOUT_DEFAULT,
-                    own_place(device, entry.span),
-                    format!("{id} ({}) of `{}` is constant, but has no value", object.name, device.key),
-                )
-                .help(help),
-            );
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0805",
+    severity: Severity::Warning,
+    title: "a constant without a value",
+    explanation: "A `const` entry has one value for ever; without it, an EDS leaves the reader in the dark, and generated code has nothing to answer. \
+        State it as `default`, or make the entry `ro`.",
+    clause: Some("CiA 306, 4.6.3.2 (AccessType, DefaultValue)"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: scale, type: unsigned8, access: const}",
+        "objects:\n  0x2000: {name: scale, type: unsigned8, access: const, default: 1}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for (id, object, entry) in subject.device.entries() {
+        if entry.access != Access::Const || entry.default.is_some() || entry.data_type == DataType::Domain {
+            continue;
         }
+        let help = match object.profile.as_ref().filter(|_| entry.is_only_standard(Fact::Access)) {
+            Some(library) => {
+                format!("write it among the objects: `0x{:04X}: {{from: {library}, default: …}}`", id.index.0)
+            }
+            None => "add `default:`, or make it `ro`".to_owned(),
+        };
+        let message =
+            format!("{id} ({}) of `{}` is constant, but has no value", object.name, subject.device.key);
+        findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Access), message).help(help));
     }
 }

@@ -1,36 +1,52 @@
-//! Every unit and type of a specification is used by an entry or a table.
+//! Every unit and type that the maker defines is used by an entry or a table.
 
-use crate::ast::{Name, Spec};
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{System, TableContent};
+use super::{Check, Findings, Needs, Rule};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Author, Statement, System, TableContent};
 
-pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
-    // A library defines for others.
-    if root.profile.is_some() {
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::System(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0806",
+    severity: Severity::Warning,
+    title: "a definition that nothing uses",
+    explanation: "A unit or type is defined but no entry refers to it. A leftover, or an entry lost its `unit:` or `type:`, and with it its scale or its \
+        meaning? Remove the definition, or use it.",
+    clause: None,
+    example: Some(Example::new(
+        "units:\n  volt: {symbol: V}\nobjects:\n  0x2000: {name: voltage, type: unsigned8, access: ro}",
+        "units:\n  volt: {symbol: V}\nobjects:\n  0x2000: {name: voltage, type: unsigned8, unit: volt, access: ro}",
+    )),
+};
+
+fn check(system: &System, findings: &mut Findings) {
+    // What has no devices defines for others.
+    if system.devices.is_empty() {
         return;
     }
     let entries = || system.devices.iter().flat_map(|device| device.entries().map(|(.., entry)| entry));
-    let tables = || system.document.sections.iter().flat_map(|section| &section.tables);
-    let mut unused = |name: &Name, what: &str| {
-        diagnostics.push(
-            Diagnostic::new(codes::UNUSED, name.span, format!("nothing uses {what} `{}`", name.value))
-                .help("remove it, or did an entry lose its key?"),
-        );
+    let tables = || system.document.tables().map(|(.., table)| &table.content);
+    let mut unused = |what: &str, name: &str, stated: Statement| {
+        if stated.author == Author::Maker {
+            findings.push(
+                Diagnostic::new(CODE, stated.span, format!("nothing uses {what} `{name}`"))
+                    .help("remove it, or did an entry lose its key?"),
+            );
+        }
     };
-    for decl in &root.units {
-        if !entries().any(|entry| entry.unit.as_ref().is_some_and(|unit| unit.name == decl.name.value)) {
-            unused(&decl.name, "unit");
+    for unit in system.units.values() {
+        if !entries().any(|entry| entry.unit.as_ref().is_some_and(|used| used.name == unit.name)) {
+            unused("unit", &unit.name, unit.stated);
         }
     }
-    for decl in &root.types {
-        let name = &decl.name.value;
+    for named in system.types.values() {
         let by_entry =
-            entries().any(|entry| entry.named_type.as_ref().is_some_and(|named| named.name == *name));
-        let by_table = tables().any(|table| {
-            matches!(&table.content, TableContent::Bits(one) | TableContent::Values(one) if one == name)
-        });
+            entries().any(|entry| entry.named_type.as_ref().is_some_and(|used| used.name == named.name));
+        let by_table = tables().any(
+            |content| matches!(content, TableContent::Bits(name) | TableContent::Values(name) if *name == named.name),
+        );
         if !by_entry && !by_table {
-            unused(&decl.name, "type");
+            unused("type", &named.name, named.stated);
         }
     }
 }

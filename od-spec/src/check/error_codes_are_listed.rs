@@ -1,31 +1,44 @@
 //! Error codes that bits refer to stand in `errors:`, where a specification has such a list.
 
-use crate::ast::Spec;
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::System;
-use crate::source::Spanned;
+use super::{Check, Findings, Needs, Rule};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Author, System, TypeKind};
 
-pub(super) fn check(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::System(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0808",
+    severity: Severity::Warning,
+    title: "an error code that is not listed",
+    explanation: "A bit refers to an error code that `errors:` does not have, so that the documents cannot say what it means and generated code has no name \
+        for it. Add the code to `errors:`, or correct it.",
+    clause: None,
+    example: Some(Example::new(
+        "types:\n  faults: {base: unsigned8, bits: {0: {name: overload, error: 0x2310}}, rest: reserved}\nobjects:\n  0x2000: {name: faults, type: faults, access: ro}\nerrors:\n  0x8110: {name: CAN overrun}",
+        "types:\n  faults: {base: unsigned8, bits: {0: {name: overload, error: 0x2310}}, rest: reserved}\nobjects:\n  0x2000: {name: faults, type: faults, access: ro}\nerrors:\n  0x2310: {name: overload}",
+    )),
+};
+
+fn check(system: &System, findings: &mut Findings) {
     if system.errors.is_empty() {
         return;
     }
-    let of_types = root.types.iter().flat_map(|decl| decl.bits.iter().flatten()).flat_map(|bit| &bit.errors);
-    let of_entries = root.objects.iter().flat_map(|object| {
-        let elements = object.array.iter().flat_map(|array| array.elements.iter().map(|(_, entry)| entry));
-        let members = object.record.iter().flat_map(|record| record.members.iter().map(|(_, entry)| entry));
-        let own = object.array.iter().map(|array| &array.entry).chain([&object.entry]);
-        elements.chain(members).chain(own).filter_map(|entry| entry.bit_errors.as_ref())
+    let by_maker = system.types.values().filter(|named| named.stated.author == Author::Maker);
+    let fields = by_maker.flat_map(|named| match &named.kind {
+        TypeKind::Bits(fields) => fields.as_slice(),
+        TypeKind::Enum(_) => &[],
     });
-    let of_entries = of_entries.flat_map(|list| &list.value).flat_map(|decl| &decl.codes);
-    for Spanned { value: code, span } in of_types.chain(of_entries) {
-        if !system.errors.iter().any(|error| i128::from(error.code) == *code) {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::UNLISTED_ERROR_CODE,
-                    *span,
-                    format!("`errors:` does not list {code:04X}h"),
-                )
-                .help("add the code to `errors:`, or correct it"),
+    let of_types = fields.flat_map(|field| &field.errors);
+    let of_entries = system.devices.iter().flat_map(|device| {
+        let entries = device.entries().map(|(.., entry)| entry);
+        let lists = entries.flat_map(|entry| &entry.bit_errors).flat_map(|bit| &bit.codes);
+        lists.filter(|code| code.span.file == device.span.file)
+    });
+    for code in of_types.chain(of_entries) {
+        if !system.errors.iter().any(|error| error.code == code.value) {
+            findings.push(
+                Diagnostic::new(CODE, code.span, format!("`errors:` does not list {:04X}h", code.value))
+                    .help("add the code to `errors:`, or correct it"),
             );
         }
     }

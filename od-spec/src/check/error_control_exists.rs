@@ -1,19 +1,33 @@
-//! A device has heartbeat or node guarding (CiA 301, categories of 100Ch and 1017h).
+//! A device has heartbeat or node guarding.
 
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, Index};
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Index;
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0803",
+    severity: Severity::Warning,
+    title: "neither heartbeat nor node guarding",
+    explanation: "CiA 301 demands one of the two: without them no master notices that the device has gone. Add the feature `heartbeat producer`.",
+    clause: Some("CiA 301, objects 100Ch, 100Dh and 1017h"),
+    example: Some(Example::new(
+        "devices:\n  io: {name: Example, bit-rates: [125]}",
+        "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer]}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let device = subject.device;
     let has = |index: u16| device.objects.contains_key(&Index(index));
     let guarding = has(0x100C) && has(0x100D);
     if !guarding && !has(0x1017) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::NO_ERROR_CONTROL,
-                device.span,
-                format!("`{}` has neither heartbeat (1017h) nor node guarding (100Ch, 100Dh)", device.key),
-            )
-            .help("add the feature `heartbeat producer` of `cia301`"),
+        let message =
+            format!("`{}` has neither heartbeat (1017h) nor node guarding (100Ch, 100Dh)", device.key);
+        findings.push(
+            Diagnostic::new(CODE, device.span, message)
+                .help("add the feature `heartbeat producer` of `cia301`"),
         );
     }
 }

@@ -1,21 +1,35 @@
 //! Granularity 0 means "no mapping can be changed", and nothing else does.
 
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::Dictionary;
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0509",
+    severity: Severity::Error,
+    title: "granularity against mapping",
+    explanation: "A granularity of 0 tells tools that no mapping can be changed; any other value that at least one can. The PDOs say the opposite: a \
+        tool would refuse to change a mapping that can be changed, or try where it cannot. Correct `granularity:` of the device, or `mapping:` of \
+        the PDOs.",
+    clause: Some("CiA 306, 4.5 ([DeviceInfo], Granularity)"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {mapping: fixed, map: [level]}}}",
+        "devices:\n  io: {name: Example, bit-rates: [125], granularity: 0, features: [heartbeat producer]}\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {mapping: fixed, map: [level]}}}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let device = subject.device;
     let Some(first) = device.pdos.first() else { return };
-    let granularity = device.info.granularity;
     let variable = device.pdos.iter().find(|pdo| pdo.variable_mapping);
-    let problem = match (granularity, variable) {
-        (0, Some(pdo)) => Some((pdo.span, "granularity is 0, but this mapping can be changed")),
-        (1.., None) => Some((first.span, "granularity is not 0, but no mapping can be changed")),
-        _ => None,
+    let (pdo, problem) = match (device.info.granularity, variable) {
+        (0, Some(pdo)) => (pdo, "granularity is 0, but this mapping can be changed"),
+        (1.., None) => (first, "granularity is not 0, but no mapping can be changed"),
+        (0, None) | (1.., Some(_)) => return,
     };
-    if let Some((span, message)) = problem {
-        diagnostics.push(
-            Diagnostic::new(codes::GRANULARITY_MISMATCH, span, format!("`{}`: {message}", device.key))
-                .help("correct the device's `granularity:`, or `mapping:` of the PDOs"),
-        );
-    }
+    findings.push(
+        Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key))
+            .help("correct the device's `granularity:`, or `mapping:` of the PDOs"),
+    );
 }

@@ -1,9 +1,25 @@
 //! Every device has 1000h, 1001h and 1018h.
 
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, Index};
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Index;
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0801",
+    severity: Severity::Warning,
+    title: "a mandatory object is missing",
+    explanation: "Every CANopen device has 1000h, 1001h and 1018h; a master reads them at boot to know whom it talks to. `uses: [cia301]` brings them.",
+    clause: Some("CiA 301, objects 1000h, 1001h and 1018h"),
+    example: Some(Example::new(
+        "uses: []\nobjects:\n  0x1017: {name: Producer heartbeat time, type: unsigned16, access: rw, default: 0}\ndevices:\n  io: {name: Example, bit-rates: [125]}",
+        "uses: [cia301]\ndevices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer]}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let device = subject.device;
     let missing: Vec<String> = [0x1000, 0x1001, 0x1018]
         .map(Index)
         .into_iter()
@@ -11,13 +27,10 @@ pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
         .map(|index| index.to_string())
         .collect();
     if !missing.is_empty() {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::MANDATORY_MISSING,
-                device.span,
-                format!("`{}` lacks {}", device.key, missing.join(", ")),
-            )
-            .help("add `uses: [cia301]` at the top of the specification"),
+        let message = format!("`{}` lacks {}", device.key, missing.join(", "));
+        findings.push(
+            Diagnostic::new(CODE, device.span, message)
+                .help("add `uses: [cia301]` at the top of the specification"),
         );
     }
 }

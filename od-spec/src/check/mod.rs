@@ -1,71 +1,206 @@
-//! Rules over the resolved model, one file each. What concerns a single value is checked where it is read.
+//! The rules, one file each, named after the fact that they establish. A rule's file holds its code, what it means, an
+//! example before and after, and the check itself; `odgen explain` and `docs/messages.md` are printed from there.
+//!
+//! Rules see the model and nothing else: a value may have been written in a specification, in a library, or in a setting
+//! laid over both; the place of a message comes from the fact that it is about.
 
+#[cfg(test)]
+mod examples;
+mod findings;
+mod pdo;
+mod subject;
+mod words;
+
+mod arrays_have_one_type;
+mod bit_rates_are_standard;
+mod bit_rates_exist;
+mod cob_ids_are_unrestricted;
 mod cob_ids_differ;
+mod commands_are_not_downloaded;
+mod constants_are_not_stored;
 mod constants_have_values;
+mod constraints_hold;
+mod counts_agree;
 mod definitions_are_used;
-mod entries_are_consistent;
 mod error_codes_are_listed;
 mod error_control_exists;
 mod granularity_fits_mapping;
+mod identity_agrees;
 mod indices_in_object_areas;
-pub(crate) mod keys_have_effect;
+mod limits_in_order;
+mod locked_entries_are_not_set;
+mod locks_guard_writing;
 mod lss_has_serial_number;
 mod mandatory_objects_exist;
 mod mappable_entries_have_pdos;
+mod mappable_types_have_a_length;
+mod mapped_entries_are_mappable;
+mod mapping_follows_access;
+mod names_are_unique;
 mod names_fit_eds;
-mod object_names_unique;
+mod pdo_parameters_agree;
+mod pdos_fit_a_frame;
+mod placeholders_are_accepted;
 mod real_defaults;
 mod reserved_bits_are_zero;
+mod set_entries_are_writable;
 mod stored_entries_can_be_stored;
+pub(crate) mod texts_fit_eds;
+mod transmission_types_are_defined;
+mod value_fits_type;
+mod value_in_enum;
+mod value_within_limits;
+mod write_conditions_are_met;
 
-use crate::ast::Spec;
-use crate::diag::Diagnostics;
+/// Codes of rules that reading and looking up report as well.
+pub mod codes {
+    pub(crate) use super::cob_ids_are_unrestricted::CODE as BAD_COB_ID;
+    pub use super::counts_agree::CODE as COUNT_MISMATCH;
+    pub use super::names_are_unique::CODE as DUPLICATE_NAME;
+    pub use super::texts_fit_eds::CODE as NOT_FOR_EDS;
+    pub use super::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
+    pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
+}
+
+use crate::diag::{Code, Diagnostics};
 use crate::model::{Dictionary, System};
-use crate::source::Span;
 
-/// A rule over one device.
-type Rule = fn(&Dictionary, &mut Diagnostics);
+use findings::Findings;
+pub(crate) use subject::Subject;
 
-/// Rules about what is there.
-const PRESENCE: [Rule; 5] = [
-    cob_ids_differ::check,
-    indices_in_object_areas::check,
-    names_fit_eds::check,
-    object_names_unique::check,
-    real_defaults::check,
-];
+/// A rule: what it is about, when it can say something, and how it looks.
+pub(crate) struct Rule {
+    /// Its code, with severity, explanation and example.
+    pub code: &'static Code,
+    /// What has to be right before.
+    pub needs: Needs,
+    /// How it looks.
+    pub check: Check,
+}
 
-/// Rules about what is not there, or was derived. With an error in the specification they would blame what is only a
-/// consequence of it.
-const ABSENCE: [Rule; 9] = [
-    entries_are_consistent::check,
-    constants_have_values::check,
-    error_control_exists::check,
-    granularity_fits_mapping::check,
-    lss_has_serial_number::check,
-    mandatory_objects_exist::check,
-    mappable_entries_have_pdos::check,
-    reserved_bits_are_zero::check,
-    stored_entries_can_be_stored::check,
-];
-
-/// Applies every rule.
-pub(crate) fn run(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
-    let complete = !diagnostics.has_errors();
-    error_codes_are_listed::check(root, system, diagnostics);
-    names_fit_eds::check_vendor(root, diagnostics);
-    if complete {
-        definitions_are_used::check(root, system, diagnostics);
+impl Rule {
+    /// Whether it asks what can be set, whatever the value.
+    pub(crate) const fn is_about_setting(&self) -> bool {
+        matches!(self.check, Check::Settings(_))
     }
-    let rules = PRESENCE.into_iter().chain(ABSENCE.into_iter().filter(|_| complete));
-    for rule in rules {
-        for device in &system.devices {
-            rule(device, diagnostics);
+}
+
+/// What a rule presupposes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Needs {
+    /// Nothing: it looks at what is there.
+    Nothing,
+    /// That nothing was left out as wrong: it looks at what is missing, or at what was derived, and would blame what is only
+    /// a consequence.
+    Everything,
+}
+
+/// What a rule looks at.
+#[derive(Clone, Copy)]
+pub(crate) enum Check {
+    /// What the devices share.
+    System(fn(&System, &mut Findings)),
+    /// One device, as a type or as a configured node.
+    Device(fn(&Subject<'_>, &mut Findings)),
+    /// One configured node: what is set, and whether it can be set.
+    Settings(fn(&Subject<'_>, &mut Findings)),
+}
+
+/// All rules, by code.
+pub(crate) static RULES: &[Rule] = &[
+    names_are_unique::RULE,
+    counts_agree::RULE,
+    arrays_have_one_type::RULE,
+    indices_in_object_areas::RULE,
+    names_fit_eds::RULE,
+    texts_fit_eds::RULE,
+    value_in_enum::RULE,
+    value_fits_type::RULE,
+    value_within_limits::RULE,
+    limits_in_order::RULE,
+    locks_guard_writing::RULE,
+    constants_are_not_stored::RULE,
+    mappable_types_have_a_length::RULE,
+    mapping_follows_access::RULE,
+    mapped_entries_are_mappable::RULE,
+    cob_ids_are_unrestricted::RULE,
+    cob_ids_differ::RULE,
+    transmission_types_are_defined::RULE,
+    placeholders_are_accepted::RULE,
+    pdos_fit_a_frame::RULE,
+    pdo_parameters_agree::RULE,
+    granularity_fits_mapping::RULE,
+    bit_rates_are_standard::RULE,
+    bit_rates_exist::RULE,
+    constraints_hold::RULE,
+    identity_agrees::RULE,
+    set_entries_are_writable::RULE,
+    locked_entries_are_not_set::RULE,
+    commands_are_not_downloaded::RULE,
+    write_conditions_are_met::RULE,
+    mandatory_objects_exist::RULE,
+    mappable_entries_have_pdos::RULE,
+    error_control_exists::RULE,
+    lss_has_serial_number::RULE,
+    constants_have_values::RULE,
+    definitions_are_used::RULE,
+    real_defaults::RULE,
+    error_codes_are_listed::RULE,
+    stored_entries_can_be_stored::RULE,
+    reserved_bits_are_zero::RULE,
+];
+
+/// Applies the rules to a system whose devices are types: each may become any node.
+pub(crate) fn system(rules: &[&Rule], system: &System, diagnostics: &mut Diagnostics) {
+    for needs in [Needs::Nothing, Needs::Everything] {
+        if needs == Needs::Everything && diagnostics.has_errors() {
+            return;
+        }
+        for rule in rules.iter().filter(|rule| rule.needs == needs) {
+            apply(rule, system, diagnostics);
         }
     }
 }
 
-/// The place of something in a device; of the device itself for what comes from a library, which is right.
-fn own_place(device: &Dictionary, span: Span) -> Span {
-    if span.file == device.span.file { span } else { device.span }
+fn apply(rule: &Rule, system: &System, diagnostics: &mut Diagnostics) {
+    match rule.check {
+        Check::System(check) => {
+            let mut findings = Findings::anywhere();
+            check(system, &mut findings);
+            diagnostics.append(findings.into_diagnostics());
+        }
+        Check::Device(check) => {
+            for device in &system.devices {
+                let mut findings = Findings::of(device);
+                check(&Subject { system, device, node: None }, &mut findings);
+                diagnostics.append(findings.into_diagnostics());
+            }
+        }
+        Check::Settings(_) => {}
+    }
+}
+
+/// Applies the rules to one configured node: `device` has the settings laid over its defaults. What is wrong without the
+/// settings is not said again.
+pub(crate) fn configuration(
+    rules: &[&Rule],
+    system: &System,
+    device: &Dictionary,
+    node: u8,
+    diagnostics: &mut Diagnostics,
+) {
+    let subject = Subject { system, device, node: Some(node) };
+    let before = diagnostics.count().0;
+    // As for a specification: what is only a consequence of something wrong is not said.
+    for needs in [Needs::Nothing, Needs::Everything] {
+        if needs == Needs::Everything && diagnostics.count().0 > before {
+            return;
+        }
+        for rule in rules.iter().filter(|rule| rule.needs == needs) {
+            let (Check::Device(check) | Check::Settings(check)) = rule.check else { continue };
+            let mut findings = Findings::of(device);
+            check(&subject, &mut findings);
+            diagnostics.append(findings.touching(&subject.settings()));
+        }
+    }
 }

@@ -1,126 +1,100 @@
 //! Names can be written into an EDS that every tool reads alike.
 
-use crate::ast::Spec;
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, Entry, Value};
+use super::texts_fit_eds::unfit;
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::ascii::transliterate;
+use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
+use crate::model::{Dictionary, Fact};
 use crate::source::Span;
-use crate::yaml::shorten;
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0318",
+    severity: Severity::Error,
+    title: "a text that an EDS cannot hold",
+    explanation: "An EDS line has at most 255 characters, which leaves 241 for a name. `;`, `#` and `=` in names and texts are read as comments or keys by \
+        several PLC tools, so they are refused; blanks at the ends of a string are lost. Characters outside ASCII are transliterated. What \
+        readers see would otherwise depend on the reader. Choose another name or text, or withhold the default from the EDS.",
+    clause: Some("CiA 306, 4.2 and 4.6.3.2"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: speed = 0, type: unsigned8, access: ro}",
+        "objects:\n  0x2000: {name: speed is 0, type: unsigned8, access: ro}",
+    )),
+};
 
 /// Longest `ParameterName` (CiA 306 4.6.3.2).
 const LONGEST: usize = 241;
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
-    check_header(device, diagnostics);
-    for object in device.objects.values() {
-        check_name(&object.name, object.span, diagnostics);
-        if object.is_structured() {
-            for entry in &object.entries {
-                check_name(&entry.name, entry.span, diagnostics);
-            }
-        }
-        for entry in &object.entries {
-            check_text_default(entry, diagnostics);
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    check_header(subject.device, findings);
+    check_vendor(subject, findings);
+    for object in subject.device.objects.values() {
+        check_name(&object.name, subject.object_place(object), findings);
+        for entry in object.entries.iter().filter(|_| object.is_structured()) {
+            check_name(&entry.name, subject.place(entry, Fact::Name), findings);
         }
     }
 }
 
-/// Longest `DefaultValue` on a line of 255 characters.
-const LONGEST_VALUE: usize = 255 - "DefaultValue=".len();
-
-/// A default stands on one line, without quotes and in ASCII.
-fn check_text_default(entry: &Entry, diagnostics: &mut Diagnostics) {
-    let Some(default) = entry.default.as_ref().filter(|_| entry.eds.default) else { return };
-    let shown = crate::model::format_value(entry, default);
-    let is_text = matches!(default, Value::Text(_));
-    let is_line = matches!(default, Value::Text(_) | Value::Bytes(_));
-    let problem = if is_line && shown.chars().count() > LONGEST_VALUE {
-        format!("the default has {} characters, an EDS line holds {LONGEST_VALUE}", shown.chars().count())
-    } else if is_text && shown.trim() != shown {
-        "blanks at the start or end of the default are lost in an EDS".to_owned()
-    } else if is_text && !shown.is_ascii() {
-        "the default has characters that an EDS cannot hold".to_owned()
-    } else if let Some(c) = shown.chars().find(|c| is_text && is_unfit(*c)) {
-        format!("the default holds `{}`, which EDS readers misread", c.escape_default())
-    } else {
-        return;
-    };
-    diagnostics.push(
-        Diagnostic::new(codes::NOT_FOR_EDS, entry.span, problem).help(
-            "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`",
-        ),
-    );
-}
-
 /// The vendor's name stands in every EDS.
-pub(super) fn check_vendor(root: &Spec, diagnostics: &mut Diagnostics) {
-    let Some(name) = root.vendor.as_ref().and_then(|vendor| vendor.name.as_ref()) else { return };
-    let length = crate::ascii::transliterate(&name.value).len();
-    if length > 244 || name.value.chars().any(is_unfit) {
-        diagnostics.push(
-            Diagnostic::new(codes::NOT_FOR_EDS, name.span, "the vendor's name does not fit an EDS")
+fn check_vendor(subject: &Subject<'_>, findings: &mut Findings) {
+    let vendor = &subject.system.vendor;
+    let Some(place) = vendor.name_span else { return };
+    if transliterate(&vendor.name).len() > 244 || vendor.name.chars().any(|c| unfit(c).is_some()) {
+        findings.push(
+            Diagnostic::new(CODE, place, "the vendor's name does not fit an EDS")
                 .help("at most 244 characters, without `;`, `#` and `=`"),
         );
     }
 }
 
+/// A text of the EDS's header, and how long it may be.
+struct HeaderText<'a> {
+    key: &'static str,
+    text: &'a str,
+    longest: usize,
+}
+
 /// Texts of `[FileInfo]` and `[DeviceInfo]` with the length that CiA 306 4.4 and 4.5 give them.
-fn check_header(device: &Dictionary, diagnostics: &mut Diagnostics) {
+fn check_header(device: &Dictionary, findings: &mut Findings) {
+    let header = |key, text, longest| HeaderText { key, text, longest };
     let texts = [
-        ("description", &device.file.description, 243),
-        ("created-by", &device.file.created_by, 245),
-        ("modified-by", &device.file.modified_by, 244),
-        ("product-name", &device.info.product_name, 243),
-        ("order-code", &device.info.order_code, 245),
+        header("description", &device.file.description, 243),
+        header("created-by", &device.file.created_by, 245),
+        header("modified-by", &device.file.modified_by, 244),
+        header("product-name", &device.info.product_name, 243),
+        header("order-code", &device.info.order_code, 245),
     ];
-    for (at, (key, text, longest)) in texts.into_iter().enumerate() {
-        if texts[..at].iter().any(|(_, other, _)| *other == text) {
-            continue; // one is taken from the other
+    for (at, HeaderText { key, text, longest }) in texts.iter().enumerate() {
+        // One is taken from the other.
+        if texts[..at].iter().any(|before| before.text == *text) {
+            continue;
         }
-        let length = crate::ascii::transliterate(text).len();
-        let problem = if length > longest {
+        let length = transliterate(text).len();
+        let problem = if length > *longest {
             format!("has {length} characters, an EDS holds {longest}")
-        } else if let Some(c) = text.chars().find(|c| is_unfit(*c)) {
-            format!("holds {}, which EDS readers misread", describe(c))
+        } else if let Some(unfit) = text.chars().find_map(unfit) {
+            format!("holds {unfit}, which EDS readers misread")
         } else {
             continue;
         };
-        diagnostics.push(
-            Diagnostic::new(
-                codes::NOT_FOR_EDS,
-                device.span,
-                format!("`{key}` of device `{}` {problem}", device.key),
-            )
-            .help("choose another text"),
-        );
+        let message = format!("`{key}` of device `{}` {problem}", device.key);
+        findings.push(Diagnostic::new(CODE, device.span, message).help("choose another text"));
     }
 }
 
-/// Characters that several readers do not take as part of a value.
-fn is_unfit(c: char) -> bool {
-    matches!(c, ';' | '#' | '=') || c.is_control()
-}
-
-/// A character in a message.
-fn describe(c: char) -> String {
-    if c.is_control() { "a control character".to_owned() } else { format!("`{c}`") }
-}
-
-fn check_name(name: &str, span: Span, diagnostics: &mut Diagnostics) {
-    let problem = if crate::ascii::transliterate(name).len() > LONGEST {
-        format!(
-            "the name `{}` has {} characters, an EDS holds {LONGEST}",
-            shorten(name),
-            name.chars().count()
-        )
-    } else if crate::ascii::transliterate(name).chars().all(|c| c == '?')
-        && !name.contains('?')
-        && !name.is_empty()
-    {
+fn check_name(name: &str, place: Span, findings: &mut Findings) {
+    let written = transliterate(name);
+    let problem = if written.len() > LONGEST {
+        let length = name.chars().count();
+        format!("the name `{}` has {length} characters, an EDS holds {LONGEST}", shorten(name))
+    } else if written.chars().all(|c| c == '?') && !name.contains('?') && !name.is_empty() {
         "no character of the name has a form in ASCII".to_owned()
-    } else if let Some(c) = name.chars().find(|c| is_unfit(*c)) {
-        format!("the name `{}` holds {}, which EDS readers misread", shorten(name), describe(c))
+    } else if let Some(unfit) = name.chars().find_map(unfit) {
+        format!("the name `{}` holds {unfit}, which EDS readers misread", shorten(name))
     } else {
         return;
     };
-    diagnostics.push(Diagnostic::new(codes::NOT_FOR_EDS, span, problem).help("choose another name"));
+    findings.push(Diagnostic::new(CODE, place, problem).help("choose another name"));
 }

@@ -1,25 +1,41 @@
 //! What is stored has a command that stores it: 1010h.2, .3 or .4.
 
-use super::own_place;
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, EntryId, Index, Origin, Storage, SubIndex};
+use super::subject::entry_id;
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Fact, Storage};
 
-pub(super) fn check(device: &Dictionary, diagnostics: &mut Diagnostics) {
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0809",
+    severity: Severity::Warning,
+    title: "stored, but nothing stores",
+    explanation: "An entry is saved by a \"store parameters\" command that the device does not have: 1010h lacks the sub-index of its group (2 communication, \
+        3 application, 4 manufacturer). Whoever sets it would find it lost after the next power-off. Add the feature `store parameters`, or \
+        correct `stored:`. The parameters of PDOs are stored wherever a device can do that, and do not count.",
+    clause: Some("CiA 301, object 1010h"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: gain, type: unsigned8, access: rw, stored: application}",
+        "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, store parameters]}\nobjects:\n  0x2000: {name: gain, type: unsigned8, access: rw, stored: application}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let device = subject.device;
     for (group, sub) in [(Storage::Communication, 2), (Storage::Application, 3), (Storage::Manufacturer, 4)] {
-        let command = EntryId { index: Index(0x1010), sub: SubIndex(sub) };
+        let command = entry_id(0x1010, sub);
         if device.entry(command).is_some() {
             continue;
         }
-        // The parameters of PDOs are said to be stored wherever a device can do that at all.
-        let mut own = device.entries().filter(|(_, object, _)| object.origin != Origin::Pdo);
-        if let Some((id, _, entry)) = own.find(|(.., entry)| entry.stored == group) {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::STORED_WITHOUT_STORE,
-                    own_place(device, entry.span),
-                    format!("{id} is `stored: {}`, but `{}` has no {command}", group.word(), device.key),
-                )
-                .help("add the feature `store parameters` of `cia301`, or correct `stored:`"),
+        let stored = |entry: &crate::model::Entry| entry.stored == group;
+        let mut entries = device.entries().filter(|(_, object, _)| !object.role().is_pdo_parameter());
+        if let Some((id, _, entry)) = entries.find(|(.., entry)| stored(entry)) {
+            let message =
+                format!("{id} is `stored: {}`, but `{}` has no {command}", group.word(), device.key);
+            findings.push(
+                Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message)
+                    .help("add the feature `store parameters` of `cia301`, or correct `stored:`"),
             );
         }
     }

@@ -1,9 +1,9 @@
 //! Texts are in the languages that the specification lists: a text in another one would never be shown.
 
 use super::nearest;
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::keys::{Keys, Shape};
-use crate::yaml::{Node, NodeKind, shorten};
+use crate::yaml::{Node, NodeKind};
 
 /// Checks a specification; without `languages:` it has English only.
 pub(super) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {

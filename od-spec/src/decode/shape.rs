@@ -1,12 +1,12 @@
 //! Compares a YAML tree with the key tables.
 
 use super::{lexical, nearest};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::Expr;
 use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::model::Access;
 use crate::source::{Span, Spanned};
-use crate::yaml::{MERGE, Node, NodeKind, scalar, shorten};
+use crate::yaml::{MERGE, Node, NodeKind, scalar};
 
 /// Checks a map with fixed keys and everything below it. `owner` is the place that stands for the whole map: the key it
 /// belongs to.

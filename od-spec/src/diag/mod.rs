@@ -54,6 +54,19 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
 }
 
+/// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
+pub(crate) fn shorten(text: &str) -> String {
+    let text = text.trim_end_matches(['\n', '\r']);
+    let keep = if text.chars().count() <= 60 { 60 } else { 57 };
+    let one_line = text.chars().take(keep).map(|c| match c {
+        '`' => '\'',
+        c if c.is_control() => ' ',
+        c => c,
+    });
+    let rest = if keep == 60 { "" } else { "..." };
+    one_line.chain(rest.chars()).collect()
+}
+
 /// Names and values of a specification may hold anything; a message is one line.
 fn one_line(text: impl Into<String>) -> String {
     let text = text.into();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{DataType, Direction, Entry, EntryId, Index, Object, ObjectKind, Pdo, Text};
+use super::{DataType, Direction, Entry, EntryId, Fact, Facts, Index, Object, ObjectKind, Pdo, Text};
 use crate::source::Span;
 
 /// The object dictionary of one device, with what an EDS says about the device.
@@ -22,11 +22,18 @@ pub struct Dictionary {
     pub objects: BTreeMap<Index, Object>,
     /// PDOs, RPDOs first, by number.
     pub pdos: Vec<Pdo>,
+    /// Where the facts about the device stand.
+    pub facts: Facts,
     /// Where the device is defined.
     pub span: Span,
 }
 
 impl Dictionary {
+    /// Where a fact about the device stands; where nobody states it, the device's own place.
+    pub fn place(&self, fact: Fact) -> Span {
+        self.facts.get(fact).map_or(self.span, |statement| statement.span)
+    }
+
     /// An entry.
     pub fn entry(&self, id: EntryId) -> Option<&Entry> {
         self.objects.get(&id.index)?.entry(id.sub)

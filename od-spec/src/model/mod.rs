@@ -11,6 +11,7 @@ mod named_type;
 mod object;
 mod pdo;
 mod ratio;
+mod role;
 mod text;
 mod types;
 mod unit;
@@ -25,10 +26,11 @@ pub use document::{
 };
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
-pub use named_type::{BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
+pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
+pub use role::Role;
 pub use text::Text;
 pub use types::{
     Access, AccessRight, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding,
@@ -86,6 +88,8 @@ pub struct Vendor {
     pub name: String,
     /// Vendor-ID assigned by CiA (1018h.1); 0 when unknown.
     pub number: u32,
+    /// Where the name is written.
+    pub name_span: Option<Span>,
 }
 
 /// An emergency and error code (603Fh, 1003h).
@@ -118,6 +122,8 @@ pub struct Constraint {
     pub when: Option<Expr>,
     /// Devices whose entries it names.
     pub devices: Vec<String>,
-    /// Where it is written.
+    /// Where the condition is written.
     pub span: Span,
+    /// Where it names entries, in the order of [`Expr::entries`].
+    pub places: Vec<Span>,
 }

@@ -1,6 +1,7 @@
 //! Enums and bit fields.
 
-use super::{DataType, Text};
+use super::{DataType, Statement, Text};
+use crate::source::Spanned;
 
 /// An enum or a bit field with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,6 +14,8 @@ pub struct NamedType {
     pub about: Text,
     /// Values or bits.
     pub kind: TypeKind,
+    /// Where it is defined, and by whom.
+    pub stated: Statement,
 }
 
 /// What a [`NamedType`] consists of.
@@ -51,7 +54,7 @@ pub struct BitField {
     /// Meaning.
     pub about: Text,
     /// Error codes that the device reports with this bit.
-    pub errors: Vec<u16>,
+    pub errors: Vec<Spanned<u16>>,
     /// Terminal at which the signal is found.
     pub clamp: Option<String>,
     /// The level that means "active"; 1 unless stated.
@@ -64,6 +67,29 @@ pub struct BitField {
     pub values: Vec<EnumValue>,
     /// Meanings that apply only in one mode of operation: mode, name, meaning.
     pub modes: Vec<(String, String, Text)>,
+}
+
+impl BitField {
+    /// The error codes that the device reports with this bit.
+    pub fn error_codes(&self) -> impl Iterator<Item = u16> {
+        self.errors.iter().map(|code| code.value)
+    }
+}
+
+/// Error codes that one entry adds to a bit of its shared type.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BitErrors {
+    /// Lowest bit of the field.
+    pub bit: u8,
+    /// The codes.
+    pub codes: Vec<Spanned<u16>>,
+}
+
+impl BitErrors {
+    /// The codes without their places.
+    pub fn error_codes(&self) -> impl Iterator<Item = u16> {
+        self.codes.iter().map(|code| code.value)
+    }
 }
 
 /// What bits are for.

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::{
-    Access, Author, BitField, Category, DataType, Departure, EntryId, Fact, Facts, Index, NamedType, Outside,
-    PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text, TypeKind, Unit, Value,
+    Access, Author, BitErrors, BitField, Category, DataType, Departure, EntryId, Fact, Facts, Index,
+    NamedType, Outside, PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text, TypeKind, Unit,
+    Value,
 };
 use crate::expr::Expr;
 use crate::source::Span;
@@ -153,8 +154,8 @@ pub struct Entry {
     pub capacity: Option<u16>,
     /// Name in generated code, where the specification gives one.
     pub identifier: Option<String>,
-    /// Error codes of the named type's bits, where the type is shared: bit number, codes.
-    pub bit_errors: Vec<(u8, Vec<u16>)>,
+    /// Error codes of the named type's bits, where the type is shared; by ascending bit.
+    pub bit_errors: Vec<BitErrors>,
     /// What the EDS shows of it.
     pub eds: EdsPolicy,
     /// Where each fact stands, and who says it.
@@ -180,9 +181,15 @@ impl Entry {
         let Some(TypeKind::Bits(fields)) = self.named_type.as_ref().map(|named| &named.kind) else {
             return Vec::new();
         };
-        let own = |bit: u8| self.bit_errors.iter().any(|(at, codes)| *at == bit && codes.contains(&code));
-        let with = |field: &&BitField| field.errors.contains(&code) || (field.first..=field.last).any(own);
-        fields.iter().filter(with).map(|field| field.first).collect()
+        let added = |field: &BitField| {
+            let mut errors = self.bit_errors.iter();
+            errors.any(|errors| {
+                (field.first..=field.last).contains(&errors.bit)
+                    && errors.codes.iter().any(|added| added.value == code)
+            })
+        };
+        let reports = |field: &&BitField| field.error_codes().any(|listed| listed == code) || added(field);
+        fields.iter().filter(reports).map(|field| field.first).collect()
     }
 
     /// Where a fact stands; where nobody states it, the entry's own place.
@@ -193,6 +200,11 @@ impl Entry {
     /// Whether only a library of a standard says the fact, and the maker says nothing about it.
     pub fn is_only_standard(&self, fact: Fact) -> bool {
         self.facts.is_said_by(fact, Author::Library)
+    }
+
+    /// Whether the value is a setting that a configuration lays over the maker's default.
+    pub fn is_set(&self) -> bool {
+        self.facts.is_said_by(Fact::Default, Author::Setting)
     }
 
     /// Gives the entry another default, with the place where that is said.

@@ -1,6 +1,8 @@
 //! PDOs: communication and mapping parameters.
 
-use super::{DataType, Direction, EntryId, Text, Value};
+use std::collections::BTreeMap;
+
+use super::{DataType, Direction, EntryId, Index, Object, SubIndex, Text, Value};
 use crate::source::Span;
 
 /// A PDO with its default communication and mapping parameters.
@@ -45,6 +47,25 @@ impl Pdo {
         self.communication_index() + 0x200
     }
 
+    /// Takes the values that the parameter objects have.
+    pub(crate) fn follow(&mut self, objects: &BTreeMap<Index, Object>) {
+        let value = |index: u16, sub: u8| objects.get(&Index(index))?.entry(SubIndex(sub))?.default.as_ref();
+        let communication = self.communication_index();
+        let number = |sub| value(communication, sub).and_then(Value::integer);
+        if let Some(cob_id) = value(communication, 1) {
+            self.cob_id = cob_id.clone();
+            self.valid = cob_id.integer_for(0).is_none_or(|raw| raw >> 31 & 1 == 0);
+        }
+        self.transmission = number(2).and_then(|raw| u8::try_from(raw).ok()).unwrap_or(self.transmission);
+        self.inhibit_time = number(3).and_then(|raw| u16::try_from(raw).ok());
+        self.event_timer = number(5).and_then(|raw| u16::try_from(raw).ok());
+        self.sync_start = number(6).and_then(|raw| u8::try_from(raw).ok());
+        let mapping = |sub| value(self.mapping_index(), sub).and_then(Value::integer);
+        let count = mapping(0).and_then(|count| u8::try_from(count).ok()).unwrap_or(0);
+        let parameters = (1..=count).map_while(mapping).filter_map(|raw| u32::try_from(raw).ok());
+        self.map = parameters.filter_map(Mapped::from_parameter).collect();
+    }
+
     /// Mapped bits in all.
     pub fn bits(&self) -> u32 {
         self.map.iter().map(|mapped| u32::from(mapped.bits)).sum()
@@ -70,6 +91,18 @@ pub enum PdoTarget {
 }
 
 impl Mapped {
+    /// What a mapping parameter says; `None` for 0, an empty one.
+    pub fn from_parameter(parameter: u32) -> Option<Self> {
+        let [bits, sub, low, high] = parameter.to_le_bytes();
+        let index = u16::from_le_bytes([low, high]);
+        let dummy = DataType::ALL.into_iter().find(|data_type| data_type.code() == index && sub == 0);
+        let target = match dummy {
+            Some(data_type) => PdoTarget::Dummy(data_type),
+            None => PdoTarget::Entry(EntryId { index: Index(index), sub: SubIndex(sub) }),
+        };
+        (parameter != 0).then_some(Self { target, bits })
+    }
+
     /// The mapping parameter: index, sub-index, length (CiA 301 7.5.2.36).
     pub const fn parameter(&self) -> u32 {
         let (index, sub) = match self.target {

@@ -1,6 +1,6 @@
 //! Physical units with exact scales.
 
-use super::{Ratio, Text};
+use super::{Ratio, Statement, Text};
 use crate::expr::Expr;
 
 /// A physical unit: what one raw step is worth.
@@ -18,6 +18,8 @@ pub struct Unit {
     pub formula: Option<Expr>,
     /// Meaning.
     pub about: Text,
+    /// Where it is defined, and by whom.
+    pub stated: Statement,
 }
 
 /// The relation of a unit's symbol to a more basic one.

@@ -3,10 +3,9 @@
 use crate::ast::{ConstraintDecl, Name, Spec};
 use crate::decode::{inside, nearest};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::expr::{Comparison, EntryRef, Expr, Outcome, Term, Values};
-use crate::model::{Constraint, Dictionary, EntryId, Ratio};
-use crate::source::Spanned;
-use crate::yaml::shorten;
+use crate::expr::{Comparison, EntryRef, Expr, Term};
+use crate::model::{Constraint, Dictionary};
+use crate::source::{Span, Spanned};
 
 use super::refs::Broken;
 use super::types::words;
@@ -199,106 +198,19 @@ fn constraint(
     }
     keys.sort();
     keys.dedup();
-    let constraint = Constraint {
+    Some(Constraint {
         name: decl.name.value.clone(),
         about: words(&decl.about),
         require: require.value.clone(),
         when: decl.when.as_ref().map(|when| when.value.clone()),
         devices: keys,
         span: require.span,
-    };
-    let candidates = if own.is_empty() { vec![*all.first()?] } else { own };
-    for device in candidates {
-        if let Outcome::Fails { left, op, right } = check(&constraint, &Defaults { device, devices }) {
-            let named = require.value.entries();
-            let is_link =
-                |pair: &[&EntryRef]| pair[0].to_string() == left.0 && pair[1].to_string() == right.0;
-            let link = named.windows(2).position(is_link);
-            let place = link.map_or(require.span, |at| {
-                let range = require.value.places[at].start..require.value.places[at + 1].end;
-                inside(Spanned::new(require.value.text.as_str(), require.span), &range)
-            });
-            let mut diagnostic = Diagnostic::new(
-                codes::CONSTRAINT_BROKEN,
-                place,
-                format!("the defaults of `{}` break `{}`", device.key, shorten(&constraint.name)),
-            )
-            .label(format!("not {}", op.sign()))
-            .help("correct a default or the condition; values are compared in physical units");
-            for (text, value) in [left, right] {
-                let entry = named.iter().find(|entry| entry.to_string() == text);
-                let defaults = Defaults { device, devices };
-                let span = entry.and_then(|entry| Some(defaults.holder(entry)?.entry(entry.id)?.span));
-                let said = format!("{text} is {value}");
-                diagnostic = match span {
-                    Some(span) => diagnostic.with(span, said),
-                    None if text == value.to_string() => diagnostic,
-                    None => diagnostic.note(said),
-                };
-            }
-            diagnostics.push(diagnostic);
-            break;
-        }
-    }
-    Some(constraint)
+        places: places(require),
+    })
 }
 
-/// Whether a constraint holds; one whose `when` does not hold, or cannot be decided, holds.
-pub(crate) fn check(constraint: &Constraint, values: &dyn Values) -> Outcome {
-    if let Some(when) = &constraint.when
-        && when.evaluate(values) != Outcome::Holds
-    {
-        return Outcome::Holds;
-    }
-    constraint.require.evaluate(values)
-}
-
-/// Raw values of entries, to be seen in physical units.
-pub(crate) trait Lookup {
-    /// The device that an entry without `device:` belongs to.
-    fn device(&self) -> &Dictionary;
-    /// A device by key.
-    fn other(&self, key: &str) -> Option<&Dictionary>;
-    /// The raw value of an entry of a device.
-    fn raw_value(&self, device: &Dictionary, id: EntryId) -> Option<i128> {
-        device.entry(id)?.default.as_ref()?.integer()
-    }
-
-    /// The device that holds a named entry.
-    fn holder(&self, entry: &EntryRef) -> Option<&Dictionary> {
-        match &entry.device {
-            Some(key) => self.other(key),
-            None => Some(self.device()),
-        }
-    }
-}
-
-/// The defaults of all devices, seen from one of them.
-pub(super) struct Defaults<'a> {
-    pub device: &'a Dictionary,
-    pub devices: &'a [Dictionary],
-}
-
-impl Lookup for Defaults<'_> {
-    fn device(&self) -> &Dictionary {
-        self.device
-    }
-    fn other(&self, key: &str) -> Option<&Dictionary> {
-        self.devices.iter().find(|device| device.key == key)
-    }
-}
-
-impl<T: Lookup> Values for T {
-    fn value(&self, entry: &EntryRef) -> Option<Ratio> {
-        let raw = Ratio::whole(self.raw(entry)?);
-        let unit = self.holder(entry)?.entry(entry.id)?.unit.as_ref();
-        match unit {
-            Some(unit) => raw.checked_mul(unit.step()?),
-            None => Some(raw),
-        }
-    }
-
-    fn raw(&self, entry: &EntryRef) -> Option<i128> {
-        self.raw_value(self.holder(entry)?, entry.id)
-    }
+/// Where a condition names entries.
+fn places(condition: &Spanned<Expr>) -> Vec<Span> {
+    let text = Spanned::new(condition.value.text.as_str(), condition.span);
+    condition.value.places.iter().map(|range| inside(text, range)).collect()
 }

@@ -4,10 +4,9 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::libraries;
 use super::scope::{Scope, unknown};
+use super::{keys_have_effect, libraries};
 use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
-use crate::check::keys_have_effect;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, Departure, Fact, Index, Origin, Part, SubIndex};
 use crate::source::Spanned;

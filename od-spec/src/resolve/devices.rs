@@ -11,13 +11,11 @@ use super::{objects, pdos, refs, to_u8, to_u16, to_u32};
 use crate::ast::{DeviceDecl, Name, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    AccessRight, Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, FileInfo, Index,
-    Object, ObjectKind, Outside, PdoMapping, Ratio, Rounding, Storage, SubIndex, Value, Vendor, convert,
+    AccessRight, Alias, DataType, Date, DateTime, DeviceInfo, Dictionary, Entry, EntryId, Fact, Facts,
+    FileInfo, Index, Object, ObjectKind, Outside, PdoMapping, Ratio, Role, Rounding, Statement, Storage,
+    SubIndex, Value, Vendor, convert,
 };
-use crate::source::Spanned;
-
-/// Bit rates of CiA 301 in kbit/s.
-const BIT_RATES: [i128; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+use crate::source::{Span, Spanned};
 
 pub(super) fn resolve(
     root: &Spec,
@@ -46,7 +44,7 @@ pub(super) fn resolve(
             built.plain_objects(&declared, diagnostics);
             built.aliases(&declared, diagnostics);
             let info = info(device, diagnostics);
-            built.identity(&info, vendor, diagnostics);
+            built.identity(device, &info, vendor);
             let list =
                 root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
             let pdos = pdos::resolve(list, &info, &mut built.objects, &mut built.broken, diagnostics);
@@ -57,6 +55,7 @@ pub(super) fn resolve(
                 file: file(device, vendor),
                 info,
                 about: words(&device.about),
+                facts: facts(device),
                 objects: built.objects,
                 pdos,
                 span: device.key.span,
@@ -118,7 +117,7 @@ impl Builder<'_> {
 
     fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
-            if pdos::is_pdo_index(*index) {
+            if Role::of(*index).is_pdo_parameter() {
                 diagnostics.push(
                     Diagnostic::new(
                         codes::PDO_BY_HAND,
@@ -252,10 +251,11 @@ impl Builder<'_> {
         };
         // A default that the alias cannot show as it is would be another value.
         let show = |raw: i128| convert(raw, alias.factor, alias.rounding, Outside::Abort, entry.data_type);
-        entry.default = match &target.default {
+        let shown = match &target.default {
             Some(Value::Integer(raw)) => show(*raw).map(Value::Integer),
-            _ => None,
+            Some(Value::NodeId(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) | None => None,
         };
+        entry.set_default(shown, Statement::derived(decl.index.span));
         if factor == Ratio::ONE {
             follow_values(&mut entry, target);
         }
@@ -279,7 +279,7 @@ impl Builder<'_> {
     }
 
     /// Fills in what the device itself decides: 1000h, 1008h, 1018h.
-    fn identity(&mut self, info: &DeviceInfo, vendor: &Vendor, diagnostics: &mut Diagnostics) {
+    fn identity(&mut self, device: &DeviceDecl, info: &DeviceInfo, vendor: &Vendor) {
         let numbers = [
             (0x1000, 0, info.device_type),
             (0x1018, 1, vendor.number),
@@ -293,25 +293,8 @@ impl Builder<'_> {
                 .objects
                 .get_mut(&Index(index))
                 .and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == SubIndex(sub)));
-            let Some(entry) = entry else { continue };
-            match &entry.default {
-                None => entry.default = Some(value),
-                Some(own) if *own != value && index != 0x1008 => {
-                    let id = EntryId { index: Index(index), sub: SubIndex(sub) };
-                    let device = crate::model::format_value(entry, &value);
-                    diagnostics.push(
-                        Diagnostic::new(
-                            codes::CONFLICTING_KEYS,
-                            entry.span,
-                            format!(
-                                "{id} says {}, the device {device}",
-                                crate::model::format_value(entry, own)
-                            ),
-                        )
-                        .help("remove the default; it follows from the vendor and the device"),
-                    );
-                }
-                Some(_) => {}
+            if let Some(entry) = entry.filter(|entry| entry.default.is_none()) {
+                entry.set_default(Some(value), Statement::derived(device.key.span));
             }
         }
     }
@@ -399,6 +382,16 @@ fn check_alias(
     })
 }
 
+/// Where the facts about a device stand.
+fn facts(device: &DeviceDecl) -> Facts {
+    let rates = device.bit_rates.iter().map(|rate| rate.span).reduce(Span::to);
+    let granularity = device.granularity.map(|granularity| granularity.span);
+    let stated = [(Fact::BitRates, rates), (Fact::Granularity, granularity)];
+    let written =
+        |(fact, span): (Fact, Option<Span>)| Some((fact, Statement::written(span?, device.key.span.file)));
+    stated.into_iter().filter_map(written).collect()
+}
+
 fn unit_name(entry: &Entry) -> String {
     entry.unit.as_ref().map_or("no unit".to_owned(), |unit| format!("`{}`", unit.name))
 }
@@ -408,31 +401,9 @@ fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
     let number = |value: &Option<Spanned<i128>>| value.as_ref().map_or(0, |value| to_u32(value.value));
     let flag = |value: &Option<Spanned<bool>>, unless: bool| value.as_ref().map_or(unless, |v| v.value);
     let product_name = text(&device.product_name).or_else(|| text(&device.name)).unwrap_or_default();
-    let mut bit_rates = Vec::new();
-    for rate in &device.bit_rates {
-        if BIT_RATES.contains(&rate.value) {
-            bit_rates.push(to_u16(rate.value));
-        } else if (10..=1000).contains(&rate.value) {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::BAD_BIT_RATE,
-                    rate.span,
-                    format!("{} kbit/s is not a CANopen bit rate", rate.value),
-                )
-                .help("write one of 10, 20, 50, 125, 250, 500, 800 and 1000"),
-            );
-        }
-    }
-    if device.bit_rates.is_empty() {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::NO_BIT_RATE,
-                device.key.span,
-                format!("device `{}` supports no bit rate", device.key.value),
-            )
-            .help("add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without"),
-        );
-    }
+    // A number outside the key's range was refused where it was read.
+    let readable = device.bit_rates.iter().filter(|rate| (10..=1000).contains(&rate.value));
+    let mut bit_rates: Vec<u16> = readable.map(|rate| to_u16(rate.value)).collect();
     bit_rates.sort_unstable();
     bit_rates.dedup();
     let mut dummies = Vec::new();

@@ -8,14 +8,15 @@ use super::scope::unknown;
 use super::to_u16;
 use super::types::words;
 use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
+use crate::check::codes as rule_codes;
 use crate::decode::lexical;
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
     Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
     TableContent, TypeKind,
 };
 use crate::source::{Span, Spanned};
-use crate::yaml::shorten;
 
 pub(super) fn resolve(root: &Spec) -> Document {
     let source = root.source.as_ref();
@@ -266,7 +267,7 @@ fn check_content(
             for row in rows.iter().filter(|row| row.value.len() != columns.len()) {
                 diagnostics.push(
                     Diagnostic::new(
-                        codes::COUNT_MISMATCH,
+                        rule_codes::COUNT_MISMATCH,
                         row.span,
                         format!(
                             "this row has {} cells, the table has {} columns",

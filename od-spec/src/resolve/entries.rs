@@ -6,13 +6,13 @@ use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
 use crate::ast::{BitErrorDecl, EntryDecl, Name, SpecialDecl};
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, DataType, EdsPolicy, Entry, Fact, NamedType, PdoMapping, SpecialValue, Storage,
-    SubIndex, TypeKind, Unit, Value,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, NamedType, PdoMapping, SpecialValue,
+    Storage, SubIndex, TypeKind, Unit,
 };
 use crate::source::{FileId, Spanned};
-use crate::yaml::shorten;
 
 /// What entries are resolved against.
 #[derive(Clone, Copy)]
@@ -64,17 +64,7 @@ pub(super) fn resolve(
         ));
         return None;
     };
-    let Spanned { value: AccessRight { access, locked }, span: access_span } = *access;
-    if locked && !access.is_writable() {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::LOCKED_READ_ONLY,
-                access_span,
-                format!("`{}` cannot be locked", access.word()),
-            )
-            .help("`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`"),
-        );
-    }
+    let AccessRight { access, locked } = access.value;
     let unit = decl.unit.as_ref().and_then(|unit| around.scope.unit(unit, diagnostics));
     let expected = Expected { data_type, named: named_type.as_deref(), unit: unit.as_deref() };
     let special = special_values(decl.special.as_ref(), data_type, diagnostics);
@@ -90,7 +80,7 @@ pub(super) fn resolve(
         data_type,
         access,
         locked,
-        pdo: mapping(decl, data_type, access, diagnostics),
+        pdo: decl.pdo.map_or(PdoMapping::None, |pdo| pdo.value),
         default,
         low,
         high,
@@ -110,9 +100,6 @@ pub(super) fn resolve(
         named_type,
         unit,
     };
-    check_default(&entry, decl.default.as_ref(), diagnostics);
-    check_length(&entry, decl, diagnostics);
-    check_const(&entry, decl, diagnostics);
     if let Some(condition) = decl.writable_when.as_ref().filter(|_| !access.is_writable()) {
         diagnostics.push(
             Diagnostic::new(
@@ -173,25 +160,6 @@ pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Opt
     None
 }
 
-/// A default is no longer than the string may be.
-fn check_length(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {
-    let (Some(capacity), Some(text), Some(default)) = (decl.capacity, &decl.default, &entry.default) else {
-        return;
-    };
-    let Some(length) = default.bytes_in(entry.data_type).map(|bytes| bytes.len()) else { return };
-    if i128::try_from(length).is_ok_and(|length| length > capacity.value) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::VALUE_DOES_NOT_FIT,
-                text.span,
-                format!("the default has {length} bytes, the capacity is {}", capacity.value),
-            )
-            .with(capacity.span, "the capacity")
-            .help("raise the capacity, or shorten the default"),
-        );
-    }
-}
-
 /// The data type and the named type of an entry.
 pub(super) fn entry_type(
     decl: &EntryDecl,
@@ -226,49 +194,6 @@ pub(super) fn entry_type(
         ));
     }
     None
-}
-
-fn mapping(
-    decl: &EntryDecl,
-    data_type: DataType,
-    access: Access,
-    diagnostics: &mut Diagnostics,
-) -> PdoMapping {
-    let Some(Spanned { value: pdo, span }) = decl.pdo else {
-        return PdoMapping::None;
-    };
-    if pdo == PdoMapping::None {
-        return pdo;
-    }
-    if !data_type.is_mappable() {
-        diagnostics.push(
-            Diagnostic::new(codes::TYPE_NOT_MAPPABLE, span, format!("{data_type} cannot travel in a PDO"))
-                .help("remove `pdo:`; only types of fixed length can be mapped"),
-        );
-        return PdoMapping::None;
-    }
-    let allowed = match access {
-        Access::Const | Access::Ro | Access::Rwr => &[PdoMapping::Transmit][..],
-        Access::Wo | Access::Rww => &[PdoMapping::Receive],
-        Access::Rw => &[PdoMapping::Receive, PdoMapping::Transmit, PdoMapping::Both],
-    };
-    if !allowed.contains(&pdo) {
-        let words =
-            allowed.iter().map(|pdo| format!("`pdo: {}`", pdo.word())).collect::<Vec<_>>().join(" or ");
-        let mut diagnostic = Diagnostic::new(
-            codes::MAPPING_AGAINST_ACCESS,
-            span,
-            format!("an entry that is `{}` cannot be mapped as `{}`", access.word(), pdo.word()),
-        )
-        .help(format!("write {words}, or correct the access"))
-        .note("CiA 306 4.6.3.2: a TPDO carries what can be read, an RPDO what can be written");
-        if let Some(access) = &decl.access {
-            diagnostic = diagnostic.with(access.span, "the access");
-        }
-        diagnostics.push(diagnostic);
-        return PdoMapping::None;
-    }
-    pdo
 }
 
 fn special_values(
@@ -326,78 +251,14 @@ fn limits(
         }
         value.integer()
     };
-    let (low, high) = (limit(decl.min.as_ref()), limit(decl.max.as_ref()));
-    if let (Some(low), Some(high), Some(min), Some(max)) = (low, high, &decl.min, &decl.max)
-        && low > high
-    {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::LIMITS_SWAPPED,
-                min.span,
-                format!(
-                    "the low limit `{}` is above the high limit `{}`",
-                    shorten(&min.value),
-                    shorten(&max.value)
-                ),
-            )
-            .label("low limit")
-            .with(max.span, "high limit")
-            .help("swap or correct the two"),
-        );
-        return (None, None);
-    }
-    (low, high)
-}
-
-fn check_default(entry: &Entry, text: Option<&Name>, diagnostics: &mut Diagnostics) {
-    let (Some(text), Some(value)) = (text, &entry.default) else { return };
-    let nodes = if matches!(value, Value::NodeId(_)) { [1, 127].as_slice() } else { &[1] };
-    for node in nodes {
-        let Some(raw) = value.integer_for(*node) else { continue };
-        if !entry.allows(raw) {
-            let of_node =
-                if matches!(value, Value::NodeId(_)) { format!(" for node {node}") } else { String::new() };
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::DEFAULT_OUTSIDE_LIMITS,
-                    text.span,
-                    format!("the default `{}` is outside the limits{of_node}", shorten(&text.value)),
-                )
-                .label(format!("allowed: {}", allowed(entry)))
-                .help("correct the default or the limits, or make the value `special`"),
-            );
-            return;
-        }
-    }
-}
-
-/// `0.0 °C to 40.0 °C`: the limits, or those of the data type.
-pub(crate) fn allowed(entry: &Entry) -> String {
-    let (low, high) = entry.data_type.range().unwrap_or_default();
-    let plain = Entry { special: Vec::new(), ..entry.clone() };
-    let show = |raw: i128| crate::model::format_value(&plain, &Value::Integer(raw));
-    format!("{} to {}", show(entry.low.unwrap_or(low)), show(entry.high.unwrap_or(high)))
-}
-
-fn check_const(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {
-    if entry.access != Access::Const {
-        return;
-    }
-    if let Some(stored) = &decl.stored
-        && entry.stored != Storage::No
-    {
-        diagnostics.push(
-            Diagnostic::new(codes::CONST_STORED, stored.span, "a constant is not stored: it never changes")
-                .help("remove `stored:`, or correct the access"),
-        );
-    }
+    (limit(decl.min.as_ref()), limit(decl.max.as_ref()))
 }
 
 fn bit_errors(
     list: Option<&Spanned<Vec<BitErrorDecl>>>,
     named: Option<&NamedType>,
     diagnostics: &mut Diagnostics,
-) -> Vec<(u8, Vec<u16>)> {
+) -> Vec<BitErrors> {
     let Some(list) = list else { return Vec::new() };
     let fields = match named.map(|named| &named.kind) {
         Some(TypeKind::Bits(fields)) => fields.as_slice(),
@@ -427,9 +288,10 @@ fn bit_errors(
             );
             continue;
         }
-        errors.push((first, decl.codes.iter().map(|code| super::to_u16(code.value)).collect()));
+        let codes = decl.codes.iter().map(|code| code.map(super::to_u16)).collect();
+        errors.push(BitErrors { bit: first, codes });
     }
-    errors.sort();
+    errors.sort_by_key(|errors: &BitErrors| errors.bit);
     errors
 }
 

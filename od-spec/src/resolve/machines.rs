@@ -9,10 +9,11 @@ use super::scope::unknown;
 use super::types::words;
 use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
+use crate::check::codes as rule_codes;
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{BitPattern, Command, Dictionary, EntryId, State, StateMachine, Transition};
 use crate::source::{Span, Spanned};
-use crate::yaml::shorten;
 
 pub(super) fn resolve(
     root: &Spec,
@@ -131,7 +132,7 @@ fn machine(
             {
                 diagnostics.push(
                     Diagnostic::new(
-                        codes::DUPLICATE_NAME,
+                        rule_codes::DUPLICATE_NAME,
                         decl.name.span,
                         format!(
                             "state machine `{}` has other entries on `{}` than on `{}`",

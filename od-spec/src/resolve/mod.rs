@@ -6,9 +6,11 @@ mod devices;
 mod document;
 mod entries;
 mod errors;
+mod keys_have_effect;
 mod libraries;
 mod machines;
 mod objects;
+mod pdo_objects;
 mod pdos;
 mod places;
 mod refs;
@@ -21,16 +23,13 @@ use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{System, Vendor};
 use crate::source::Span;
 
-pub(crate) use constraints::{Lookup, check as check_constraint};
-pub(crate) use entries::allowed;
-pub(crate) use pdos::RESTRICTED as RESTRICTED_COB_IDS;
 pub(crate) use refs::lookup;
 use scope::Scope;
 
 /// Builds the model from a specification and the libraries it uses. Mistakes go to `diagnostics`; with an error
 /// among them the model is incomplete and must not be used.
 pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> System {
-    crate::check::keys_have_effect::check(root, diagnostics);
+    keys_have_effect::check(root, diagnostics);
     let scope = Scope::new(root, libraries, diagnostics);
     let languages = match root.languages.as_slice() {
         [] => vec!["en".to_owned()],
@@ -43,6 +42,7 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
             .and_then(|vendor| vendor.name.as_ref())
             .map_or("unknown".to_owned(), |name| name.value.clone()),
         number: root.vendor.as_ref().and_then(|vendor| vendor.number.as_ref()).map_or(0, |n| to_u32(n.value)),
+        name_span: root.vendor.as_ref().and_then(|vendor| vendor.name.as_ref()).map(|name| name.span),
     };
     if root.profile.is_none() && root.devices.is_empty() && !root.unsure {
         diagnostics.push(
@@ -71,7 +71,6 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
     system.constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
     system.errata = document::errata(root, &system, &broken, diagnostics);
     document::check(root, &system, &broken, diagnostics);
-    crate::check::run(root, &system, diagnostics);
     system
 }
 

@@ -4,13 +4,13 @@ use super::decls::Declared;
 use super::entries::{self, Surroundings};
 use super::types::words;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
+use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, DataType, EdsPolicy, Entry, Facts, Object, ObjectKind, PdoMapping, Storage,
-    SubIndex, Text, Value,
+    Access, AccessRight, DataType, EdsPolicy, Entry, Fact, Object, ObjectKind, PdoMapping, Statement,
+    Storage, SubIndex, Text, Value,
 };
 use crate::source::Spanned;
-use crate::yaml::shorten;
 
 /// Resolves a declaration; `None` when nothing usable is left of it.
 pub(super) fn resolve(
@@ -98,7 +98,7 @@ fn elements(
             let (sub, _) = array.elements.last()?;
             diagnostics.push(
                 Diagnostic::new(
-                    codes::COUNT_MISMATCH,
+                    rule_codes::COUNT_MISMATCH,
                     sub.span,
                     format!("element {highest} of an array of {}", count.value),
                 )
@@ -151,19 +151,6 @@ fn elements(
     }
     if list.is_empty() && broken {
         return None;
-    }
-    if let Some(first) = list.first().map(|element| element.data_type)
-        && let Some(other) = list.iter().find(|element| element.data_type != first)
-    {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::MIXED_ARRAY,
-                other.span,
-                format!("element {} is {}, the first is {first}", other.sub, other.data_type),
-            )
-            .help("all elements of an array have one data type; make the object a record")
-            .note("CiA 301 table 37: ARRAY"),
-        );
     }
     finish(decl, list, around, diagnostics)
 }
@@ -231,27 +218,6 @@ fn finish(
         );
         return None;
     };
-    let mut names = std::collections::BTreeMap::new();
-    for entry in &list {
-        let Some(before) = names.insert(entry.name.as_str(), entry) else { continue };
-        let (first, second) = (format!("sub-index {}", before.sub), format!("sub-index {}", entry.sub));
-        let diagnostic = Diagnostic::new(
-            codes::DUPLICATE_NAME,
-            entry.span,
-            format!("two entries are named `{}`", shorten(&entry.name)),
-        );
-        if entry.span == before.span {
-            let help = "write `{n}` into the name; it stands for the sub-index";
-            diagnostics.push(diagnostic.label(format!("{first} and {second}")).help(help));
-            break;
-        }
-        diagnostics.push(
-            diagnostic
-                .label(second)
-                .with(before.span, first)
-                .help("give each entry of an object a name of its own"),
-        );
-    }
     let own = decl.sub0.as_ref();
     let span = own.map_or(decl.index.span, |own| own.span);
     let mut sub0 = Entry {
@@ -276,7 +242,7 @@ fn finish(
         identifier: None,
         bit_errors: Vec::new(),
         eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
-        facts: Facts::none(),
+        facts: [(Fact::Default, Statement::derived(span))].into_iter().collect(),
         about: Text::default(),
         span,
     };
@@ -288,8 +254,11 @@ fn finish(
         };
         let name = own.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());
         let given = entries::resolve(&own.over(&usual), SubIndex(0), name, around, diagnostics)?;
-        let default = given.default.clone().or(sub0.default);
-        sub0 = Entry { default, ..given };
+        let count = sub0.default;
+        sub0 = given;
+        if sub0.default.is_none() {
+            sub0.set_default(count, Statement::derived(span));
+        }
     }
     list.insert(0, sub0);
     Some(list)

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::ast::Name;
 use crate::decode::{lexical, nearest};
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, EntryId, Index, Object, SubIndex};
-use crate::yaml::shorten;
 
 /// What is defined, but not well enough to be there: a reference to it says nothing new.
 #[derive(Debug, Default)]

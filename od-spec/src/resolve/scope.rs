@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use super::types;
 use crate::ast::{Name, Spec, UnitDecl};
+use crate::check::codes as rule_codes;
 use crate::decode::nearest;
+use crate::diag::shorten;
 use crate::diag::{Code, Diagnostic, Diagnostics, codes};
-use crate::model::{Base, NamedType, Ratio, Unit};
-use crate::source::Span;
-use crate::yaml::shorten;
+use crate::model::{Base, NamedType, Ratio, Statement, Unit};
+use crate::source::{FileId, Span};
 
 /// What names mean.
 pub(super) struct Scope {
@@ -25,12 +26,13 @@ impl Scope {
         let mut places: BTreeMap<String, Span> = BTreeMap::new();
         for spec in libraries.iter().chain([root]) {
             for decl in &spec.units {
-                match unit(decl) {
+                match unit(decl, root.file) {
                     Some(unit) => {
                         let unit = Arc::new(unit);
                         let before = scope.units.insert(decl.name.value.clone(), Arc::clone(&unit));
                         let same = before.is_none_or(|before| {
-                            Unit { about: unit.about.clone(), ..(*before).clone() } == *unit
+                            Unit { about: unit.about.clone(), stated: unit.stated, ..(*before).clone() }
+                                == *unit
                         });
                         check_unique(&decl.name, "unit", same, &mut places, diagnostics);
                     }
@@ -41,7 +43,7 @@ impl Scope {
         places.clear();
         for spec in libraries.iter().chain([root]) {
             for decl in &spec.types {
-                match types::resolve(decl, diagnostics) {
+                match types::resolve(decl, root.file, diagnostics) {
                     Some(named) => {
                         let before = scope.types.insert(decl.name.value.clone(), Arc::new(named));
                         check_unique(&decl.name, "type", before.is_none(), &mut places, diagnostics);
@@ -95,15 +97,15 @@ pub(super) fn unknown<'a>(
 fn check_unique(
     name: &Name,
     what: &str,
-    fine: bool,
+    is_repeated: bool,
     places: &mut BTreeMap<String, Span>,
     diagnostics: &mut Diagnostics,
 ) {
     let before = places.insert(name.value.clone(), name.span);
-    if let (false, Some(before)) = (fine, before) {
+    if let (false, Some(before)) = (is_repeated, before) {
         diagnostics.push(
             Diagnostic::new(
-                codes::DUPLICATE_NAME,
+                rule_codes::DUPLICATE_NAME,
                 name.span,
                 format!("{what} `{}` has two meanings", shorten(&name.value)),
             )
@@ -114,7 +116,7 @@ fn check_unique(
     }
 }
 
-fn unit(decl: &UnitDecl) -> Option<Unit> {
+fn unit(decl: &UnitDecl, maker: FileId) -> Option<Unit> {
     Some(Unit {
         name: decl.name.value.clone(),
         symbol: decl.symbol.as_ref()?.value.clone(),
@@ -122,5 +124,6 @@ fn unit(decl: &UnitDecl) -> Option<Unit> {
         base: decl.base.as_ref().map(|base| Base { symbol: base.value.1.clone(), factor: base.value.0 }),
         formula: decl.formula.as_ref().map(|formula| formula.value.clone()),
         about: decl.about.as_ref().map(|about| about.value.clone()).unwrap_or_default(),
+        stated: Statement::written(decl.name.span, maker),
     })
 }

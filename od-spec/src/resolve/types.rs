@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 
 use super::to_u16;
 use crate::ast::{BitDecl, TypeDecl, ValueDecl, Words};
+use crate::check::codes as rule_codes;
 use crate::decode::nearest;
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Text, TypeKind};
-use crate::source::{Span, Spanned};
-use crate::yaml::shorten;
+use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Statement, Text, TypeKind};
+use crate::source::{FileId, Span, Spanned};
 
 /// Resolves a type; `None` when it is too broken to be used.
-pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<NamedType> {
+pub(super) fn resolve(decl: &TypeDecl, maker: FileId, diagnostics: &mut Diagnostics) -> Option<NamedType> {
     let name = decl.base.as_ref()?;
     let Some(base) = DataType::from_name(&name.value).filter(|base| base.is_integer()) else {
         let integers =
@@ -70,7 +71,8 @@ pub(super) fn resolve(decl: &TypeDecl, diagnostics: &mut Diagnostics) -> Option<
             return None;
         }
     };
-    Some(NamedType { name: decl.name.value.clone(), base, about: words(&decl.about), kind })
+    let stated = Statement::written(decl.name.span, maker);
+    Some(NamedType { name: decl.name.value.clone(), base, about: words(&decl.about), kind, stated })
 }
 
 /// A text or none.
@@ -91,7 +93,7 @@ fn values(
         if !(low..=high).contains(&value) {
             diagnostics.push(
                 Diagnostic::new(
-                    codes::VALUE_DOES_NOT_FIT,
+                    rule_codes::VALUE_DOES_NOT_FIT,
                     decl.value.span,
                     format!("{value} does not fit {carrier}"),
                 )
@@ -122,7 +124,7 @@ fn unique_name<'a>(
     if let Some(before) = names.insert(name, span) {
         diagnostics.push(
             Diagnostic::new(
-                codes::DUPLICATE_NAME,
+                rule_codes::DUPLICATE_NAME,
                 span,
                 format!("the name `{}` stands twice in this type", shorten(name)),
             )
@@ -147,7 +149,7 @@ fn bits(
         let Spanned { value: (first, last), span } = bit.bits;
         if last >= width {
             diagnostics.push(
-                Diagnostic::new(codes::VALUE_DOES_NOT_FIT, span, format!("{base} has no bit {last}"))
+                Diagnostic::new(rule_codes::VALUE_DOES_NOT_FIT, span, format!("{base} has no bit {last}"))
                     .label(format!("bits 0 to {}", width - 1))
                     .help("correct the bit number or take a wider type"),
             );
@@ -191,7 +193,7 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
         usage: bit.usage,
         name: bit.name.as_ref().map_or(String::new(), |name| name.value.clone()),
         about: words(&bit.about),
-        errors: bit.errors.iter().map(|code| to_u16(code.value)).collect(),
+        errors: bit.errors.iter().map(|code| code.map(to_u16)).collect(),
         clamp: bit.clamp.as_ref().map(|clamp| clamp.value.clone()),
         active: u8::from(bit.active.is_none_or(|active| active.value == 1)),
         edge: bit.edge,

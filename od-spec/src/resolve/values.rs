@@ -1,12 +1,13 @@
 //! Values of entries: raw numbers, physical values, enum names, strings, node-ID formulas.
 
 use crate::ast::Name;
+use crate::check::codes as rule_codes;
 use crate::decode::nearest;
+use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
 use crate::source::Span;
 use crate::yaml::scalar::{self, NumberError};
-use crate::yaml::shorten;
 
 /// What a value is read against.
 #[derive(Clone, Copy)]
@@ -106,7 +107,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
             None if !values.is_empty() => {
                 let names = values.iter().map(|value| value.name.as_str());
                 let diagnostic = Diagnostic::new(
-                    codes::UNKNOWN_ENUM_VALUE,
+                    rule_codes::UNKNOWN_ENUM_VALUE,
                     span,
                     format!("`{shown}` is not a value of this enum"),
                 );
@@ -141,8 +142,12 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
     fits(raw, span, expected.data_type, &format!("{raw}"))?;
     if !values.is_empty() && !values.iter().any(|value| value.value == raw) {
         return Err(Box::new(
-            Diagnostic::new(codes::UNKNOWN_ENUM_VALUE, span, format!("{raw} is not a value of this enum"))
-                .help(format!("its values are {}", list(values.iter().map(|value| value.name.as_str())))),
+            Diagnostic::new(
+                rule_codes::UNKNOWN_ENUM_VALUE,
+                span,
+                format!("{raw} is not a value of this enum"),
+            )
+            .help(format!("its values are {}", list(values.iter().map(|value| value.name.as_str())))),
         ));
     }
     Ok(Value::Integer(raw))
@@ -168,7 +173,7 @@ pub(crate) fn fits(raw: i128, span: Span, data_type: DataType, what: &str) -> Re
         format!("as a bit pattern this would be {}; write signed values in decimal", raw - 2 * high - 2)
     });
     let diagnostic =
-        Diagnostic::new(codes::VALUE_DOES_NOT_FIT, span, format!("{what} does not fit {data_type}"))
+        Diagnostic::new(rule_codes::VALUE_DOES_NOT_FIT, span, format!("{what} does not fit {data_type}"))
             .label(format!("allowed: {low} to {high}"))
             .help("correct the value or the type");
     Err(Box::new(match note {
@@ -212,8 +217,12 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
     };
     let steps = number.checked_div(step).ok_or_else(|| {
         Box::new(
-            Diagnostic::new(codes::VALUE_DOES_NOT_FIT, span, "the value is too large to be computed exactly")
-                .help("correct the value"),
+            Diagnostic::new(
+                rule_codes::VALUE_DOES_NOT_FIT,
+                span,
+                "the value is too large to be computed exactly",
+            )
+            .help("correct the value"),
         )
     })?;
     steps.to_whole().ok_or_else(|| {

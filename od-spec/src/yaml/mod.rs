@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
 
 /// Deepest nesting that is read.
@@ -107,19 +107,6 @@ impl Node {
             _ => 0,
         }
     }
-}
-
-/// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
-pub(crate) fn shorten(text: &str) -> String {
-    let text = text.trim_end_matches(['\n', '\r']);
-    let keep = if text.chars().count() <= 60 { 60 } else { 57 };
-    let one_line = text.chars().take(keep).map(|c| match c {
-        '`' => '\'',
-        c if c.is_control() => ' ',
-        c => c,
-    });
-    let rest = if keep == 60 { "" } else { "..." };
-    one_line.chain(rest.chars()).collect()
 }
 
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.

@@ -245,7 +245,7 @@ fn check_bits(table: &Table, kind: &TypeKind) {
         assert_eq!(table.cell(row, "Clamp"), field.clamp.as_deref().unwrap_or_default(), "{name}");
         assert_eq!(table.cell(row, "Prio."), field.priority.as_deref().unwrap_or_default(), "{name}");
         let codes = table.cell(row, "Error code").lines().next().unwrap_or_default();
-        let own: Vec<String> = field.errors.iter().map(|code| format!("{code:04X}h")).collect();
+        let own: Vec<String> = field.error_codes().map(|code| format!("{code:04X}h")).collect();
         assert!(codes == own.join(", ") || (own.is_empty() && codes.contains(": ")), "{name}: {codes}");
     }
 }

@@ -10,7 +10,7 @@ use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, Origin, PdoMapping, System};
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, compile};
+use od_spec::{NoFiles, compile, rule_codes};
 
 use super::ERRORS;
 use super::args::{BuildArgs, DocsFormat};
@@ -66,10 +66,11 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
     }
     if let Some(path) = clash(&set) {
         return report.refuse(
-            Diagnostic::without_place(codes::DUPLICATE_NAME, format!("two devices would both write {path}"))
-                .help(
-                    "give the devices different keys, or build the specifications into different directories",
-                ),
+            Diagnostic::without_place(
+                rule_codes::DUPLICATE_NAME,
+                format!("two devices would both write {path}"),
+            )
+            .help("give the devices different keys, or build the specifications into different directories"),
         );
     }
     let written = write_all(&args.out, &set);

@@ -10,7 +10,7 @@ use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{assign, eds_text_problem};
+use od_spec::{assign, eds_text_problem, rule_codes};
 
 use super::ERRORS;
 use super::args::DcfArgs;
@@ -87,10 +87,11 @@ fn text(option: &str, text: &str, longest: usize) -> Result<String, Diagnostic> 
     let text = text.trim();
     match eds_text_problem(text, longest) {
         None => Ok(text.to_owned()),
-        Some(problem) => {
-            Err(Diagnostic::without_place(codes::NOT_FOR_EDS, format!("the text of `{option}` {problem}"))
-                .help("choose another text"))
-        }
+        Some(problem) => Err(Diagnostic::without_place(
+            rule_codes::NOT_FOR_EDS,
+            format!("the text of `{option}` {problem}"),
+        )
+        .help("choose another text")),
     }
 }
 

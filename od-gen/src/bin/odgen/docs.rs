@@ -8,6 +8,7 @@ use od_gen::docs::{self, TemplateError, Templates};
 use od_gen::files::write_all;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::System;
+use od_spec::rule_codes;
 use od_spec::source::SourceMap;
 
 use super::args::{DocsArgs, DocsFormat};
@@ -56,7 +57,7 @@ pub(crate) fn run(args: &DocsArgs, report: &Report) -> u8 {
     if let Some(path) = clash(&set) {
         return report.refuse(
             Diagnostic::without_place(
-                codes::DUPLICATE_NAME,
+                rule_codes::DUPLICATE_NAME,
                 format!("two specifications would both write {path}"),
             )
             .help("print specifications of one file name into different directories"),

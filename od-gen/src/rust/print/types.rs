@@ -230,7 +230,7 @@ impl Plan<'_> {
             let _ = write!(text, " Clamp {}.", escape(clamp));
         }
         if !field.errors.is_empty() {
-            let codes: Vec<String> = field.errors.iter().map(|code| format!("{code:04X}h")).collect();
+            let codes: Vec<String> = field.error_codes().map(|code| format!("{code:04X}h")).collect();
             let _ = write!(text, " Error {}.", codes.join(", "));
         }
         doc(&text)

@@ -5,7 +5,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::PatternBit;
 use crate::source::Span;
 
-pub(crate) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
+pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
     for object in &root.objects {
         check_object(object, diagnostics);
     }
@@ -43,7 +43,7 @@ pub(crate) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
     }
 }
 
-pub(crate) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
+pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
     let ObjectDecl { alias, from, array, record, sub0, omit, outside, rounding, entry, .. } = object;
     if alias.is_none() {
         for (key, span) in [("outside", outside.map(|o| o.span)), ("rounding", rounding.map(|r| r.span))] {

@@ -1,0 +1,48 @@
+//! 1000h and 1018h say what vendor and device say.
+
+use super::subject::entry_id;
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Fact, Value, format_value};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0611",
+    severity: Severity::Error,
+    title: "an identity that disagrees",
+    explanation: "1000h and 1018h hold the device type, the vendor number, the product code and the revision, and `[DeviceInfo]` of the EDS says the \
+        same numbers from `vendor:` and `devices:`. A PLC compares the two at boot and refuses the device where they differ. Remove the \
+        default: it follows from the vendor and the device.",
+    clause: Some("CiA 306, 4.5 ([DeviceInfo]); CiA 301, objects 1000h and 1018h"),
+    example: Some(Example::new(
+        "vendor: {name: Example, number: 0x10}\nobjects:\n  0x1018: {from: cia301, record: {1: {default: 0x11}}}",
+        "vendor: {name: Example, number: 0x10}\nobjects:\n  0x1018: {from: cia301}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let info = &subject.device.info;
+    let identity = [
+        (entry_id(0x1000, 0), info.device_type),
+        (entry_id(0x1018, 1), subject.system.vendor.number),
+        (entry_id(0x1018, 2), info.product),
+        (entry_id(0x1018, 3), info.product_revision),
+    ];
+    for (id, number) in identity {
+        let Some(entry) = subject.device.entry(id) else { continue };
+        let Some(stated) = entry.default.as_ref() else { continue };
+        let number = Value::Integer(i128::from(number));
+        if *stated != number {
+            let (stated, number) = (format_value(entry, stated), format_value(entry, &number));
+            findings.push(
+                Diagnostic::new(
+                    CODE,
+                    subject.place(entry, Fact::Default),
+                    format!("{id} ({}) says {stated}, the device {number}", entry.name),
+                )
+                .help("remove the default; it follows from the vendor and the device"),
+            );
+        }
+    }
+}

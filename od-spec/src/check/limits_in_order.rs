@@ -1,0 +1,38 @@
+//! The low limit of an entry is not above the high one.
+
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Fact, Value, format_value};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0407",
+    severity: Severity::Error,
+    title: "limits in the wrong order",
+    explanation: "The low limit is above the high limit, so that no value would be allowed. Probably the two were swapped. Correct one of them.",
+    clause: Some("CiA 306, 4.6.3.2 (LowLimit, HighLimit)"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: brightness, type: unsigned8, access: rw, min: 100, max: 0}",
+        "objects:\n  0x2000: {name: brightness, type: unsigned8, access: rw, min: 0, max: 100}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for (id, _, entry) in subject.device.entries() {
+        let Some((low, high)) = entry.low.zip(entry.high).filter(|(low, high)| low > high) else { continue };
+        let show = |raw| format_value(entry, &Value::Integer(raw));
+        let message = format!(
+            "{id} ({}): the low limit {} is above the high limit {}",
+            entry.name,
+            show(low),
+            show(high)
+        );
+        findings.push(
+            Diagnostic::new(CODE, subject.place(entry, Fact::LowLimit), message)
+                .label("low limit")
+                .with(subject.place(entry, Fact::HighLimit), "high limit")
+                .help("swap or correct the two"),
+        );
+    }
+}

@@ -1,0 +1,87 @@
+//! What a PDO maps is there, can be mapped in its direction, and has the length that the mapping says.
+
+use super::pdo::{Parameter, target, title};
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity, codes};
+use crate::model::{Direction, EntryId, Object, Pdo, PdoMapping, PdoTarget};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0502",
+    severity: Severity::Error,
+    title: "an entry that cannot be mapped into this PDO",
+    explanation: "The entry's `pdo:` does not allow this direction, or none at all, or the mapping parameter says another length than the entry has. \
+        A device answers such a mapping with abort code 0604 0041h; one that does not would send or take other bits than the master expects. \
+        Give the entry `pdo: receive` or `pdo: transmit`, or map another one.",
+    clause: Some("CiA 301, objects 1600h and 1A00h (PDO mapping parameters)"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro}\npdos:\n  io: {transmit: {1: {map: [level]}}}",
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [level]}}}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for pdo in &subject.device.pdos {
+        for parameter in subject.mapping(pdo) {
+            let Some(mapped) = target(parameter.raw()) else { continue };
+            let PdoTarget::Entry(id) = mapped.target else { continue };
+            if let Some(finding) = finding(subject, pdo, &parameter, id, mapped.bits) {
+                findings.push(finding);
+            }
+        }
+    }
+}
+
+fn finding(
+    subject: &Subject<'_>,
+    pdo: &Pdo,
+    parameter: &Parameter<'_>,
+    id: EntryId,
+    length: u8,
+) -> Option<Diagnostic> {
+    let (at, place) = (parameter.id, parameter.place);
+    let object = subject.device.objects.get(&id.index);
+    let Some((object, entry)) = object.and_then(|object| Some((object, object.entry(id.sub)?))) else {
+        let message = format!("{at}: there is no entry {id}");
+        let help = "map an entry of the device; bits 31..16: index, 15..8: sub-index, 7..0: length in bits";
+        return Some(Diagnostic::new(codes::UNKNOWN_ENTRY, place, message).help(help));
+    };
+    // That such a type cannot be mapped at all is said at the entry.
+    let bits = entry.data_type.bits()?;
+    if !entry.pdo.allows(pdo.direction) {
+        let direction = match entry.pdo {
+            PdoMapping::None => "PDOs".to_owned(),
+            PdoMapping::Receive | PdoMapping::Transmit | PdoMapping::Both => {
+                format!("{}s", pdo.direction.pdo())
+            }
+        };
+        let message = format!("{at}: {id} ({}) cannot be mapped into {direction}", entry.name);
+        let diagnostic = Diagnostic::new(CODE, place, message).help(help(object, id, pdo.direction));
+        return Some(if entry.span.file == subject.device.span.file {
+            diagnostic.with(entry.span, format!("`pdo: {}`, `{}`", entry.pdo.word(), entry.access.word()))
+        } else {
+            diagnostic
+        });
+    }
+    (u16::from(length) != bits).then(|| {
+        Diagnostic::new(CODE, place, format!("{at}: {id} has {bits} bits, not {length}"))
+            .help(format!("write the entry's length in bits 7..0 of the mapping of {}", title(pdo)))
+    })
+}
+
+/// What to do: perhaps the number of entries was mapped instead of an entry.
+fn help(object: &Object, id: EntryId, direction: Direction) -> String {
+    let is_count = object.is_structured() && id.sub.0 == 0;
+    let member = object.entries.iter().find(|entry| entry.pdo.allows(direction));
+    match member.filter(|_| is_count) {
+        None if is_count => {
+            format!("that is the number of its entries, none of which has `pdo: {}`", direction.word())
+        }
+        Some(member) => format!(
+            "that is the number of its entries; map one of them, such as `0x{:04X}.{}`",
+            id.index.0, member.sub
+        ),
+        None => format!("give the entry `pdo: {}`, or map another one", direction.word()),
+    }
+}

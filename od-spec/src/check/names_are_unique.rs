@@ -1,0 +1,102 @@
+//! Objects of one device, and entries of one object, have names of their own, also in ASCII, and none looks like another
+//! one's `object.entry`.
+
+use std::collections::BTreeMap;
+
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::ascii::transliterate;
+use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
+use crate::model::{DataType, Entry, Fact, Object};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+/// The code of the rule.
+pub const CODE: &Code = &Code {
+    id: "OD0303",
+    severity: Severity::Error,
+    title: "a name stands for two things",
+    explanation: "Names are how people, PDO mappings and generated code refer to things: objects of one device, entries of one object, values and bits of one \
+        type, units and types each need a name of their own, also where an EDS writes it in ASCII. Otherwise a mapping or a parameter file could \
+        reach another entry than its author had in mind. Give one of the two another name.",
+    clause: None,
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro}\n  0x2001: {name: level, type: unsigned8, access: ro}",
+        "objects:\n  0x2000: {name: upper level, type: unsigned8, access: ro}\n  0x2001: {name: lower level, type: unsigned8, access: ro}",
+    )),
+};
+
+/// Objects by their names as an EDS writes them.
+type ByName<'a> = BTreeMap<String, &'a Object>;
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let mut by_name = ByName::new();
+    for object in subject.device.objects.values() {
+        if let Some(before) = by_name.insert(transliterate(&object.name), object) {
+            findings.push(same_name(subject, before, object));
+        }
+        if DataType::from_name(&object.name).is_some() {
+            let message = format!("`{}` is the name of a data type", object.name);
+            let help = "choose another name; in a PDO mapping this one means a placeholder";
+            findings.push(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
+        }
+    }
+    for object in subject.device.objects.values().filter(|object| object.is_structured()) {
+        check_entries(subject, object, findings);
+        check_dotted(subject, object, &by_name, findings);
+    }
+}
+
+/// Two objects of one name. What comes from a library is right: the message is about the other one.
+fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnostic {
+    let is_makers = object.span.file == subject.device.span.file;
+    let (blamed, namesake) = if is_makers { (object, before) } else { (before, object) };
+    let name = shorten(&object.name);
+    let message =
+        format!("{} and {} of `{}` are both named `{name}`", before.index, object.index, subject.device.key);
+    Diagnostic::new(CODE, blamed.span, message)
+        .label(blamed.index.to_string())
+        .with(namesake.span, namesake.index.to_string())
+        .help("give one of the two another name; PDO mappings and generated code refer to objects by name")
+}
+
+/// Two entries of one object.
+fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings) {
+    let mut by_name: BTreeMap<String, &Entry> = BTreeMap::new();
+    for entry in &object.entries {
+        let Some(before) = by_name.insert(transliterate(&entry.name), entry) else { continue };
+        let (index, first, second) = (object.index, before.sub, entry.sub);
+        let (place, before_place) = (subject.place(entry, Fact::Name), subject.place(before, Fact::Name));
+        let message = if entry.name == before.name {
+            format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(&entry.name))
+        } else {
+            format!("{index}.{first} and {index}.{second} have one name in an EDS")
+        };
+        let diagnostic = Diagnostic::new(CODE, place, message);
+        findings.push(if place == before_place {
+            let help = "write `{n}` into the name; it stands for the sub-index";
+            diagnostic.label(format!("sub-index {first} and sub-index {second}")).help(help)
+        } else {
+            diagnostic
+                .label(format!("sub-index {second}"))
+                .with(before_place, format!("sub-index {first}"))
+                .help("give each entry of an object a name of its own")
+        });
+    }
+}
+
+/// An object that is named like an entry of another one.
+fn check_dotted(subject: &Subject<'_>, object: &Object, by_name: &ByName<'_>, findings: &mut Findings) {
+    for entry in &object.entries {
+        let full = format!("{}.{}", object.name, entry.name);
+        let Some(namesake) = by_name.get(&transliterate(&full)) else { continue };
+        let (index, sub) = (object.index, entry.sub);
+        let message =
+            format!("`{}` is the name of {} and means {index}.{sub}", shorten(&full), namesake.index);
+        findings.push(
+            Diagnostic::new(CODE, subject.object_place(namesake), message)
+                .label(namesake.index.to_string())
+                .with(entry.span, format!("{index}.{sub}"))
+                .help("give one of them a name without this dot"),
+        );
+    }
+}

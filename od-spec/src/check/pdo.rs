@@ -1,0 +1,92 @@
+//! A PDO as its parameter objects say it: what the rules about PDOs read.
+
+use super::Subject;
+use super::subject::entry_id;
+use crate::model::{DataType, Entry, EntryId, Fact, Mapped, Pdo, PdoTarget, Value};
+use crate::source::Span;
+
+/// Bit of a COB-ID: the PDO does not exist (CiA 301, object 1400h).
+pub(super) const NOT_VALID: i128 = 1 << 31;
+/// Bit of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
+pub(super) const NO_REMOTE_FRAMES: i128 = 1 << 30;
+
+/// A parameter of a PDO with its value.
+pub(super) struct Parameter<'a> {
+    /// Which one.
+    pub id: EntryId,
+    /// The entry.
+    pub entry: &'a Entry,
+    /// Its value.
+    pub value: &'a Value,
+    /// Where the value stands.
+    pub place: Span,
+}
+
+impl Parameter<'_> {
+    /// The raw value. Only a COB-ID can depend on the node-ID.
+    pub(super) fn raw(&self) -> i128 {
+        self.value.integer().unwrap_or_default()
+    }
+}
+
+/// `RPDO 1`.
+pub(super) fn title(pdo: &Pdo) -> String {
+    format!("{} {}", pdo.direction.pdo(), pdo.number)
+}
+
+impl<'a> Subject<'a> {
+    fn parameter(&self, index: u16, sub: u8) -> Option<Parameter<'a>> {
+        let id = entry_id(index, sub);
+        let entry = self.device.entry(id)?;
+        Some(Parameter { id, entry, value: entry.default.as_ref()?, place: self.place(entry, Fact::Default) })
+    }
+
+    /// A communication parameter.
+    pub(super) fn communication(&self, pdo: &Pdo, sub: u8) -> Option<Parameter<'a>> {
+        self.parameter(pdo.communication_index(), sub)
+    }
+
+    /// The number of mapped entries.
+    pub(super) fn mapping_count(&self, pdo: &Pdo) -> Option<Parameter<'a>> {
+        self.parameter(pdo.mapping_index(), 0)
+    }
+
+    /// How many entries the PDO can map.
+    pub(super) fn mapping_capacity(&self, pdo: &Pdo) -> i128 {
+        let object = self.device.objects.get(&entry_id(pdo.mapping_index(), 0).index);
+        object.and_then(|object| object.entries.last()).map_or(0, |last| i128::from(last.sub.0))
+    }
+
+    /// All mapping parameters behind the count, used or not.
+    pub(super) fn mapping(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
+        let (subject, index) = (*self, pdo.mapping_index());
+        (1..=0x40).map_while(move |sub| subject.parameter(index, sub))
+    }
+
+    /// The mapping parameters that count.
+    pub(super) fn mapped(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
+        let count = self.mapping_count(pdo).map_or(0, |count| count.raw());
+        self.mapping(pdo).take(usize::try_from(count).unwrap_or(0))
+    }
+
+    /// Where a mapping as a whole is said: at a setting of it, or else where its count stands.
+    pub(super) fn mapping_place(&self, pdo: &Pdo) -> Span {
+        let mut parameters = self.mapping(pdo).chain(self.mapping_count(pdo)).collect::<Vec<_>>();
+        parameters.sort_by_key(|parameter| parameter.id);
+        let set = parameters.iter().rfind(|parameter| parameter.entry.is_set());
+        set.or(parameters.first()).map_or(pdo.span, |parameter| parameter.place)
+    }
+}
+
+/// What a mapping parameter refers to; `None` for 0, an empty one, and for what is no mapping parameter.
+pub(super) fn target(raw: i128) -> Option<Mapped> {
+    Mapped::from_parameter(u32::try_from(raw).ok().filter(|raw| *raw != 0)?)
+}
+
+/// The data type of a placeholder.
+pub(super) const fn placeholder(mapped: &Mapped) -> Option<DataType> {
+    match mapped.target {
+        PdoTarget::Dummy(data_type) => Some(data_type),
+        PdoTarget::Entry(_) => None,
+    }
+}

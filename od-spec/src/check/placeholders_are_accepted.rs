@@ -1,0 +1,41 @@
+//! Placeholders stand in RPDOs, and are of types that the device accepts there.
+
+use super::pdo::{placeholder, target, title};
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Direction;
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0506",
+    severity: Severity::Error,
+    title: "a placeholder that the device does not take",
+    explanation: "RPDOs may hold placeholders of the types that the device lists in `dummies:`, to skip bits that are meant for another device; \
+        TPDOs may not. A device that does not know the placeholder refuses the whole mapping. List the type in `dummies:`, or map entries only.",
+    clause: Some("CiA 306, 4.6.2 ([DummyUsage])"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: rw, pdo: receive}\npdos:\n  io: {receive: {1: {map: [unsigned8, level]}}}",
+        "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer], dummies: [unsigned8]}\nobjects:\n  0x2000: {name: level, type: unsigned8, access: rw, pdo: receive}\npdos:\n  io: {receive: {1: {map: [unsigned8, level]}}}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for pdo in &subject.device.pdos {
+        for parameter in subject.mapping(pdo) {
+            let Some(data_type) = target(parameter.raw()).as_ref().and_then(placeholder) else { continue };
+            let problem = match pdo.direction {
+                Direction::Transmit => "a TPDO has no placeholders".to_owned(),
+                Direction::Receive if !subject.device.info.dummies.contains(&data_type) => {
+                    format!("{} takes no {data_type} placeholder", title(pdo))
+                }
+                Direction::Receive => continue,
+            };
+            let message = format!("{}: {problem}", parameter.id);
+            findings.push(
+                Diagnostic::new(CODE, parameter.place, message)
+                    .help("list the type in the device's `dummies:`; placeholders stand in RPDOs only"),
+            );
+        }
+    }
+}

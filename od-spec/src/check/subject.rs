@@ -1,0 +1,130 @@
+//! What a rule looks at: one device, as a type that may become any node, or as one configured node.
+
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
+use crate::expr::{EntryRef, Values};
+use crate::model::{
+    Author, Dictionary, Entry, EntryId, Fact, Index, Object, Ratio, SubIndex, System, Value, convert,
+};
+use crate::source::{FileId, Span};
+
+/// One device under the rules.
+#[derive(Clone, Copy)]
+pub(crate) struct Subject<'a> {
+    /// Everything that the specification describes.
+    pub system: &'a System,
+    /// The device, with the settings laid over its defaults where it is a configured node.
+    pub device: &'a Dictionary,
+    /// The node-ID of a configured node; `None` for a type.
+    pub node: Option<u8>,
+}
+
+impl<'a> Subject<'a> {
+    /// The node-IDs that the device can have.
+    pub(super) fn nodes(&self) -> RangeInclusive<u8> {
+        self.node.map_or(1..=127, |node| node..=node)
+    }
+
+    /// The node-IDs on which a value may differ: one is enough for a value that is no formula.
+    pub(super) fn nodes_of(&self, value: &Value) -> RangeInclusive<u8> {
+        match value {
+            Value::NodeId(_) => self.nodes(),
+            Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_) => {
+                let first = *self.nodes().start();
+                first..=first
+            }
+        }
+    }
+
+    /// ` on node 5`, where a value depends on the node-ID and the device may have any.
+    pub(super) fn on_node(&self, value: &Value, node: u8) -> String {
+        if self.node.is_none() && matches!(value, Value::NodeId(_)) {
+            format!(" on node {node}")
+        } else {
+            String::new()
+        }
+    }
+
+    /// Entries with a value, and that value.
+    pub(super) fn values(&self) -> impl Iterator<Item = (EntryId, &'a Entry, &'a Value)> {
+        self.device.entries().filter_map(|(id, _, entry)| Some((id, entry, entry.default.as_ref()?)))
+    }
+
+    /// The raw number of a value, where it does not depend on an unknown node-ID.
+    fn fixed(&self, value: &Value) -> Option<i128> {
+        match self.node {
+            Some(node) => value.integer_for(node),
+            None => value.integer(),
+        }
+    }
+
+    /// Where a fact of an entry stands; the place of the device for what a library says, which is right.
+    pub(super) fn place(&self, entry: &Entry, fact: Fact) -> Span {
+        match entry.facts.get(fact) {
+            Some(statement) if statement.author == Author::Library => self.device.span,
+            Some(statement) => statement.span,
+            None if entry.span.file == self.device.span.file => entry.span,
+            None => self.device.span,
+        }
+    }
+
+    /// Where an object stands; the place of the device for one that a library brings.
+    pub(super) fn object_place(&self, object: &Object) -> Span {
+        if object.span.file == self.device.span.file { object.span } else { self.device.span }
+    }
+
+    /// The entries that are set by name, with where that stands.
+    pub(super) fn set_entries(&self) -> impl Iterator<Item = (EntryId, &'a Entry, Span)> {
+        let subject = *self;
+        let set = self.device.entries().filter(|(.., entry)| entry.is_set());
+        set.map(move |(id, _, entry)| (id, entry, subject.place(entry, Fact::Default)))
+    }
+
+    /// The files in which settings stand.
+    pub(super) fn settings(&self) -> BTreeSet<FileId> {
+        self.set_entries().map(|(.., place)| place.file).collect()
+    }
+
+    /// The device that a condition means.
+    fn named(&self, entry: &EntryRef) -> Option<&'a Dictionary> {
+        match &entry.device {
+            Some(key) if *key != self.device.key => self.system.device(key),
+            _ => Some(self.device),
+        }
+    }
+
+    /// The entry that a condition names, and where its value stands.
+    pub(super) fn named_entry(&self, entry: &EntryRef) -> Option<(&'a Entry, Span)> {
+        let found = self.named(entry)?.entry(entry.id)?;
+        Some((found, found.place(Fact::Default)))
+    }
+}
+
+/// An index and a sub-index.
+pub(super) const fn entry_id(index: u16, sub: u8) -> EntryId {
+    EntryId { index: Index(index), sub: SubIndex(sub) }
+}
+
+/// The values of a device, in physical units.
+impl Values for Subject<'_> {
+    fn value(&self, entry: &EntryRef) -> Option<Ratio> {
+        let raw = Ratio::whole(self.raw(entry)?);
+        match self.named(entry)?.entry(entry.id)?.unit.as_ref() {
+            Some(unit) => raw.checked_mul(unit.step()?),
+            None => Some(raw),
+        }
+    }
+
+    fn raw(&self, entry: &EntryRef) -> Option<i128> {
+        let device = self.named(entry)?;
+        let found = device.entry(entry.id)?;
+        if let Some(alias) = &found.alias {
+            let target = EntryRef { id: alias.target, ..entry.clone() };
+            return convert(self.raw(&target)?, alias.factor, alias.rounding, alias.outside, found.data_type);
+        }
+        let value = found.default.as_ref()?;
+        // Nothing is known about the node-ID of another device.
+        if device.key == self.device.key { self.fixed(value) } else { value.integer() }
+    }
+}

@@ -1,0 +1,66 @@
+//! A value lies inside the limits of its entry, for every node-ID, or is a special one.
+
+use super::words::allowed;
+use super::{Check, Findings, Needs, Rule, Subject};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Entry, EntryId, Fact, Value, format_value};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+pub(crate) const CODE: &Code = &Code {
+    id: "OD0406",
+    severity: Severity::Error,
+    title: "a value outside the limits",
+    explanation: "The value lies outside `min` and `max` of its entry and is none of its `special` values; for a node-ID formula this holds \
+        for every node-ID. A device refuses such a value with abort code 0609 0031h or 0609 0032h, and one that does not may do harm. \
+        Correct the value or the limits, or make the value `special`. What an alias sets counts for the entry that holds the value, too.",
+    clause: Some("CiA 306, 4.6.3.2 (LowLimit, HighLimit)"),
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: brightness, type: unsigned8, access: rw, default: 120, max: 100}",
+        "objects:\n  0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for (id, entry, value) in subject.values() {
+        let target = entry.alias.as_ref().and_then(|alias| subject.device.entry(alias.target));
+        // Of a view and the entry that it shows, the entry is blamed: the limits of the view follow from it.
+        let is_blamed = |target: &Entry| {
+            target.place(Fact::Default) == entry.place(Fact::Default)
+                && target.default.as_ref().is_some_and(|value| outside(subject, target, value).is_some())
+        };
+        if target.is_some_and(is_blamed) {
+            continue;
+        }
+        if let Some(node) = outside(subject, entry, value) {
+            findings.push(finding(subject, id, entry, value, node));
+        }
+    }
+}
+
+/// The first node on which the value is outside.
+fn outside(subject: &Subject<'_>, entry: &Entry, value: &Value) -> Option<u8> {
+    // Limits in the wrong order allow nothing; that is said by itself.
+    let has_order = entry.low.zip(entry.high).is_none_or(|(low, high)| low <= high);
+    let (low, high) = entry.data_type.range().filter(|_| has_order)?;
+    let is_outside = |raw: i128| (low..=high).contains(&raw) && !entry.allows(raw);
+    subject.nodes_of(value).find(|node| value.integer_for(*node).is_some_and(is_outside))
+}
+
+fn finding(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value, node: u8) -> Diagnostic {
+    let place = subject.place(entry, Fact::Default);
+    let raw = value.integer_for(node).unwrap_or_default();
+    let (shown, on_node) = (format_value(entry, &Value::Integer(raw)), subject.on_node(value, node));
+    let message = format!("{id} ({}): {shown} is outside {}{on_node}", entry.name, allowed(entry));
+    let help = if subject.node.is_some() {
+        "write a value within the limits; the device refuses any other"
+    } else {
+        "correct the value or the limits, or make the value `special`"
+    };
+    let diagnostic = Diagnostic::new(CODE, place, message).help(help);
+    let shows = |view: &Entry| view.alias.as_ref().is_some_and(|alias| alias.target == id) && view.is_set();
+    match subject.device.entries().find(|(.., view)| shows(view)) {
+        Some((view, ..)) => diagnostic.note(format!("{view} is a view of {id}")),
+        None => diagnostic,
+    }
+}

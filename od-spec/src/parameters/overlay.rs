@@ -1,0 +1,68 @@
+//! A device with settings laid over its defaults.
+
+use super::{Setting, read};
+use crate::model::{Author, Dictionary, Entry, EntryId, Outside, Statement, Value, convert};
+use crate::source::Span;
+
+/// The device as it is once the settings are downloaded to a node. A value that is set has its place in the setting; so have
+/// the entry behind a view, and what follows from it.
+pub(super) fn configured(device: &Dictionary, node: u8, settings: &[Setting]) -> Dictionary {
+    let mut configured = device.clone();
+    for setting in settings {
+        let place = Statement { span: setting.value_span, author: Author::Setting };
+        let held = match device.entry(setting.id).and_then(|entry| entry.alias.as_ref()) {
+            Some(alias) => {
+                let raw = setting.value.integer_for(node);
+                raw.and_then(|raw| read::target_value(alias, raw)).map(Value::Integer)
+            }
+            None => Some(setting.value.clone()),
+        };
+        let Some(held) = held else { continue };
+        if setting.holder != setting.id {
+            let statement = Statement { author: Author::Derived, ..place };
+            set(&mut configured, setting.holder, held.clone(), statement);
+        }
+        set(&mut configured, setting.id, setting.value.clone(), place);
+        follow(&mut configured, device, setting, &held, node);
+    }
+    let objects = &configured.objects;
+    for pdo in &mut configured.pdos {
+        pdo.follow(objects);
+    }
+    configured
+}
+
+/// The device with one entry marked as set, its value as it was: to see whether it can be set at all.
+pub(super) fn marked(device: &Dictionary, id: EntryId, place: Span) -> Dictionary {
+    let mut marked = device.clone();
+    if let Some(entry) = entry_mut(&mut marked, id) {
+        let value = entry.default.take();
+        entry.set_default(value, Statement { span: place, author: Author::Setting });
+    }
+    marked
+}
+
+fn entry_mut(device: &mut Dictionary, id: EntryId) -> Option<&mut Entry> {
+    device.objects.get_mut(&id.index)?.entries.iter_mut().find(|entry| entry.sub == id.sub)
+}
+
+fn set(device: &mut Dictionary, id: EntryId, value: Value, statement: Statement) {
+    if let Some(entry) = entry_mut(device, id) {
+        entry.set_default(Some(value), statement);
+    }
+}
+
+/// The other views of an entry show its new value, as far as they can.
+fn follow(configured: &mut Dictionary, device: &Dictionary, setting: &Setting, held: &Value, node: u8) {
+    let Some(raw) = held.integer_for(node) else { return };
+    for (id, _, view) in device.entries().filter(|(id, ..)| *id != setting.id) {
+        let Some(alias) = view.alias.as_ref().filter(|alias| alias.target == setting.holder) else {
+            continue;
+        };
+        let shown = convert(raw, alias.factor, alias.rounding, Outside::Abort, view.data_type);
+        if let Some(entry) = entry_mut(configured, id) {
+            let statement = Statement { span: setting.value_span, author: Author::Derived };
+            entry.set_default(shown.map(Value::Integer), statement);
+        }
+    }
+}

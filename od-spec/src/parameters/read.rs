@@ -1,0 +1,98 @@
+//! One setting as it is written: `607D.2=9000`, `target position = 90.00 °`.
+
+use super::{Assignment, Setting};
+use crate::diag::{Diagnostic, codes};
+use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value, format_value};
+use crate::resolve::{self, values};
+use crate::source::Span;
+
+/// Why a setting cannot be read.
+pub(super) struct Unread {
+    /// What is wrong with it.
+    pub diagnostic: Box<Diagnostic>,
+    /// The entry that it names, where that much is clear.
+    pub id: Option<EntryId>,
+}
+
+impl From<Box<Diagnostic>> for Unread {
+    fn from(diagnostic: Box<Diagnostic>) -> Self {
+        Self { diagnostic, id: None }
+    }
+}
+
+/// Reads a setting: which entry, and which value of its type.
+pub(super) fn setting(device: &Dictionary, assignment: &Assignment) -> Result<Setting, Unread> {
+    let span = assignment.span;
+    let Some((name, text)) = assignment.value.split_once('=') else {
+        return Err(Box::new(
+            Diagnostic::new(
+                codes::BAD_ASSIGNMENT,
+                span,
+                format!("found `{}`, expected ENTRY=VALUE", assignment.value),
+            )
+            .help("write an index or a name, `=`, and a value: `607D.2=9000`"),
+        )
+        .into());
+    };
+    let value_span = span.part(name.len() + 1, assignment.value.len());
+    let (id, entry) = find(device, name.trim(), span.part(0, name.len()))?;
+    // Blanks around a number are no part of it, but a text may not lose them unnoticed.
+    let text = if matches!(entry.data_type, DataType::VisibleString | DataType::UnicodeString) {
+        text
+    } else {
+        text.trim()
+    };
+    let unit = entry.unit.as_deref();
+    let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
+    let value =
+        values::read(text, value_span, expected).map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
+    let holder = match &entry.alias {
+        Some(alias) => {
+            check_whole_steps(device, id, entry, alias, &value, value_span)?;
+            alias.target
+        }
+        None => id,
+    };
+    Ok(Setting { id, holder, value, span, value_span })
+}
+
+fn find<'a>(device: &'a Dictionary, name: &str, span: Span) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {
+    let id = resolve::lookup(device, name).map_err(|nearest| {
+        let diagnostic =
+            Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("`{}` has no entry `{name}`", device.key));
+        Box::new(match nearest {
+            Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+            None => diagnostic
+                .help("write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"),
+        })
+    })?;
+    device.entry(id).map(|entry| (id, entry)).ok_or_else(|| {
+        Box::new(
+            Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("there is no entry {id}")).help("correct it"),
+        )
+    })
+}
+
+/// The raw value that the target of an alias gets; `None` when it would have to be rounded.
+pub(super) fn target_value(alias: &Alias, raw: i128) -> Option<i128> {
+    Ratio::whole(raw).checked_div(alias.factor)?.to_whole()
+}
+
+/// What is set through a view is a whole number of steps of the entry that it shows.
+fn check_whole_steps(
+    device: &Dictionary,
+    id: EntryId,
+    entry: &Entry,
+    alias: &Alias,
+    value: &Value,
+    span: Span,
+) -> Result<(), Box<Diagnostic>> {
+    let Some(raw) = value.integer().filter(|raw| target_value(alias, *raw).is_none()) else { return Ok(()) };
+    let target = device.entry(alias.target).map_or("", |target| target.name.as_str());
+    let shown = format_value(entry, &Value::Integer(raw));
+    let message =
+        format!("{id} ({}): {shown} is no whole number of steps of {} ({target})", entry.name, alias.target);
+    Err(Box::new(
+        Diagnostic::new(codes::INEXACT_VALUE, span, message).help(format!("set {} instead", alias.target)),
+    ))
+}
