@@ -37,6 +37,7 @@ pub mod model;
 mod parameters;
 mod reference;
 mod resolve;
+pub mod scalar;
 pub mod source;
 pub mod yaml;
 

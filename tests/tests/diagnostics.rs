@@ -12,8 +12,9 @@ use std::path::{Path, PathBuf};
 
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
+use od_spec::scalar;
 use od_spec::source::{FileId, SourceMap, Span, Spanned};
-use od_spec::yaml::{Node, NodeKind, scalar};
+use od_spec::yaml::{Node, NodeKind};
 use od_spec::{Compiled, LIBRARIES, Loader, NoFiles, assign, compile, read_text};
 use proptest::prelude::*;
 

@@ -3,8 +3,7 @@
 use super::{Check, Findings, Needs, Rule, Subject};
 use crate::diag::shorten;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::expr::{CompareOp, EntryRef, Outcome, Values};
-use crate::model::{Constraint, Ratio};
+use crate::model::{CompareOp, Constraint, EntryRef, Outcome, Ratio, Values};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };

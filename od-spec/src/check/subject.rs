@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-use crate::expr::{EntryRef, Values};
 use crate::model::{
-    Author, Dictionary, Entry, EntryId, Fact, Index, Object, Ratio, SubIndex, System, Value, convert,
+    Author, Dictionary, Entry, EntryId, EntryRef, Fact, Index, Object, Ratio, SubIndex, System, Value,
+    Values, convert,
 };
 use crate::source::{FileId, Span};
 

@@ -2,7 +2,7 @@
 
 use super::{Check, Findings, Needs, Rule, Subject};
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::expr::Outcome;
+use crate::model::Outcome;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Settings(check) };
 

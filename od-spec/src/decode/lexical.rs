@@ -1,7 +1,7 @@
 //! Notations inside scalars: indices, entries, bits, dates, access, patterns.
 
 use crate::model::{Access, BitPattern, Date, DateTime, EntryId, Index, PatternBit, SubIndex};
-use crate::yaml::scalar;
+use crate::scalar;
 
 /// An index from 0001h to FFFFh.
 pub(crate) fn index(text: &str) -> Option<Index> {

@@ -2,8 +2,9 @@
 
 use crate::ast::{Name, Words};
 use crate::model::{Index, Text};
+use crate::scalar;
 use crate::source::{Span, Spanned};
-use crate::yaml::{MERGE, Node, NodeKind, scalar};
+use crate::yaml::{MERGE, Node, NodeKind};
 
 use super::lexical;
 

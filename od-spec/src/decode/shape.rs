@@ -5,8 +5,9 @@ use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::Expr;
 use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::model::Access;
+use crate::scalar;
 use crate::source::{Span, Spanned};
-use crate::yaml::{MERGE, Node, NodeKind, scalar};
+use crate::yaml::{MERGE, Node, NodeKind};
 
 /// Checks a map with fixed keys and everything below it. `owner` is the place that stands for the whole map: the key it
 /// belongs to.

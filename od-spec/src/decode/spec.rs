@@ -17,8 +17,9 @@ use crate::model::{
     Access, AccessRight, BitUsage, Category, Direction, Edge, ErratumKind, Index, Outside, PdoMapping,
     Rounding, Storage, SubIndex,
 };
+use crate::scalar;
 use crate::source::{Span, Spanned};
-use crate::yaml::{Node, NodeKind, scalar};
+use crate::yaml::{Node, NodeKind};
 
 pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     let languages = Reader { node: root, language: "en" }.texts("languages");

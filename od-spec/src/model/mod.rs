@@ -3,6 +3,7 @@
 //! A [`System`] holds what its devices share and one [`Dictionary`] per device. Every backend works
 //! from here and from nothing else.
 
+mod condition;
 mod device;
 mod document;
 mod fact;
@@ -20,6 +21,7 @@ mod value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+pub use condition::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outcome, Term, Values};
 pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
@@ -39,7 +41,6 @@ pub use types::{
 pub use unit::{Base, Unit};
 pub use value::{Value, convert, format_value};
 
-use crate::expr::Expr;
 use crate::source::Span;
 
 /// Everything that one specification describes.

@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use super::{
-    Access, Author, BitErrors, BitField, Category, DataType, Departure, EntryId, Fact, Facts, Index,
+    Access, Author, BitErrors, BitField, Category, DataType, Departure, EntryId, Expr, Fact, Facts, Index,
     NamedType, Outside, PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text, TypeKind, Unit,
     Value,
 };
-use crate::expr::Expr;
 use crate::source::Span;
 
 /// Shape of an object (CiA 301 table 37).

@@ -1,7 +1,6 @@
 //! Physical units with exact scales.
 
-use super::{Ratio, Statement, Text};
-use crate::expr::Expr;
+use super::{Expr, Ratio, Statement, Text};
 
 /// A physical unit: what one raw step is worth.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -115,7 +115,7 @@ pub(crate) fn lookup(dictionary: &Dictionary, text: &str) -> Result<EntryId, Opt
 /// `607A`, `0x607A`, `607Ah`, with `.3`; the index is always hexadecimal.
 fn hex_reference(text: &str) -> Option<EntryId> {
     let (object, sub) = match text.split_once('.') {
-        Some((object, sub)) => (object, crate::yaml::scalar::integer(sub).ok()?),
+        Some((object, sub)) => (object, crate::scalar::integer(sub).ok()?),
         None => (text, 0),
     };
     let digits = object.strip_prefix("0x").or_else(|| object.strip_prefix("0X")).unwrap_or(object);

@@ -6,8 +6,8 @@ use crate::decode::nearest;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
+use crate::scalar::{self, NumberError};
 use crate::source::Span;
-use crate::yaml::scalar::{self, NumberError};
 
 /// What a value is read against.
 #[derive(Clone, Copy)]

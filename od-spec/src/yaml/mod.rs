@@ -1,10 +1,8 @@
 //! YAML text to a tree in which every node knows its place.
 //!
 //! This is the only file that names the YAML crate. Scalars stay text here: what a scalar means is
-//! decided by the place that expects it (see [`scalar`]), so that `no`, `1.10` and `0x6040` never
+//! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
-
-pub mod scalar;
 
 use std::collections::BTreeMap;
 

@@ -105,8 +105,7 @@ impl Report {
 
 /// A node-ID from the command line.
 pub(crate) fn node_id(text: &str) -> Result<u8, Diagnostic> {
-    let number =
-        od_spec::yaml::scalar::integer(text.trim()).ok().and_then(|number| u8::try_from(number).ok());
+    let number = od_spec::scalar::integer(text.trim()).ok().and_then(|number| u8::try_from(number).ok());
     number.filter(|node| (1..=127).contains(node)).ok_or_else(|| {
         Diagnostic::without_place(codes::BAD_NODE_ID, format!("found `{text}`, expected a node-ID"))
             .help("node-IDs are 1 to 127")

@@ -1,0 +1,247 @@
+//! Conditions between entries: `0x30FC.2 < 0x30FC.1`, `bit(0x6041, 2) == 0`. Values are compared in physical units: raw value
+//! × scale, in the unit's base symbol.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+use super::{EntryId, Ratio};
+
+/// A condition.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Expr {
+    /// The condition as written.
+    pub text: String,
+    /// All must hold.
+    pub comparisons: Vec<Comparison>,
+    /// Where in the text the entries are named, in the order of [`Expr::entries`].
+    pub places: Vec<std::ops::Range<usize>>,
+}
+
+/// A chain such as `a < b <= c`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Comparison {
+    /// The first term.
+    pub first: Term,
+    /// Operators with the terms to their right.
+    pub rest: Vec<(CompareOp, Term)>,
+}
+
+/// A comparison operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CompareOp {
+    /// `<`
+    Less,
+    /// `<=`
+    LessOrEqual,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `>=`
+    GreaterOrEqual,
+    /// `>`
+    Greater,
+}
+
+impl CompareOp {
+    /// Whether the operator accepts this order of its sides.
+    pub const fn accepts(self, order: Ordering) -> bool {
+        match self {
+            CompareOp::Less => order.is_lt(),
+            CompareOp::LessOrEqual => order.is_le(),
+            CompareOp::Equal => order.is_eq(),
+            CompareOp::NotEqual => order.is_ne(),
+            CompareOp::GreaterOrEqual => order.is_ge(),
+            CompareOp::Greater => order.is_gt(),
+        }
+    }
+
+    /// The operator as written.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            CompareOp::Less => "<",
+            CompareOp::LessOrEqual => "<=",
+            CompareOp::Equal => "==",
+            CompareOp::NotEqual => "!=",
+            CompareOp::GreaterOrEqual => ">=",
+            CompareOp::Greater => ">",
+        }
+    }
+}
+
+/// An arithmetic term.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Term {
+    /// A number.
+    Number(Ratio),
+    /// The value of an entry.
+    Entry(EntryRef),
+    /// One bit of an entry, 0 or 1.
+    Bit(EntryRef, u8),
+    /// Two terms and an operator.
+    Binary(Box<Term>, ArithmeticOp, Box<Term>),
+}
+
+/// An arithmetic operator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArithmeticOp {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+}
+
+impl ArithmeticOp {
+    /// The operator as written.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            ArithmeticOp::Add => "+",
+            ArithmeticOp::Subtract => "-",
+            ArithmeticOp::Multiply => "*",
+            ArithmeticOp::Divide => "/",
+        }
+    }
+}
+
+/// An entry named in a condition.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct EntryRef {
+    /// The device, where it is written.
+    pub device: Option<String>,
+    /// The entry.
+    pub id: EntryId,
+}
+
+/// What a condition asks of its surroundings.
+pub trait Values {
+    /// Value of an entry in physical units.
+    fn value(&self, entry: &EntryRef) -> Option<Ratio>;
+    /// Raw value of an entry.
+    fn raw(&self, entry: &EntryRef) -> Option<i128>;
+}
+
+/// Whether a condition holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It holds.
+    Holds,
+    /// This link of a chain does not hold: left term, value, operator, right term, value.
+    Fails {
+        /// Left side as written, and its value.
+        left: (String, Ratio),
+        /// The operator between them.
+        op: CompareOp,
+        /// Right side as written, and its value.
+        right: (String, Ratio),
+    },
+    /// A value is missing, a divisor is zero, or a number is too large.
+    Unknown,
+}
+
+impl Expr {
+    /// All entries that the condition names.
+    pub fn entries(&self) -> Vec<&EntryRef> {
+        self.operands().into_iter().map(|(entry, _)| entry).collect()
+    }
+
+    /// All entries that the condition names, with the bit that it asks for.
+    pub fn operands(&self) -> Vec<(&EntryRef, Option<u8>)> {
+        let mut operands = Vec::new();
+        for comparison in &self.comparisons {
+            comparison.first.operands(&mut operands);
+            for (_, term) in &comparison.rest {
+                term.operands(&mut operands);
+            }
+        }
+        operands
+    }
+
+    /// Whether the condition holds for these values. A failing link is reported also where an earlier link is unknown.
+    pub fn evaluate(&self, values: &dyn Values) -> Outcome {
+        let mut outcome = Outcome::Holds;
+        for comparison in &self.comparisons {
+            let mut left = &comparison.first;
+            for (op, right) in &comparison.rest {
+                match (left.evaluate(values), right.evaluate(values)) {
+                    (Some(a), Some(b)) => match a.compare(b) {
+                        Some(order) if op.accepts(order) => {}
+                        Some(_) => {
+                            return Outcome::Fails {
+                                left: (left.to_string(), a),
+                                op: *op,
+                                right: (right.to_string(), b),
+                            };
+                        }
+                        None => outcome = Outcome::Unknown,
+                    },
+                    _ => outcome = Outcome::Unknown,
+                }
+                left = right;
+            }
+        }
+        outcome
+    }
+}
+
+impl Term {
+    fn operands<'a>(&'a self, operands: &mut Vec<(&'a EntryRef, Option<u8>)>) {
+        match self {
+            Term::Number(_) => {}
+            Term::Entry(entry) => operands.push((entry, None)),
+            Term::Bit(entry, bit) => operands.push((entry, Some(*bit))),
+            Term::Binary(left, _, right) => {
+                left.operands(operands);
+                right.operands(operands);
+            }
+        }
+    }
+
+    /// Whether an entry stands in the term.
+    pub fn names_entry(&self) -> bool {
+        let mut operands = Vec::new();
+        self.operands(&mut operands);
+        !operands.is_empty()
+    }
+
+    /// Value of the term; `None` when something is missing.
+    pub fn evaluate(&self, values: &dyn Values) -> Option<Ratio> {
+        match self {
+            Term::Number(number) => Some(*number),
+            Term::Entry(entry) => values.value(entry),
+            Term::Bit(entry, bit) => Some(Ratio::whole(values.raw(entry)?.checked_shr(u32::from(*bit))? & 1)),
+            Term::Binary(left, op, right) => {
+                let (left, right) = (left.evaluate(values)?, right.evaluate(values)?);
+                match op {
+                    ArithmeticOp::Add => left.checked_add(right),
+                    ArithmeticOp::Subtract => left.checked_sub(right),
+                    ArithmeticOp::Multiply => left.checked_mul(right),
+                    ArithmeticOp::Divide => left.checked_div(right),
+                }
+            }
+        }
+    }
+}
+
+impl fmt::Display for EntryRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(device) = &self.device {
+            write!(f, "{device}:")?;
+        }
+        self.id.fmt(f)
+    }
+}
+
+impl fmt::Display for Term {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Term::Number(number) => number.fmt(f),
+            Term::Entry(entry) => entry.fmt(f),
+            Term::Bit(entry, bit) => write!(f, "bit({entry}, {bit})"),
+            Term::Binary(left, op, right) => write!(f, "({left} {} {right})", op.sign()),
+        }
+    }
+}
