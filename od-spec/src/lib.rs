@@ -25,10 +25,12 @@
 pub mod ascii;
 mod ast;
 mod check;
+mod commissioning;
 mod compile;
 mod decode;
 mod departures;
 pub mod diag;
+pub mod eds;
 pub mod expr;
 mod json_schema;
 pub mod keys;
@@ -39,6 +41,7 @@ mod resolve;
 pub mod source;
 pub mod yaml;
 
+pub use commissioning::Commissioning;
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
 pub use decode::is_device_key;
 pub use departures::departures;

@@ -4,13 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::eds::{Commissioning, write_dcf};
+use od_gen::eds::write_dcf;
 use od_gen::files::write_all;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
 use od_spec::model::Dictionary;
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{assign, eds_text_problem};
+use od_spec::{Commissioning, assign, eds_text_problem};
 
 use super::ERRORS;
 use super::args::DcfArgs;
