@@ -14,6 +14,7 @@ mod expand;
 pub mod files;
 #[cfg(feature = "json")]
 pub mod json;
+mod plan;
 pub mod rust;
 pub mod source;
 

@@ -29,7 +29,8 @@ pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
 pub use text::Text;
 pub use types::{
-    Access, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding, Storage, SubIndex,
+    Access, Category, DataType, Direction, EntryId, Family, Index, Outside, PdoMapping, Rounding, Storage,
+    SubIndex,
 };
 pub use unit::{Base, Unit};
 pub use value::{Value, convert, format_value};

@@ -170,7 +170,7 @@ fn check_length(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) 
     let (Some(capacity), Some(text), Some(default)) = (decl.capacity, &decl.default, &entry.default) else {
         return;
     };
-    let Some(length) = default.bytes_in(entry.data_type).map(|bytes| bytes.len()) else { return };
+    let Some(length) = default.bytes_for(entry.data_type, 0).map(|bytes| bytes.len()) else { return };
     if i128::try_from(length).is_ok_and(|length| length > capacity.value) {
         diagnostics.push(
             Diagnostic::new(

@@ -1,14 +1,13 @@
 //! The dictionary's type and its accessors.
 
-use od_spec::model::Outside;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::layout::Place;
-use super::super::names::{mutable, setter};
-use super::super::plan::{Plan, PlannedEntry, PlannedObject, Shape};
+use super::super::language::{mutable, setter};
 use super::docs::{doc, escape};
+use super::glue;
 use super::value::{At, Values, decimal, view_name};
+use crate::plan::{Place, Plan, PlannedEntry, PlannedObject, Shape, ValueKind};
 
 impl Plan<'_> {
     /// The type of the dictionary with the methods of its objects.
@@ -142,8 +141,7 @@ impl Plan<'_> {
         let Some(target) = planned else { return quote!() };
         let Place::Image(offset) = target.place else { return quote!() };
         let offset = Literal::usize_unsuffixed(offset);
-        let plain =
-            super::super::plan::ValueKind { named: None, unit: None, special: None, ..target.kind.clone() };
+        let plain = ValueKind { named: None, unit: None, special: None, ..target.kind.clone() };
         let raw = values.encode(&entry.kind, root, &quote!(value));
         let parameter = values.value_type(&entry.kind, root);
         let view = view_name(entry);
@@ -321,18 +319,13 @@ impl Plan<'_> {
             let entry = self.entry(alias.row)?;
             let about = doc(&format!("How `{}` shows `{}`.", entry.id, self.entry(alias.target)?.id));
             let name = view_name(entry);
-            let data_type = format_ident!("{}", format!("{:?}", alias.data_type));
-            let outside = match alias.outside {
-                Outside::Saturate => quote!(glue::Outside::Saturate),
-                Outside::Wrap => quote!(glue::Outside::Wrap),
-                Outside::Abort => quote!(glue::Outside::Abort),
-            };
+            let (data_type, outside) = (glue::data_type(alias.data_type), glue::outside(alias.outside));
             let view = if (alias.numerator, alias.denominator) == (1, 1) {
-                quote!(glue::View::plain(glue::DataType::#data_type, #outside))
+                quote!(glue::View::plain(#data_type, #outside))
             } else {
-                let rounding = format_ident!("{}", format!("{:?}", alias.rounding));
+                let rounding = glue::rounding(alias.rounding);
                 let (n, d) = (decimal(alias.numerator.into()), decimal(alias.denominator.into()));
-                quote!(glue::View::scaled(glue::DataType::#data_type, #outside, #n, #d, glue::Rounding::#rounding))
+                quote!(glue::View::scaled(#data_type, #outside, #n, #d, #rounding))
             };
             Some(quote!(#about const #name: glue::View = #view;))
         });

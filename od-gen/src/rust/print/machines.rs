@@ -4,9 +4,9 @@ use od_spec::model::{BitPattern, Command, ErrorCode};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::plan::{Plan, PlannedEntry, PlannedMachine, ValueKind};
 use super::docs::{doc, escape};
 use super::value::{Values, hex};
+use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine, ValueKind};
 
 impl Plan<'_> {
     /// `mod machines`.
@@ -177,7 +177,7 @@ impl Plan<'_> {
         if self.errors.is_empty() {
             return quote!();
         }
-        let constants = self.errors.iter().map(|(name, error)| {
+        let constants = self.errors.iter().map(|PlannedError { name, error }| {
             let (about, name) = (doc(&self.error_doc(error)), format_ident!("{name}"));
             let code = hex(error.code.into(), 4);
             quote!(#about pub const #name: u16 = #code;)

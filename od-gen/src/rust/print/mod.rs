@@ -2,6 +2,7 @@
 
 mod accessors;
 mod docs;
+mod glue;
 mod machines;
 mod pdos;
 mod table;
@@ -12,7 +13,7 @@ mod values;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::plan::Plan;
+use crate::plan::Plan;
 
 /// The items of a dictionary's module.
 pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {

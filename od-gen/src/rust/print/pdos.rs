@@ -4,9 +4,9 @@ use od_spec::model::{Direction, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::plan::{Plan, PlannedField, PlannedPdo};
 use super::docs::doc;
 use super::value::{At, Values, hex};
+use crate::plan::{Plan, PlannedField, PlannedPdo};
 
 impl Plan<'_> {
     /// `mod pdos`.
