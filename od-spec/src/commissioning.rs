@@ -1,6 +1,6 @@
 //! What is settled for one node of a network, beyond what its device is.
 
-use crate::model::Dictionary;
+use crate::model::{Dictionary, NoSuchValue, Write, download};
 use crate::parameters::ParameterValues;
 
 /// A node: its place in a network, and the values of its parameters. A DCF holds it, as a concise DCF and an XDC do.
@@ -34,5 +34,12 @@ impl Commissioning {
             net_name: String::new(),
             values: ParameterValues::new(),
         }
+    }
+    /// The writes that bring the values into the node, in the order in which a device takes them; see [`download`].
+    ///
+    /// # Errors
+    /// A value that no entry of the device can have.
+    pub fn download(&self, device: &Dictionary) -> Result<Vec<Write>, NoSuchValue> {
+        download(device, &self.values, self.node)
     }
 }

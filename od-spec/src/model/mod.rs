@@ -5,6 +5,7 @@
 
 mod device;
 mod document;
+mod download;
 mod machine;
 mod named_type;
 mod object;
@@ -22,6 +23,7 @@ pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
 };
+pub use download::{NoSuchValue, Write, download};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
