@@ -30,12 +30,15 @@ mod compile;
 mod decode;
 mod departures;
 pub mod diag;
+#[cfg(feature = "eds")]
 pub mod eds;
 pub mod expr;
+#[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;
 pub mod model;
 mod parameters;
+#[cfg(feature = "reference")]
 mod reference;
 mod resolve;
 pub mod source;
@@ -45,6 +48,8 @@ pub use commissioning::Commissioning;
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
 pub use decode::is_device_key;
 pub use departures::departures;
+#[cfg(feature = "reference")]
 pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign, eds_text_problem};
+#[cfg(feature = "reference")]
 pub use reference::reference;

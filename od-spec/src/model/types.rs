@@ -342,12 +342,18 @@ word_enum! {
 impl Access {
     /// Whether an SDO client may read.
     pub const fn is_readable(self) -> bool {
-        !matches!(self, Access::Wo)
+        match self {
+            Access::Const | Access::Ro | Access::Rw | Access::Rwr | Access::Rww => true,
+            Access::Wo => false,
+        }
     }
 
     /// Whether an SDO client may write.
     pub const fn is_writable(self) -> bool {
-        !matches!(self, Access::Const | Access::Ro)
+        match self {
+            Access::Wo | Access::Rw | Access::Rwr | Access::Rww => true,
+            Access::Const | Access::Ro => false,
+        }
     }
 }
 
@@ -368,12 +374,12 @@ word_enum! {
 impl PdoMapping {
     /// Whether it may be mapped into a PDO of this direction.
     pub const fn allows(self, direction: Direction) -> bool {
-        matches!(
-            (self, direction),
-            (PdoMapping::Both, _)
-                | (PdoMapping::Receive, Direction::Receive)
-                | (PdoMapping::Transmit, Direction::Transmit)
-        )
+        match self {
+            PdoMapping::None => false,
+            PdoMapping::Receive => matches!(direction, Direction::Receive),
+            PdoMapping::Transmit => matches!(direction, Direction::Transmit),
+            PdoMapping::Both => true,
+        }
     }
 }
 

@@ -6,7 +6,8 @@ use quote::{format_ident, quote};
 use super::super::language::{mutable, setter};
 use super::docs::{doc, escape};
 use super::glue;
-use super::value::{At, Values, decimal, view_name};
+use super::literal::decimal;
+use super::value::{At, Get, Store, Values, view_name};
 use crate::plan::{Place, Plan, PlannedEntry, PlannedObject, Shape, ValueKind};
 
 impl Plan<'_> {
@@ -88,7 +89,7 @@ impl Plan<'_> {
     /// Reading an entry. A constant is one in code, too.
     fn getter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
         let values = Values { plan: self };
-        let Some((value, value_type)) = values.get(entry, at) else { return quote!() };
+        let Some(Get { value, value_type }) = values.get(entry, at) else { return quote!() };
         let (about, name) = (doc(&self.entry_doc(entry, &at.link_root())), format_ident!("{name}"));
         quote! {
             #about
@@ -105,7 +106,7 @@ impl Plan<'_> {
         let Place::Image(offset) = entry.place else { return self.alias_setter(entry, name, at) };
         let offset = Literal::usize_unsuffixed(offset);
         let raw = values.encode(&entry.kind, &at.root, &quote!(value));
-        let (store, error) = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
+        let Store { code: store, error } = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
         let parameter = values.parameter_type(&entry.kind, &at.root);
         let limited = entry.entry.low.is_some() || entry.entry.high.is_some();
         let unchecked =
@@ -148,7 +149,8 @@ impl Plan<'_> {
         let number = values.widened(&entry.kind, &raw);
         let target_type = values.raw_type(&plain, root);
         let narrow = quote!(#target_type::try_from(target).map_err(|_| #root glue::OutOfRange)?);
-        let (store, error) = values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
+        let Store { code: store, error } =
+            values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
         let store = if error.is_some() { quote!(#store) } else { quote!(#store; Ok(())) };
         let about = doc(&format!(
             "Sets the entry that [`{name}`](Self::{name}) shows; an error if it has no such value."
@@ -201,7 +203,7 @@ impl Plan<'_> {
         let raw = values.load(&first.kind, first.size, &at, &offset);
         let value = values.decode(&first.kind, &at.root, &raw);
         let encoded = values.encode(&first.kind, &at.root, &quote!(value));
-        let (store, error) = values.store(&first.kind, first.size, &at, &offset, &encoded);
+        let Store { code: store, error } = values.store(&first.kind, first.size, &at, &offset, &encoded);
         let parameter = values.parameter_type(&first.kind, &at.root);
         let store = if error.is_some() { quote!(#store.ok()) } else { quote!(#store; Some(())) };
         let about_set =
@@ -243,7 +245,7 @@ impl Plan<'_> {
         let (get, value_type) = (format_ident!("{}", object.name), values.value_type(&first.kind, &at.root));
         let arms = elements.iter().filter_map(|element| {
             let sub = Literal::u8_unsuffixed(element.id.sub.0);
-            let (value, _) = values.get(element, &at)?;
+            let Get { value, .. } = values.get(element, &at)?;
             Some(quote!(#sub => Some(#value),))
         });
         quote! {

@@ -5,7 +5,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::docs::{doc, escape};
-use super::value::{Values, hex};
+use super::literal::hex;
+use super::value::Values;
 use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine, ValueKind};
 
 impl Plan<'_> {

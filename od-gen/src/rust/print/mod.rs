@@ -3,6 +3,7 @@
 mod accessors;
 mod docs;
 mod glue;
+mod literal;
 mod machines;
 mod pdos;
 mod table;

@@ -1,11 +1,12 @@
 //! Default PDOs as structures.
 
-use od_spec::model::{Direction, Value};
+use od_spec::model::{Direction, Outside, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::docs::doc;
-use super::value::{At, Values, hex};
+use super::literal::hex;
+use super::value::{At, Get, Store, Values};
 use crate::plan::{Plan, PlannedField, PlannedPdo};
 
 impl Plan<'_> {
@@ -39,9 +40,9 @@ impl Plan<'_> {
                 let offset = hex(*offset, 3);
                 quote!(#offset + node_id as u32)
             }
-            other => {
+            fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
                 let number =
-                    hex(other.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default(), 3);
+                    hex(fixed.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default(), 3);
                 quote!(#number)
             }
         };
@@ -110,7 +111,9 @@ impl Plan<'_> {
         let about = self.words(&pdo.about);
         let cob_id = match &pdo.cob_id {
             Value::NodeId(offset) => format!("COB-ID {:X}h + node-ID", offset & 0x7FF),
-            other => format!("COB-ID {:X}h", other.integer().unwrap_or_default() & 0x7FF),
+            fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
+                format!("COB-ID {:X}h", fixed.integer().unwrap_or_default() & 0x7FF)
+            }
         };
         let valid = if pdo.valid { "" } else { ", off after a factory reset" };
         doc(&format!(
@@ -154,14 +157,14 @@ impl Plan<'_> {
         let at = At { root: quote!(super::), image: quote!(&data), image_mut: quote!(&mut data) };
         if Self::is_aligned(field) {
             let offset = Literal::u32_unsuffixed(field.first_bit / 8);
-            let (store, error) = values.store(&entry.kind, entry.size, &at, &quote!(#offset), &raw);
+            let Store { code, error } = values.store(&entry.kind, entry.size, &at, &quote!(#offset), &raw);
             // What does not fit its width is 0 in the data, as in the dictionary it came from.
-            return Some(if error.is_some() { quote!(let _ = #store;) } else { quote!(#store;) });
+            return Some(if error.is_some() { quote!(let _ = #code;) } else { quote!(#code;) });
         }
         let (first, bits) = (Literal::u32_unsuffixed(field.first_bit), Literal::u8_unsuffixed(field.bits));
         let bytes = At { image_mut: quote!(&mut bytes), ..at };
-        let (store, error) = values.store(&entry.kind, entry.size, &bytes, &quote!(0), &raw);
-        let store = if error.is_some() { quote!(let _ = #store;) } else { quote!(#store;) };
+        let Store { code, error } = values.store(&entry.kind, entry.size, &bytes, &quote!(0), &raw);
+        let store = if error.is_some() { quote!(let _ = #code;) } else { quote!(#code;) };
         Some(quote! {
             let mut bytes = [0; 8];
             #store
@@ -176,12 +179,11 @@ impl Plan<'_> {
         let mut members = Vec::new();
         for field in &planned.fields {
             let entry = self.entry(field.row)?;
-            let may_abort =
-                values.alias_of(entry).is_some_and(|alias| alias.outside == od_spec::model::Outside::Abort);
+            let may_abort = values.alias_of(entry).is_some_and(|alias| alias.outside == Outside::Abort);
             if may_abort {
                 return None;
             }
-            let (name, (value, _)) = (format_ident!("{}", field.name), values.get(entry, &at)?);
+            let (name, Get { value, .. }) = (format_ident!("{}", field.name), values.get(entry, &at)?);
             members.push(quote!(#name: #value,));
         }
         let dictionary = format_ident!("{}", self.name);

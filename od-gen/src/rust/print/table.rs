@@ -8,7 +8,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::docs::{doc, escape};
-use super::value::{At, Values, decimal, hex, view_name};
+use super::literal::{decimal, hex};
+use super::value::{At, Values, view_name};
 use crate::plan::{Attributes, Compare, Condition, Flags, NONE, Place, PlaceKind, Plan, PlannedEntry, Sum};
 
 /// Bytes in a line of a byte string.

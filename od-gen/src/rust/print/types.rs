@@ -8,7 +8,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::docs::{doc, escape};
-use super::value::{decimal, hex};
+use super::literal::{decimal, hex};
 use crate::plan::{
     Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
 };

@@ -1,9 +1,10 @@
 //! Values in code: their types, and how bytes become values and values bytes.
 
-use od_spec::model::{DataType, Family, Value};
+use od_spec::model::{DataType, Family, Outside, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::literal::{decimal, hex};
 use crate::plan::{
     Members, Place, Plan, PlannedAlias, PlannedEntry, PlannedSpecialValue, ValueKind, default_integer,
 };
@@ -86,6 +87,20 @@ impl At {
     pub(super) fn reference() -> Self {
         Self { root: quote!(super::), image: quote!(&dictionary.0), image_mut: quote!(&mut dictionary.0) }
     }
+}
+
+/// Code that gives a value.
+pub(super) struct Get {
+    pub value: TokenStream,
+    /// The type of the value; for an alias that may have nothing to show, an `Option`.
+    pub value_type: TokenStream,
+}
+
+/// Code that stores a value.
+pub(super) struct Store {
+    pub code: TokenStream,
+    /// The error of the `Result` that the code gives; `None` for code that always succeeds and gives nothing.
+    pub error: Option<TokenStream>,
 }
 
 /// Printing of values for one dictionary.
@@ -248,7 +263,7 @@ impl Values<'_, '_> {
         }
     }
 
-    /// Code that puts a raw value at an offset, and the error it may have.
+    /// Code that puts a raw value at an offset.
     pub(super) fn store(
         &self,
         kind: &ValueKind,
@@ -256,33 +271,34 @@ impl Values<'_, '_> {
         at: &At,
         offset: &TokenStream,
         raw: &TokenStream,
-    ) -> (TokenStream, Option<TokenStream>) {
+    ) -> Store {
         let At { root, image_mut, .. } = at;
         let size = Literal::usize_unsuffixed(size);
-        let out_of_range = || Some(quote!(#root glue::OutOfRange));
-        let no_fit = || Some(quote!(#root glue::NoFit));
+        let always = |code| Store { code, error: None };
+        let in_range = |code| Store { code, error: Some(quote!(#root glue::OutOfRange)) };
+        let with_room = |code| Store { code, error: Some(quote!(#root glue::NoFit)) };
         match self.raw(kind) {
             Raw::Integer(carrier) if carrier.is_exact() => {
                 let put = format_ident!("put_{}", carrier.name().to_string());
-                (quote!(#root glue::#put(#image_mut, #offset, #raw)), None)
+                always(quote!(#root glue::#put(#image_mut, #offset, #raw)))
             }
             Raw::Integer(carrier) => {
                 let bytes = Literal::usize_unsuffixed(carrier.bytes);
                 let put = if carrier.signed { quote!(put_signed) } else { quote!(put_unsigned) };
-                (quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)), out_of_range())
+                in_range(quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)))
             }
-            Raw::Bool => (quote!(#root glue::put_bool(#image_mut, #offset, #raw)), None),
-            Raw::Single => (quote!(#root glue::put_f32(#image_mut, #offset, #raw)), None),
-            Raw::Double => (quote!(#root glue::put_f64(#image_mut, #offset, #raw)), None),
-            Raw::Time => (quote!(#root glue::put_time(#image_mut, #offset, #raw)), None),
+            Raw::Bool => always(quote!(#root glue::put_bool(#image_mut, #offset, #raw))),
+            Raw::Single => always(quote!(#root glue::put_f32(#image_mut, #offset, #raw))),
+            Raw::Double => always(quote!(#root glue::put_f64(#image_mut, #offset, #raw))),
+            Raw::Time => always(quote!(#root glue::put_time(#image_mut, #offset, #raw))),
             Raw::Visible => {
-                (quote!(#root glue::text::put_visible(#image_mut, #offset, #size, #raw)), no_fit())
+                with_room(quote!(#root glue::text::put_visible(#image_mut, #offset, #size, #raw)))
             }
-            Raw::Octets => (quote!(#root glue::text::put_octets(#image_mut, #offset, #size, #raw)), no_fit()),
+            Raw::Octets => with_room(quote!(#root glue::text::put_octets(#image_mut, #offset, #size, #raw))),
             Raw::Unicode => {
-                (quote!(#root glue::text::put_unicode(#image_mut, #offset, #size, #raw)), no_fit())
+                with_room(quote!(#root glue::text::put_unicode(#image_mut, #offset, #size, #raw)))
             }
-            Raw::Nothing => (quote!(()), None),
+            Raw::Nothing => always(quote!(())),
         }
     }
 
@@ -291,14 +307,14 @@ impl Values<'_, '_> {
         if kind.data_type == DataType::UnicodeString { quote!(&str) } else { self.value_type(kind, root) }
     }
 
-    /// The value of an entry wherever it lies; with its type, which for an alias that may have none is an `Option`.
-    pub(super) fn get(&self, entry: &PlannedEntry<'_>, at: &At) -> Option<(TokenStream, TokenStream)> {
+    /// The value of an entry wherever it lies; `None` for what lies with the application.
+    pub(super) fn get(&self, entry: &PlannedEntry<'_>, at: &At) -> Option<Get> {
         let value_type = self.value_type(&entry.kind, &at.root);
         match entry.place {
             Place::Image(offset) => {
                 let offset = Literal::usize_unsuffixed(offset);
                 let raw = self.load(&entry.kind, entry.size, at, &quote!(#offset));
-                Some((self.decode(&entry.kind, &at.root, &raw), value_type))
+                Some(Get { value: self.decode(&entry.kind, &at.root, &raw), value_type })
             }
             Place::Constant(_) => {
                 let raw = self.literal(entry)?;
@@ -313,24 +329,24 @@ impl Values<'_, '_> {
                     | Family::Time
                     | Family::Domain => value_type,
                 };
-                Some((self.decode(&entry.kind, &at.root, &raw), value_type))
+                Some(Get { value: self.decode(&entry.kind, &at.root, &raw), value_type })
             }
             Place::Alias => {
                 let alias = self.alias_of(entry)?;
                 let target = self.number(self.plan.entry(alias.target)?, at)?;
                 let (root, view) = (&at.root, view_name(entry));
-                if alias.outside == od_spec::model::Outside::Abort {
+                if alias.outside == Outside::Abort {
                     let narrow = self.narrowed(&entry.kind, root, &quote!(number));
                     let value = self.decode(&entry.kind, root, &narrow);
-                    return Some((
-                        quote!(#root #view.show(#target).ok().map(|number| #value)),
-                        quote!(Option<#value_type>),
-                    ));
+                    return Some(Get {
+                        value: quote!(#root #view.show(#target).ok().map(|number| #value)),
+                        value_type: quote!(Option<#value_type>),
+                    });
                 }
                 let shown = quote!(#root #view.show_or_zero(#target));
                 let raw = self.narrowed(&entry.kind, root, &shown);
                 let value = self.decode(&entry.kind, root, &raw);
-                Some((value, value_type))
+                Some(Get { value, value_type })
             }
             Place::Application => None,
         }
@@ -451,11 +467,12 @@ impl Values<'_, '_> {
                 quote!(#literal)
             }
             Value::Text(text) if kind.data_type == DataType::VisibleString => quote!(#text),
+            // Code has no constant for a formula, which each node resolves, nor for characters of 16 bits.
+            Value::NodeId(_) | Value::Text(_) => return None,
             Value::Bytes(bytes) => {
                 let literal = Literal::byte_string(bytes);
                 quote!(#literal)
             }
-            _ => return None,
         })
     }
 }
@@ -463,37 +480,4 @@ impl Values<'_, '_> {
 /// The constant that says how an alias shows its target: `VIEW_5064`.
 pub(super) fn view_name(entry: &PlannedEntry<'_>) -> proc_macro2::Ident {
     format_ident!("VIEW_{:04X}", entry.id.index.0)
-}
-
-/// A decimal literal, in groups of three digits where it is long.
-pub(super) fn decimal(value: i128) -> Literal {
-    use std::str::FromStr as _;
-    let digits = value.unsigned_abs().to_string();
-    if digits.len() < 6 {
-        return Literal::i128_unsuffixed(value);
-    }
-    let mut text = String::from(if value < 0 { "-" } else { "" });
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at).is_multiple_of(3) {
-            text.push('_');
-        }
-        text.push(digit);
-    }
-    Literal::from_str(&text).unwrap_or_else(|_| Literal::i128_unsuffixed(value))
-}
-
-/// A hexadecimal literal.
-pub(super) fn hex(value: u64, digits: usize) -> Literal {
-    use std::str::FromStr as _;
-    let plain = format!("{value:0digits$X}");
-    // Groups of four digits from the right, where there are more.
-    let mut text = String::from("0x");
-    for (at, digit) in plain.chars().enumerate() {
-        let rest = plain.len() - at;
-        if at > 0 && plain.len() > 4 && rest.is_multiple_of(4) {
-            text.push('_');
-        }
-        text.push(digit);
-    }
-    Literal::from_str(&text).unwrap_or_else(|_| Literal::u64_unsuffixed(value))
 }

@@ -93,6 +93,6 @@ fn static_type(value_type: TokenStream, default: &Value) -> TokenStream {
     match default {
         Value::Text(_) => quote!(&str),
         Value::Bytes(_) => quote!(&[u8]),
-        _ => value_type,
+        Value::Integer(_) | Value::NodeId(_) | Value::Real(_) => value_type,
     }
 }
