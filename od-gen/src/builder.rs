@@ -34,7 +34,7 @@ use crate::source::{FileLoader, compile_file};
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let directory = std::env::temp_dir().join("od-gen-builder-example");
+/// let directory = std::env::temp_dir().join(format!("od-gen-builder-{}", std::process::id()));
 /// std::fs::create_dir_all(&directory)?;
 /// let specification = directory.join("lamp.od.yaml");
 /// std::fs::write(&specification, "

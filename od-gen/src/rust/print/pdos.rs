@@ -27,37 +27,14 @@ impl Plan<'_> {
 
     fn pdo(&self, planned: &PlannedPdo<'_>) -> TokenStream {
         let PlannedPdo { pdo, name, fields, bits } = planned;
-        let values = Values { plan: self };
-        let root = quote!(super::);
         let about = self.pdo_doc(planned);
         let name = format_ident!("{name}");
         let number = Literal::u16_unsuffixed(pdo.number);
         let length = Literal::usize_unsuffixed(usize::try_from(bits.div_ceil(8)).unwrap_or(8));
         let mapping = pdo.map.iter().map(|mapped| hex(mapped.parameter().into(), 8));
         let transmission = Literal::u8_unsuffixed(pdo.transmission);
-        let cob_id = match &pdo.cob_id {
-            Value::NodeId(offset) => {
-                let offset = hex(*offset, 3);
-                quote!(#offset + node_id as u32)
-            }
-            fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
-                let number =
-                    hex(fixed.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default(), 3);
-                quote!(#number)
-            }
-        };
-        let node_id = if matches!(pdo.cob_id, Value::NodeId(_)) { quote!(node_id: u8) } else { quote!() };
-        let members = fields.iter().filter_map(|field| {
-            let entry = self.entry(field.row)?;
-            let about = doc(&format!(
-                "`{}`, bits {} to {}.",
-                entry.id,
-                field.first_bit,
-                field.first_bit + u32::from(field.bits) - 1
-            ));
-            let (name, ty) = (format_ident!("{}", field.name), values.value_type(&entry.kind, &root));
-            Some(quote!(#about pub #name: #ty,))
-        });
+        let cob_id = cob_id(&pdo.cob_id);
+        let members = fields.iter().filter_map(|field| self.member(field));
         let unpack = fields.iter().filter_map(|field| self.unpack(field));
         let no_data = fields.is_empty();
         let pack = fields.iter().filter_map(|field| self.pack(field));
@@ -82,10 +59,7 @@ impl Plan<'_> {
                 /// Mapping parameters after a factory reset: index, sub-index and bits of each entry.
                 pub const MAPPING: &'static [u32] = &[#(#mapping),*];
 
-                /// COB-ID with its flag bits after a factory reset.
-                pub const fn cob_id(#node_id) -> u32 {
-                    #cob_id
-                }
+                #cob_id
 
                 /// The values in the data of the PDO.
                 #[inline]
@@ -104,6 +78,16 @@ impl Plan<'_> {
 
             const _: () = assert!(super::glue::pdo::mapped_bits(#name::MAPPING).div_ceil(8) == #name::LENGTH);
         }
+    }
+
+    /// The field of a mapped entry.
+    fn member(&self, field: &PlannedField) -> Option<TokenStream> {
+        let entry = self.entry(field.row)?;
+        let last_bit = field.first_bit + u32::from(field.bits) - 1;
+        let about = doc(&format!("`{}`, bits {} to {last_bit}.", entry.id, field.first_bit));
+        let name = format_ident!("{}", field.name);
+        let value_type = Values { plan: self }.value_type(&entry.kind, &quote!(super::));
+        Some(quote!(#about pub #name: #value_type,))
     }
 
     fn pdo_doc(&self, planned: &PlannedPdo<'_>) -> TokenStream {
@@ -195,5 +179,26 @@ impl Plan<'_> {
                 Self { #(#members)* }
             }
         })
+    }
+}
+
+/// The function that gives the COB-ID; of a formula, for a node.
+fn cob_id(value: &Value) -> TokenStream {
+    let (parameter, number) = match value {
+        Value::NodeId(offset) => {
+            let offset = hex(*offset, 3);
+            (quote!(node_id: u8), quote!(#offset + node_id as u32))
+        }
+        fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
+            let raw = fixed.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default();
+            let number = hex(raw, 3);
+            (quote!(), quote!(#number))
+        }
+    };
+    quote! {
+        /// COB-ID with its flag bits after a factory reset.
+        pub const fn cob_id(#parameter) -> u32 {
+            #number
+        }
     }
 }

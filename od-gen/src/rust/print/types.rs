@@ -7,6 +7,7 @@ use od_spec::model::Edge;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::super::language;
 use super::docs::{doc, escape};
 use super::literal::{decimal, hex};
 use crate::plan::{
@@ -143,34 +144,9 @@ impl Plan<'_> {
         quote!(#about pub const #name: #ty = #wrap(#number);)
     }
 
+    /// The accessors of a bit or of a run of bits.
     fn bits(&self, bits: &PlannedBits<'_>, raw: &TokenStream, width: u16) -> TokenStream {
-        let (get, with) = (format_ident!("{}", bits.name), format_ident!("with_{}", bits.name));
-        let about = self.bits_doc(bits);
-        let with_about = doc(&format!("With another [`{}`](Self::{}).", bits.name, bits.name));
-        let shift = |value: TokenStream, operator: TokenStream| {
-            let first = Literal::u8_unsuffixed(bits.first);
-            if bits.first == 0 { value } else { quote!(#value #operator #first) }
-        };
-        let (left, right) = (|value| shift(value, quote!(<<)), |value| shift(value, quote!(>>)));
-        if bits.first == bits.last {
-            let (read, mask, set) = (right(quote!(self.0)), left(quote!(1)), left(quote!((value as #raw))));
-            return quote! {
-                #about
-                #[inline]
-                pub const fn #get(self) -> bool {
-                    #read & 1 != 0
-                }
-
-                #with_about
-                #[inline]
-                #[must_use]
-                pub const fn #with(self, value: bool) -> Self {
-                    Self(self.0 & !(#mask) | #set)
-                }
-            };
-        }
-        let run = u16::from(bits.last - bits.first) + 1;
-        let mask = hex(u64::MAX >> (64 - run), usize::from(run.div_ceil(4)));
+        let accessors = if bits.first == bits.last { one_bit(bits, raw) } else { run(bits, raw, width) };
         let constants = bits.values.iter().map(|PlannedValue { name, value }| {
             let (name, number) = (format_ident!("{name}"), decimal(value.value));
             let about = self.words(&value.about);
@@ -184,29 +160,10 @@ impl Plan<'_> {
             ));
             quote!(#about pub const #name: #raw = #number;)
         });
-        let (read, write) = if run == width {
-            (quote!(self.0), quote!(Self(value)))
-        } else {
-            let (read, place, set) =
-                (right(quote!(self.0)), left(quote!(#mask)), left(quote!((value & #mask))));
-            (quote!(#read & #mask), quote!(Self(self.0 & !(#place) | #set)))
-        };
-        quote! {
-            #(#constants)*
-
-            #about
-            #[inline]
-            pub const fn #get(self) -> #raw {
-                #read
-            }
-
-            #with_about
-            #[inline]
-            #[must_use]
-            pub const fn #with(self, value: #raw) -> Self {
-                #write
-            }
-        }
+        // A single bit is a `bool`, which needs no constants.
+        let constants = constants.filter(|_| bits.first != bits.last);
+        let about = self.bits_doc(bits);
+        quote!(#(#constants)* #about #accessors)
     }
 
     fn bits_doc(&self, bits: &PlannedBits<'_>) -> TokenStream {
@@ -253,6 +210,68 @@ impl Plan<'_> {
             }
         }
     }
+}
+
+/// A value at the place of some bits, or from there.
+fn shifted(bits: &PlannedBits<'_>, value: TokenStream, operator: &TokenStream) -> TokenStream {
+    let first = Literal::u8_unsuffixed(bits.first);
+    if bits.first == 0 { value } else { quote!(#value #operator #first) }
+}
+
+/// The documentation of what gives a word with other bits.
+fn with_doc(bits: &PlannedBits<'_>) -> TokenStream {
+    doc(&format!("With another [`{}`](Self::{}).", bits.name, bits.name))
+}
+
+fn one_bit(bits: &PlannedBits<'_>, raw: &TokenStream) -> TokenStream {
+    let (get, with, with_about) = (format_ident!("{}", bits.name), with(bits), with_doc(bits));
+    let read = shifted(bits, quote!(self.0), &quote!(>>));
+    let mask = shifted(bits, quote!(1), &quote!(<<));
+    let set = shifted(bits, quote!((value as #raw)), &quote!(<<));
+    quote! {
+        #[inline]
+        pub const fn #get(self) -> bool {
+            #read & 1 != 0
+        }
+
+        #with_about
+        #[inline]
+        #[must_use]
+        pub const fn #with(self, value: bool) -> Self {
+            Self(self.0 & !(#mask) | #set)
+        }
+    }
+}
+
+fn run(bits: &PlannedBits<'_>, raw: &TokenStream, width: u16) -> TokenStream {
+    let (get, with, with_about) = (format_ident!("{}", bits.name), with(bits), with_doc(bits));
+    let count = u16::from(bits.last - bits.first) + 1;
+    let mask = hex(u64::MAX >> (64 - count), usize::from(count.div_ceil(4)));
+    let (read, write) = if count == width {
+        (quote!(self.0), quote!(Self(value)))
+    } else {
+        let read = shifted(bits, quote!(self.0), &quote!(>>));
+        let place = shifted(bits, quote!(#mask), &quote!(<<));
+        let set = shifted(bits, quote!((value & #mask)), &quote!(<<));
+        (quote!(#read & #mask), quote!(Self(self.0 & !(#place) | #set)))
+    };
+    quote! {
+        #[inline]
+        pub const fn #get(self) -> #raw {
+            #read
+        }
+
+        #with_about
+        #[inline]
+        #[must_use]
+        pub const fn #with(self, value: #raw) -> Self {
+            #write
+        }
+    }
+}
+
+fn with(bits: &PlannedBits<'_>) -> Ident {
+    format_ident!("{}", language::with(&bits.name))
 }
 
 fn special(planned: &PlannedSpecial) -> TokenStream {
