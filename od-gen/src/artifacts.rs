@@ -1,5 +1,6 @@
 //! The files that a specification becomes for PLC tools and programs.
 
+use od_spec::Commissioning;
 use od_spec::model::{Dictionary, System};
 
 use crate::{Artifact, eds, json};
@@ -26,7 +27,7 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
                 let bytes = eds::write_eds(system, device);
                 list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
                 if let Some(node) = selection.node {
-                    let commissioning = eds::Commissioning::of_node(device, node);
+                    let commissioning = Commissioning::of_node(device, node);
                     let file = format!("{}.dcf", device.key);
                     let bytes = eds::write_dcf(system, device, &commissioning, &file);
                     let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);

@@ -30,6 +30,30 @@ use crate::source::{FileLoader, compile_file};
 /// }
 /// ```
 ///
+/// Outside of a build script, with a directory of one's own:
+///
+/// ```
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let directory = std::env::temp_dir().join(format!("od-gen-builder-{}", std::process::id()));
+/// std::fs::create_dir_all(&directory)?;
+/// let specification = directory.join("lamp.od.yaml");
+/// std::fs::write(&specification, "
+/// od-spec: 1
+/// title: Lamp
+/// uses: [cia301]
+/// devices:
+///   lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+/// objects:
+///   0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100}
+/// ")?;
+/// let modules = od_gen::Builder::new(&specification).out_dir(&directory).try_generate()?;
+/// assert_eq!(modules, [directory.join("lamp.rs")]);
+/// assert!(std::fs::read_to_string(&modules[0])?.contains("pub fn brightness(&self) -> u8"));
+/// # std::fs::remove_dir_all(&directory)?;
+/// # Ok(())
+/// # }
+/// ```
+///
 /// Cargo runs the script again when the specification, or a library file that it uses, has changed, and for no other reason.
 #[derive(Debug, Clone)]
 pub struct Builder {

@@ -17,6 +17,7 @@ pub enum Outcome {
 
 /// A file that could not be written; no file of the set was changed.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
@@ -43,6 +44,10 @@ struct Staged {
 /// Writes the files below `directory`. Each is first written completely under a temporary name beside its target; only
 /// when all of them are on the disk, they are renamed. On an error every file is as it was before; directories that were
 /// made for the files stay.
+///
+/// # Errors
+/// The first file that cannot be written: its directory cannot be made, a directory is in its way, the disk is full or
+/// write-protected.
 pub fn write_all(directory: &Path, artifacts: &[Artifact]) -> Result<Vec<Outcome>, WriteError> {
     write_with(directory, artifacts, |from, to| fs::rename(from, to))
 }

@@ -3,21 +3,23 @@
 //! Every backend is a pure function from the model to bytes, so that the same specification gives the same files on every
 //! machine. Files are written in one place, [`files`]: all of them or none.
 
-#[cfg(feature = "json")]
+#[cfg(all(feature = "eds", feature = "json"))]
 mod artifacts;
 #[cfg(feature = "format")]
 mod builder;
 #[cfg(feature = "docs")]
 pub mod docs;
+#[cfg(feature = "eds")]
 pub mod eds;
 mod expand;
 pub mod files;
 #[cfg(feature = "json")]
 pub mod json;
+mod plan;
 pub mod rust;
 pub mod source;
 
-#[cfg(feature = "json")]
+#[cfg(all(feature = "eds", feature = "json"))]
 pub use artifacts::{Selection, artifacts};
 #[cfg(feature = "format")]
 pub use builder::{BuildError, Builder};

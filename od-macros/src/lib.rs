@@ -30,7 +30,7 @@ use quote::quote;
 pub fn object_dictionary(input: TokenStream) -> TokenStream {
     match Arguments::read(input) {
         Ok(arguments) => arguments.expand(),
-        Err((message, span)) => compile_error(&message, span),
+        Err(Refusal { message, span }) => compile_error(&message, span),
     }
 }
 
@@ -42,7 +42,17 @@ struct Arguments {
     device: Option<String>,
 }
 
-type Refusal = (String, Span);
+/// Why the arguments cannot be read, and where.
+struct Refusal {
+    message: String,
+    span: Span,
+}
+
+impl Refusal {
+    fn new(message: &str, span: Span) -> Self {
+        Self { message: message.to_owned(), span }
+    }
+}
 
 impl Arguments {
     fn read(input: TokenStream) -> Result<Self, Refusal> {
@@ -50,8 +60,8 @@ impl Arguments {
         let mut tokens = input.into_iter();
         let (path, span) = match tokens.next() {
             Some(TokenTree::Literal(literal)) => (text(&literal)?, literal.span()),
-            Some(other) => return Err((usage.to_owned(), other.span())),
-            None => return Err((usage.to_owned(), Span::call_site())),
+            Some(unexpected) => return Err(Refusal::new(usage, unexpected.span())),
+            None => return Err(Refusal::new(usage, Span::call_site())),
         };
         let mut device = None;
         let rest: Vec<TokenTree> = tokens.collect();
@@ -67,7 +77,7 @@ impl Arguments {
             {
                 device = Some(text(value)?);
             }
-            [first, ..] => return Err((usage.to_owned(), first.span())),
+            [first, ..] => return Err(Refusal::new(usage, first.span())),
         }
         Ok(Self { path, span, device })
     }
@@ -76,7 +86,9 @@ impl Arguments {
         let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
         let path = package.join(&self.path);
         // Messages name the file as the user does.
-        let shown = env::current_dir().ok().and_then(|here| path.strip_prefix(here).map(Path::to_owned).ok());
+        let shown = env::current_dir()
+            .ok()
+            .and_then(|working_directory| path.strip_prefix(working_directory).map(Path::to_owned).ok());
         let Expansion { read, errors, warnings, tokens } =
             expand(shown.as_deref().unwrap_or(&path), self.device.as_deref());
         let mut out = TokenStream::new();
@@ -127,7 +139,7 @@ fn text(literal: &Literal) -> Result<String, Refusal> {
     let raw = code.strip_prefix('r').map(|rest| rest.trim_matches('#'));
     let raw = raw.and_then(|rest| rest.strip_prefix('"')?.strip_suffix('"'));
     plain.or(raw).map(ToOwned::to_owned).ok_or_else(|| {
-        ("expected a text in quotes; write a path with backslashes as `r\"…\"`".to_owned(), literal.span())
+        Refusal::new("expected a text in quotes; write a path with backslashes as `r\"…\"`", literal.span())
     })
 }
 
@@ -154,9 +166,9 @@ fn respan(tokens: TokenStream, span: Span) -> TokenStream {
             moved.set_span(span);
             TokenTree::Group(moved)
         }
-        mut other => {
-            other.set_span(span);
-            other
+        mut leaf @ (TokenTree::Ident(_) | TokenTree::Punct(_) | TokenTree::Literal(_)) => {
+            leaf.set_span(span);
+            leaf
         }
     });
     moved.collect()

@@ -25,16 +25,21 @@
 pub mod ascii;
 mod ast;
 mod check;
+mod commissioning;
 mod compile;
 mod decode;
 mod departures;
 pub mod diag;
+#[cfg(feature = "eds")]
+pub mod eds;
 mod explain;
 pub mod expr;
+#[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;
 pub mod model;
 mod parameters;
+#[cfg(feature = "reference")]
 mod reference;
 mod resolve;
 pub mod scalar;
@@ -43,10 +48,13 @@ pub mod yaml;
 
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
+pub use commissioning::Commissioning;
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
 pub use decode::is_device_key;
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
+#[cfg(feature = "reference")]
 pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign};
+#[cfg(feature = "reference")]
 pub use reference::reference;

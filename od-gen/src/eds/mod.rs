@@ -3,64 +3,82 @@
 //! The files keep to what every known reader takes: ASCII, CRLF, sections in the classical order and one blank line between
 //! them, comments only directly above a section, signed values in decimal, `$NODEID` first, exact key spelling.
 
+mod about;
 mod comments;
-mod ini;
+mod commissioning;
+mod device_info;
+mod entry;
+mod file_info;
 mod objects;
-mod sections;
+mod value;
+mod writer;
 
-use od_spec::ParameterValues;
+use od_spec::Commissioning;
+use od_spec::eds::Document;
 use od_spec::model::{Dictionary, System};
 
-use ini::Ini;
-
-/// The EDS of a device.
+/// The EDS of a device, as bytes of ASCII.
+///
+/// ```
+/// use od_spec::source::SourceMap;
+/// use od_spec::{NoFiles, compile};
+///
+/// let mut sources = SourceMap::new();
+/// let root = sources.add("lamp.od.yaml", "
+/// od-spec: 1
+/// title: Lamp
+/// uses: [cia301]
+/// devices:
+///   lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+/// objects:
+///   0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100, about: How bright.}
+/// ");
+/// let system = compile(&mut sources, root, &mut NoFiles).system.expect("no errors");
+/// let bytes = od_gen::eds::write_eds(&system, &system.devices[0]);
+/// let text = String::from_utf8(bytes).expect("ASCII").replace("\r\n", "\n");
+/// assert!(text.ends_with("
+/// ; How bright.
+/// [2000]
+/// ParameterName=brightness
+/// ObjectType=0x7
+/// DataType=0x0005
+/// HighLimit=100
+/// AccessType=rw
+/// DefaultValue=80
+/// PDOMapping=0
+/// "), "{text}");
+/// ```
 pub fn write_eds(system: &System, device: &Dictionary) -> Vec<u8> {
-    let mut ini = Ini::new();
-    let file = format!("{}.eds", device.key);
-    sections::head(&mut ini, system, device, &file, None);
-    objects::write(&mut ini, system, device, None);
-    ini.into_bytes()
+    eds_document(system, device).to_bytes()
 }
 
-/// The DCF of a device under the name `file`: its EDS with node-ID, bit rate and parameter values filled in.
-pub fn write_dcf(system: &System, device: &Dictionary, commissioning: &Commissioning, file: &str) -> Vec<u8> {
-    let mut ini = Ini::new();
-    let last_eds = format!("{}.eds", device.key);
-    sections::head(&mut ini, system, device, file, Some(&last_eds));
-    sections::commissioning(&mut ini, device, commissioning);
-    objects::write(&mut ini, system, device, Some(commissioning));
-    ini.into_bytes()
+/// The EDS of a device as a document, to look at or to change before it is written.
+pub fn eds_document(system: &System, device: &Dictionary) -> Document {
+    let mut document = Document::default();
+    head(&mut document, system, device, &format!("{}.eds", device.key), None);
+    objects::write(&mut document, system, device, None);
+    document
 }
 
-/// What a DCF adds to an EDS.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Commissioning {
-    /// Node-ID, 1 to 127.
-    pub node: u8,
-    /// Name of the node.
-    pub node_name: String,
-    /// Bit rate in kbit/s.
-    pub bit_rate: u16,
-    /// Number of the network.
-    pub net_number: u32,
-    /// Name of the network.
-    pub net_name: String,
-    /// Values of single entries.
-    pub values: ParameterValues,
+/// The DCF of a node under the name `file`, as bytes of ASCII: the device's EDS with node-ID, bit rate and parameter values
+/// filled in.
+pub fn write_dcf(system: &System, device: &Dictionary, node: &Commissioning, file: &str) -> Vec<u8> {
+    dcf_document(system, device, node, file).to_bytes()
 }
 
-impl Commissioning {
-    /// A node with the device's defaults, at 250 kbit/s or, where the device cannot do that, at its highest bit rate.
-    pub fn of_node(device: &Dictionary, node: u8) -> Self {
-        let rates = &device.info.bit_rates;
-        let bit_rate = if rates.contains(&250) { 250 } else { rates.last().copied().unwrap_or(250) };
-        Self {
-            node,
-            node_name: format!("{} {node}", device.info.product_name),
-            bit_rate,
-            net_number: 1,
-            net_name: String::new(),
-            values: ParameterValues::new(),
-        }
-    }
+/// The DCF of a node as a document.
+pub fn dcf_document(system: &System, device: &Dictionary, node: &Commissioning, file: &str) -> Document {
+    let mut document = Document::default();
+    head(&mut document, system, device, file, Some(&format!("{}.eds", device.key)));
+    commissioning::write(&mut document, device, node);
+    objects::write(&mut document, system, device, Some(node));
+    document
+}
+
+/// `[FileInfo]` to `[Comments]`. A DCF names the EDS that it was made from.
+fn head(document: &mut Document, system: &System, device: &Dictionary, file: &str, last_eds: Option<&str>) {
+    file_info::write(document, device, file, last_eds);
+    device_info::write(document, system, device);
+    device_info::write_dummies(document, device);
+    about::write(document, system, device);
 }

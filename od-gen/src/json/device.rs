@@ -231,7 +231,9 @@ fn pdo_view(pdo: &Pdo) -> Json {
         .collect();
     let cob_id = match &pdo.cob_id {
         Value::NodeId(offset) => json!({"formula": format!("$NODEID+0x{offset:X}"), "raw": offset}),
-        other => json!({"raw": other.integer().map(integer)}),
+        fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
+            json!({"raw": fixed.integer().map(integer)})
+        }
     };
     json!({
         "direction": pdo.direction.word(),

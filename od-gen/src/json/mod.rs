@@ -98,6 +98,6 @@ fn integer(value: i128) -> Json {
     match (i64::try_from(value), u64::try_from(value)) {
         (Ok(value), _) => json!(value),
         (_, Ok(value)) => json!(value),
-        _ => json!(value.to_string()),
+        (Err(_), Err(_)) => json!(value.to_string()),
     }
 }

@@ -3,8 +3,7 @@
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 
-use super::names::snake;
-use super::{Provenance, tokens};
+use super::{Provenance, language, tokens};
 use crate::Artifact;
 
 /// A way to write a module down: [`file()`] or [`plain_file`].
@@ -31,7 +30,7 @@ pub fn modules<'a>(
     let files = devices.map(|device| {
         let code = layout(system, device, provenance, diagnostics)?;
         Some(Artifact {
-            path: format!("src/{}.rs", snake(&device.key)),
+            path: format!("src/{}.rs", language::module(&device.key)),
             bytes: code.into_bytes(),
             purpose: "a module for firmware".to_owned(),
         })

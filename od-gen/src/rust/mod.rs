@@ -1,12 +1,9 @@
 //! The Rust backend: a dictionary as a module that firmware compiles.
 //!
-//! The work has two steps. `plan` decides everything: names, the place of every value, the tables. `print` writes the plan
-//! down as Rust. Nothing in a plan is Rust, so that another language could be printed from it.
+//! The work has two steps. The plan decides everything that is the same in every language: the place of every value, the
+//! tables, and with the help of `language` the names. `print` writes it down as Rust.
 
-mod condition;
-mod layout;
-mod names;
-mod plan;
+mod language;
 mod print;
 
 use std::collections::BTreeMap;
@@ -17,11 +14,14 @@ use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::SourceMap;
 use proc_macro2::TokenStream;
 
+use self::language::Rust;
+use crate::plan::{Plan, PlannedEntry, Shape, plan};
+
 /// The items of a device's module. What cannot be code (two names that give one identifier, a string without capacity) is
 /// reported, and nothing comes out.
 pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
     let (errors, _) = diagnostics.count();
-    let plan = plan::plan(system, device, diagnostics);
+    let plan = plan(system, device, &Rust, diagnostics);
     (diagnostics.count().0 == errors).then(|| print::tokens(&plan))
 }
 
@@ -29,8 +29,22 @@ pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostic
 /// device cannot be code.
 pub fn accessors(system: &System, device: &Dictionary) -> BTreeMap<EntryId, String> {
     let mut diagnostics = Diagnostics::new();
-    let plan = plan::plan(system, device, &mut diagnostics);
-    if diagnostics.has_errors() { BTreeMap::new() } else { plan.accessors() }
+    let plan = plan(system, device, &Rust, &mut diagnostics);
+    if diagnostics.has_errors() {
+        return BTreeMap::new();
+    }
+    plan.entries.iter().filter_map(|entry| Some((entry.id, call(&plan, entry)?))).collect()
+}
+
+/// The call that reads an entry.
+fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> {
+    let object = plan.objects.get(entry.object)?;
+    Some(match &object.shape {
+        Shape::Var => format!("{}()", object.name),
+        Shape::Indexed { count } if entry.id.sub.0 == 0 => format!("{}()", count.as_ref()?),
+        Shape::Indexed { .. } => format!("{}({})", object.name, entry.id.sub),
+        Shape::Group { .. } => format!("{}().{}()", object.name, entry.member),
+    })
 }
 
 /// Which version of which specification code was made from, for the head of a file.

@@ -70,7 +70,7 @@ fn number(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
 fn length(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> Option<Diagnostic> {
     // A capacity that follows from a constant is that of the constant.
     let capacity = entry.capacity.filter(|_| entry.facts.get(Fact::Capacity).is_some())?;
-    let length = value.bytes_in(entry.data_type)?.len();
+    let length = value.bytes_for(entry.data_type, 0)?.len();
     if length <= usize::from(capacity) {
         return None;
     }

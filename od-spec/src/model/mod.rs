@@ -6,6 +6,7 @@
 mod condition;
 mod device;
 mod document;
+mod download;
 mod fact;
 mod machine;
 mod named_type;
@@ -26,6 +27,7 @@ pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
 };
+pub use download::{NoSuchValue, Write, download};
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
@@ -35,8 +37,8 @@ pub use ratio::Ratio;
 pub use role::Role;
 pub use text::Text;
 pub use types::{
-    Access, AccessRight, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding,
-    Storage, SubIndex,
+    Access, AccessRight, Category, DataType, Direction, EntryId, Family, Index, Outside, PdoMapping,
+    Rounding, Storage, SubIndex,
 };
 pub use unit::{Base, Unit};
 pub use value::{Value, convert, format_value};

@@ -193,39 +193,48 @@ impl DataType {
         })
     }
 
+    /// What its values are.
+    pub const fn family(self) -> Family {
+        match self {
+            DataType::Boolean => Family::Boolean,
+            DataType::Integer8
+            | DataType::Integer16
+            | DataType::Integer24
+            | DataType::Integer32
+            | DataType::Integer40
+            | DataType::Integer48
+            | DataType::Integer56
+            | DataType::Integer64 => Family::Signed,
+            DataType::Unsigned8
+            | DataType::Unsigned16
+            | DataType::Unsigned24
+            | DataType::Unsigned32
+            | DataType::Unsigned40
+            | DataType::Unsigned48
+            | DataType::Unsigned56
+            | DataType::Unsigned64 => Family::Unsigned,
+            DataType::Real32 | DataType::Real64 => Family::Real,
+            DataType::VisibleString => Family::VisibleString,
+            DataType::OctetString => Family::OctetString,
+            DataType::UnicodeString => Family::UnicodeString,
+            DataType::TimeOfDay | DataType::TimeDifference => Family::Time,
+            DataType::Domain => Family::Domain,
+        }
+    }
+
     /// Whether it is an INTEGERn.
     pub const fn is_signed(self) -> bool {
-        matches!(
-            self,
-            DataType::Integer8
-                | DataType::Integer16
-                | DataType::Integer24
-                | DataType::Integer32
-                | DataType::Integer40
-                | DataType::Integer48
-                | DataType::Integer56
-                | DataType::Integer64
-        )
+        matches!(self.family(), Family::Signed)
     }
 
     /// Whether it is an UNSIGNEDn.
     pub const fn is_unsigned(self) -> bool {
-        matches!(
-            self,
-            DataType::Unsigned8
-                | DataType::Unsigned16
-                | DataType::Unsigned24
-                | DataType::Unsigned32
-                | DataType::Unsigned40
-                | DataType::Unsigned48
-                | DataType::Unsigned56
-                | DataType::Unsigned64
-        )
+        matches!(self.family(), Family::Unsigned)
     }
 
     /// Whether it is a string, whose length varies up to a capacity.
     pub const fn is_string(self) -> bool {
-        matches!(self, DataType::VisibleString | DataType::OctetString | DataType::UnicodeString)
+        matches!(self.family(), Family::VisibleString | Family::OctetString | Family::UnicodeString)
     }
 
     /// Whether it is an INTEGERn or UNSIGNEDn.
@@ -235,16 +244,16 @@ impl DataType {
 
     /// Smallest and largest value of an integer or a BOOLEAN.
     pub fn range(self) -> Option<(i128, i128)> {
-        if self == DataType::Boolean {
-            return Some((0, 1));
-        }
-        let bits = self.bits()?;
-        if self.is_signed() {
-            Some((-(1 << (bits - 1)), (1 << (bits - 1)) - 1))
-        } else if self.is_unsigned() {
-            Some((0, (1 << bits) - 1))
-        } else {
-            None
+        match self.family() {
+            Family::Boolean => Some((0, 1)),
+            Family::Signed => self.bits().map(|bits| (-(1 << (bits - 1)), (1 << (bits - 1)) - 1)),
+            Family::Unsigned => self.bits().map(|bits| (0, (1 << bits) - 1)),
+            Family::Real
+            | Family::VisibleString
+            | Family::OctetString
+            | Family::UnicodeString
+            | Family::Time
+            | Family::Domain => None,
         }
     }
 
@@ -257,6 +266,29 @@ impl DataType {
     pub const fn is_dummy(self) -> bool {
         self.code() <= 0x07
     }
+}
+
+/// What the values of a data type are. Code that treats types differently decides by the family, with an arm for each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Family {
+    /// Yes or no.
+    Boolean,
+    /// INTEGERn.
+    Signed,
+    /// UNSIGNEDn.
+    Unsigned,
+    /// REALn.
+    Real,
+    /// Characters of ISO 646.
+    VisibleString,
+    /// Bytes.
+    OctetString,
+    /// Characters of 16 bits.
+    UnicodeString,
+    /// Days and milliseconds.
+    Time,
+    /// A block of variable length that the application keeps.
+    Domain,
 }
 
 /// The standard's spelling: `UNSIGNED16`, `VISIBLE_STRING`.
@@ -319,12 +351,18 @@ pub struct AccessRight {
 impl Access {
     /// Whether an SDO client may read.
     pub const fn is_readable(self) -> bool {
-        !matches!(self, Access::Wo)
+        match self {
+            Access::Const | Access::Ro | Access::Rw | Access::Rwr | Access::Rww => true,
+            Access::Wo => false,
+        }
     }
 
     /// Whether an SDO client may write.
     pub const fn is_writable(self) -> bool {
-        !matches!(self, Access::Const | Access::Ro)
+        match self {
+            Access::Wo | Access::Rw | Access::Rwr | Access::Rww => true,
+            Access::Const | Access::Ro => false,
+        }
     }
 }
 
@@ -345,12 +383,12 @@ word_enum! {
 impl PdoMapping {
     /// Whether it may be mapped into a PDO of this direction.
     pub const fn allows(self, direction: Direction) -> bool {
-        matches!(
-            (self, direction),
-            (PdoMapping::Both, _)
-                | (PdoMapping::Receive, Direction::Receive)
-                | (PdoMapping::Transmit, Direction::Transmit)
-        )
+        match self {
+            PdoMapping::None => false,
+            PdoMapping::Receive => matches!(direction, Direction::Receive),
+            PdoMapping::Transmit => matches!(direction, Direction::Transmit),
+            PdoMapping::Both => true,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{DataType, Entry, Outside, Ratio, Rounding, TypeKind};
+use super::{DataType, Entry, Family, Outside, Ratio, Rounding, TypeKind};
 
 /// A default or parameter value.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,35 +20,33 @@ pub enum Value {
 }
 
 impl Value {
-    /// The integer, with the formula resolved for a node.
+    /// The integer, with the formula resolved for a node; `None` for a value that is no integer.
     pub fn integer_for(&self, node: u8) -> Option<i128> {
         match self {
             Value::Integer(value) => Some(*value),
             Value::NodeId(offset) => Some(i128::from(*offset) + i128::from(node)),
-            _ => None,
+            Value::Real(_) | Value::Text(_) | Value::Bytes(_) => None,
         }
     }
 
-    /// The bytes of the value on the bus, least significant first, with a node-ID of 0 in a formula; `None` when the
-    /// type does not have this value.
-    pub fn bytes_in(&self, data_type: DataType) -> Option<Vec<u8>> {
-        let integer = |raw: i128| {
-            let (low, high) = data_type.range()?;
-            let size = usize::from(data_type.bits()?.div_ceil(8));
-            (low..=high).contains(&raw).then(|| raw.to_le_bytes()[..size].to_vec())
-        };
-        match (self, data_type) {
-            (Value::Integer(raw), _) => integer(*raw),
-            (Value::NodeId(offset), _) => integer(i128::from(*offset)),
-            #[expect(clippy::cast_possible_truncation, reason = "the nearest value that the type has")]
-            (Value::Real(number), DataType::Real32) => Some((*number as f32).to_le_bytes().to_vec()),
-            (Value::Real(number), DataType::Real64) => Some(number.to_le_bytes().to_vec()),
-            (Value::Text(text), DataType::VisibleString) => Some(text.clone().into_bytes()),
-            (Value::Text(text), DataType::UnicodeString) => {
-                Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect())
+    /// The bytes of the value on the bus (CiA 301 7.1.4), least significant first, with the formula resolved for a node;
+    /// `None` when the type does not have this value. A BOOLEAN fills a byte.
+    pub fn bytes_for(&self, data_type: DataType, node: u8) -> Option<Vec<u8>> {
+        match data_type.family() {
+            Family::Boolean | Family::Signed | Family::Unsigned => {
+                let (low, high) = data_type.range()?;
+                let size = usize::from(data_type.bits()?.div_ceil(8));
+                let raw = self.integer_for(node).filter(|raw| (low..=high).contains(raw))?;
+                raw.to_le_bytes().get(..size).map(<[u8]>::to_vec)
             }
-            (Value::Bytes(bytes), DataType::OctetString) => Some(bytes.clone()),
-            _ => None,
+            Family::Real => self.real().map(|number| real_bytes(number, data_type)),
+            Family::VisibleString => self.text().map(|text| text.as_bytes().to_vec()),
+            Family::UnicodeString => {
+                self.text().map(|text| text.encode_utf16().flat_map(u16::to_le_bytes).collect())
+            }
+            Family::OctetString => self.octets().map(<[u8]>::to_vec),
+            // Nothing in a specification is such a value.
+            Family::Time | Family::Domain => None,
         }
     }
 
@@ -56,8 +54,39 @@ impl Value {
     pub const fn integer(&self) -> Option<i128> {
         match self {
             Value::Integer(value) => Some(*value),
-            _ => None,
+            Value::NodeId(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_) => None,
         }
+    }
+
+    const fn real(&self) -> Option<f64> {
+        match self {
+            Value::Real(number) => Some(*number),
+            Value::Integer(_) | Value::NodeId(_) | Value::Text(_) | Value::Bytes(_) => None,
+        }
+    }
+
+    fn text(&self) -> Option<&str> {
+        match self {
+            Value::Text(text) => Some(text),
+            Value::Integer(_) | Value::NodeId(_) | Value::Real(_) | Value::Bytes(_) => None,
+        }
+    }
+
+    fn octets(&self) -> Option<&[u8]> {
+        match self {
+            Value::Bytes(bytes) => Some(bytes),
+            Value::Integer(_) | Value::NodeId(_) | Value::Real(_) | Value::Text(_) => None,
+        }
+    }
+}
+
+/// A number in IEEE 754; of 32 bits, the nearest that there is.
+#[expect(clippy::cast_possible_truncation, reason = "the nearest value that the type has")]
+fn real_bytes(number: f64, data_type: DataType) -> Vec<u8> {
+    if data_type == DataType::Real32 {
+        (number as f32).to_le_bytes().to_vec()
+    } else {
+        number.to_le_bytes().to_vec()
     }
 }
 
@@ -135,6 +164,33 @@ pub fn convert(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bytes_are_those_on_the_bus() {
+        let bytes = |value: Value, data_type| value.bytes_for(data_type, 5);
+        let text = || Value::Text("aé".to_owned());
+        for (value, data_type, expected) in [
+            (Value::Integer(1), DataType::Boolean, Some(vec![1])),
+            (Value::Integer(-2), DataType::Integer24, Some(vec![0xFE, 0xFF, 0xFF])),
+            (Value::Integer(0x1234), DataType::Unsigned16, Some(vec![0x34, 0x12])),
+            (Value::NodeId(0x180), DataType::Unsigned32, Some(vec![0x85, 1, 0, 0])),
+            (Value::NodeId(0), DataType::Unsigned8, Some(vec![5])),
+            (Value::Real(1.5), DataType::Real32, Some(vec![0, 0, 0xC0, 0x3F])),
+            (Value::Real(-2.0), DataType::Real64, Some(vec![0, 0, 0, 0, 0, 0, 0, 0xC0])),
+            (Value::Text("ab".to_owned()), DataType::VisibleString, Some(b"ab".to_vec())),
+            (text(), DataType::UnicodeString, Some(vec![0x61, 0, 0xE9, 0])),
+            (Value::Bytes(vec![1, 0xFF]), DataType::OctetString, Some(vec![1, 0xFF])),
+            (Value::Integer(128), DataType::Integer8, None),
+            (Value::NodeId(251), DataType::Unsigned8, None),
+            (Value::Integer(1), DataType::Real32, None),
+            (Value::Integer(1), DataType::VisibleString, None),
+            (Value::Integer(1), DataType::TimeOfDay, None),
+            (text(), DataType::OctetString, None),
+            (Value::Bytes(vec![1]), DataType::Domain, None),
+        ] {
+            assert_eq!(bytes(value.clone(), data_type), expected, "{value:?} as {data_type}");
+        }
+    }
 
     #[test]
     fn an_alias_saturates_wraps_or_aborts() {

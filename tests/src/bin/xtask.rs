@@ -5,14 +5,14 @@
 use std::process::{Command, ExitCode};
 
 use od_gen::docs;
-use od_gen::eds::{Commissioning, write_dcf};
+use od_gen::eds::write_dcf;
 use od_gen::files::write_all;
 use od_gen::{Artifact, Selection, artifacts, json};
-use od_spec::assign;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::{SourceMap, Spanned};
+use od_spec::{Commissioning, assign};
 use od_tests::generate::SPECS;
 use od_tests::{Failure, compile_clean, generate, root};
 

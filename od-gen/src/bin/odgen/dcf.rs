@@ -4,13 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::eds::{Commissioning, write_dcf};
+use od_gen::eds::write_dcf;
 use od_gen::files::write_all;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{assign, eds_text_problem, rule_codes};
+use od_spec::{Commissioning, assign, eds_text_problem, rule_codes};
 
 use super::ERRORS;
 use super::args::DcfArgs;

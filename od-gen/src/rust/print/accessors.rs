@@ -1,14 +1,14 @@
 //! The dictionary's type and its accessors.
 
-use od_spec::model::Outside;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::layout::Place;
-use super::super::names::{mutable, setter};
-use super::super::plan::{Plan, PlannedEntry, PlannedObject, Shape};
+use super::super::language::{mutable, setter};
 use super::docs::{doc, escape};
-use super::value::{At, Values, decimal, view_name};
+use super::glue;
+use super::literal::decimal;
+use super::value::{At, Get, Store, Values, view_name};
+use crate::plan::{Place, Plan, PlannedEntry, PlannedObject, Shape, ValueKind};
 
 impl Plan<'_> {
     /// The type of the dictionary with the methods of its objects.
@@ -89,7 +89,7 @@ impl Plan<'_> {
     /// Reading an entry. A constant is one in code, too.
     fn getter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
         let values = Values { plan: self };
-        let Some((value, value_type)) = values.get(entry, at) else { return quote!() };
+        let Some(Get { value, value_type }) = values.get(entry, at) else { return quote!() };
         let (about, name) = (doc(&self.entry_doc(entry, &at.link_root())), format_ident!("{name}"));
         quote! {
             #about
@@ -106,7 +106,7 @@ impl Plan<'_> {
         let Place::Image(offset) = entry.place else { return self.alias_setter(entry, name, at) };
         let offset = Literal::usize_unsuffixed(offset);
         let raw = values.encode(&entry.kind, &at.root, &quote!(value));
-        let (store, error) = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
+        let Store { code: store, error } = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
         let parameter = values.parameter_type(&entry.kind, &at.root);
         let limited = entry.entry.low.is_some() || entry.entry.high.is_some();
         let unchecked =
@@ -142,15 +142,15 @@ impl Plan<'_> {
         let Some(target) = planned else { return quote!() };
         let Place::Image(offset) = target.place else { return quote!() };
         let offset = Literal::usize_unsuffixed(offset);
-        let plain =
-            super::super::plan::ValueKind { named: None, unit: None, special: None, ..target.kind.clone() };
+        let plain = ValueKind { named: None, unit: None, special: None, ..target.kind.clone() };
         let raw = values.encode(&entry.kind, root, &quote!(value));
         let parameter = values.value_type(&entry.kind, root);
         let view = view_name(entry);
         let number = values.widened(&entry.kind, &raw);
         let target_type = values.raw_type(&plain, root);
         let narrow = quote!(#target_type::try_from(target).map_err(|_| #root glue::OutOfRange)?);
-        let (store, error) = values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
+        let Store { code: store, error } =
+            values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
         let store = if error.is_some() { quote!(#store) } else { quote!(#store; Ok(())) };
         let about = doc(&format!(
             "Sets the entry that [`{name}`](Self::{name}) shows; an error if it has no such value."
@@ -203,7 +203,7 @@ impl Plan<'_> {
         let raw = values.load(&first.kind, first.size, &at, &offset);
         let value = values.decode(&first.kind, &at.root, &raw);
         let encoded = values.encode(&first.kind, &at.root, &quote!(value));
-        let (store, error) = values.store(&first.kind, first.size, &at, &offset, &encoded);
+        let Store { code: store, error } = values.store(&first.kind, first.size, &at, &offset, &encoded);
         let parameter = values.parameter_type(&first.kind, &at.root);
         let store = if error.is_some() { quote!(#store.ok()) } else { quote!(#store; Some(())) };
         let about_set =
@@ -245,7 +245,7 @@ impl Plan<'_> {
         let (get, value_type) = (format_ident!("{}", object.name), values.value_type(&first.kind, &at.root));
         let arms = elements.iter().filter_map(|element| {
             let sub = Literal::u8_unsuffixed(element.id.sub.0);
-            let (value, _) = values.get(element, &at)?;
+            let Get { value, .. } = values.get(element, &at)?;
             Some(quote!(#sub => Some(#value),))
         });
         quote! {
@@ -321,18 +321,13 @@ impl Plan<'_> {
             let entry = self.entry(alias.row)?;
             let about = doc(&format!("How `{}` shows `{}`.", entry.id, self.entry(alias.target)?.id));
             let name = view_name(entry);
-            let data_type = format_ident!("{}", format!("{:?}", alias.data_type));
-            let outside = match alias.outside {
-                Outside::Saturate => quote!(glue::Outside::Saturate),
-                Outside::Wrap => quote!(glue::Outside::Wrap),
-                Outside::Abort => quote!(glue::Outside::Abort),
-            };
+            let (data_type, outside) = (glue::data_type(alias.data_type), glue::outside(alias.outside));
             let view = if (alias.numerator, alias.denominator) == (1, 1) {
-                quote!(glue::View::plain(glue::DataType::#data_type, #outside))
+                quote!(glue::View::plain(#data_type, #outside))
             } else {
-                let rounding = format_ident!("{}", format!("{:?}", alias.rounding));
+                let rounding = glue::rounding(alias.rounding);
                 let (n, d) = (decimal(alias.numerator.into()), decimal(alias.denominator.into()));
-                quote!(glue::View::scaled(glue::DataType::#data_type, #outside, #n, #d, glue::Rounding::#rounding))
+                quote!(glue::View::scaled(#data_type, #outside, #n, #d, #rounding))
             };
             Some(quote!(#about const #name: glue::View = #view;))
         });

@@ -6,8 +6,7 @@ use od_spec::model::{Entry, EntryId, Object, Outside, Rounding, Storage, Text, V
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::layout::Place;
-use super::super::plan::{Plan, PlannedEntry, Shape};
+use crate::plan::{Place, Plan, PlannedEntry, Shape};
 
 /// `#[doc]` attributes, one for each line.
 pub(super) fn doc(text: &str) -> TokenStream {

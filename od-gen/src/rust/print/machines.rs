@@ -4,9 +4,10 @@ use od_spec::model::{BitPattern, Command, ErrorCode};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::plan::{Plan, PlannedEntry, PlannedMachine, ValueKind};
 use super::docs::{doc, escape};
-use super::value::{Values, hex};
+use super::literal::hex;
+use super::value::Values;
+use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine, ValueKind};
 
 impl Plan<'_> {
     /// `mod machines`.
@@ -93,6 +94,31 @@ impl Plan<'_> {
             parts.push(quote!(Self::#variant => (#mask, #value),));
             names.push(quote!(Self::#variant => #text,));
         }
+        let methods = self.command_methods(command, &parts);
+        quote! {
+            #about
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            pub enum #name {
+                #(#variants)*
+            }
+
+            impl #name {
+                #methods
+
+                /// The name in the specification.
+                pub const fn name(self) -> &'static str {
+                    match self {
+                        #(#names)*
+                    }
+                }
+            }
+
+            super::glue::defmt_text!(#name);
+        }
+    }
+
+    /// What a command does to the word.
+    fn command_methods(&self, command: &PlannedEntry<'_>, parts: &[TokenStream]) -> TokenStream {
         let (word_type, word) = self.word(command);
         let kind = word_kind(command);
         let made = quote!(word & !mask | value);
@@ -108,42 +134,25 @@ impl Plan<'_> {
             Values { plan: self }.raw_type(&kind, &quote!(super::))
         };
         quote! {
-            #about
-            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-            pub enum #name {
-                #(#variants)*
-            }
-
-            impl #name {
-                /// The bits of the word that make the command, and their values; an edge counts as the level after it.
-                pub const fn bits(self) -> (#raw, #raw) {
-                    match self {
-                        #(#parts)*
-                    }
-                }
-
-                /// The word with the command in it; other bits stay.
-                pub const fn apply(self, word: #word_type) -> #word_type {
-                    let (mask, value) = self.bits();
-                    let word = #word;
-                    #made
-                }
-
-                /// Whether the word has the bits of the command.
-                pub const fn is_in(self, word: #word_type) -> bool {
-                    let (mask, value) = self.bits();
-                    #word & mask == value
-                }
-
-                /// The name in the specification.
-                pub const fn name(self) -> &'static str {
-                    match self {
-                        #(#names)*
-                    }
+            /// The bits of the word that make the command, and their values; an edge counts as the level after it.
+            pub const fn bits(self) -> (#raw, #raw) {
+                match self {
+                    #(#parts)*
                 }
             }
 
-            super::glue::defmt_text!(#name);
+            /// The word with the command in it; other bits stay.
+            pub const fn apply(self, word: #word_type) -> #word_type {
+                let (mask, value) = self.bits();
+                let word = #word;
+                #made
+            }
+
+            /// Whether the word has the bits of the command.
+            pub const fn is_in(self, word: #word_type) -> bool {
+                let (mask, value) = self.bits();
+                #word & mask == value
+            }
         }
     }
 
@@ -177,7 +186,7 @@ impl Plan<'_> {
         if self.errors.is_empty() {
             return quote!();
         }
-        let constants = self.errors.iter().map(|(name, error)| {
+        let constants = self.errors.iter().map(|PlannedError { name, error }| {
             let (about, name) = (doc(&self.error_doc(error)), format_ident!("{name}"));
             let code = hex(error.code.into(), 4);
             quote!(#about pub const #name: u16 = #code;)

@@ -2,6 +2,8 @@
 
 mod accessors;
 mod docs;
+mod glue;
+mod literal;
 mod machines;
 mod pdos;
 mod table;
@@ -12,7 +14,7 @@ mod values;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::plan::Plan;
+use crate::plan::Plan;
 
 /// The items of a dictionary's module.
 pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {

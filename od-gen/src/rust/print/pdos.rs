@@ -1,12 +1,13 @@
 //! Default PDOs as structures.
 
-use od_spec::model::{Direction, Value};
+use od_spec::model::{Direction, Outside, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::plan::{Plan, PlannedField, PlannedPdo};
 use super::docs::doc;
-use super::value::{At, Values, hex};
+use super::literal::hex;
+use super::value::{At, Get, Store, Values};
+use crate::plan::{Plan, PlannedField, PlannedPdo};
 
 impl Plan<'_> {
     /// `mod pdos`.
@@ -26,37 +27,14 @@ impl Plan<'_> {
 
     fn pdo(&self, planned: &PlannedPdo<'_>) -> TokenStream {
         let PlannedPdo { pdo, name, fields, bits } = planned;
-        let values = Values { plan: self };
-        let root = quote!(super::);
         let about = self.pdo_doc(planned);
         let name = format_ident!("{name}");
         let number = Literal::u16_unsuffixed(pdo.number);
         let length = Literal::usize_unsuffixed(usize::try_from(bits.div_ceil(8)).unwrap_or(8));
         let mapping = pdo.map.iter().map(|mapped| hex(mapped.parameter().into(), 8));
         let transmission = Literal::u8_unsuffixed(pdo.transmission);
-        let cob_id = match &pdo.cob_id {
-            Value::NodeId(offset) => {
-                let offset = hex(*offset, 3);
-                quote!(#offset + node_id as u32)
-            }
-            other => {
-                let number =
-                    hex(other.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default(), 3);
-                quote!(#number)
-            }
-        };
-        let node_id = if matches!(pdo.cob_id, Value::NodeId(_)) { quote!(node_id: u8) } else { quote!() };
-        let members = fields.iter().filter_map(|field| {
-            let entry = self.entry(field.row)?;
-            let about = doc(&format!(
-                "`{}`, bits {} to {}.",
-                entry.id,
-                field.first_bit,
-                field.first_bit + u32::from(field.bits) - 1
-            ));
-            let (name, ty) = (format_ident!("{}", field.name), values.value_type(&entry.kind, &root));
-            Some(quote!(#about pub #name: #ty,))
-        });
+        let cob_id = cob_id(&pdo.cob_id);
+        let members = fields.iter().filter_map(|field| self.member(field));
         let unpack = fields.iter().filter_map(|field| self.unpack(field));
         let no_data = fields.is_empty();
         let pack = fields.iter().filter_map(|field| self.pack(field));
@@ -81,10 +59,7 @@ impl Plan<'_> {
                 /// Mapping parameters after a factory reset: index, sub-index and bits of each entry.
                 pub const MAPPING: &'static [u32] = &[#(#mapping),*];
 
-                /// COB-ID with its flag bits after a factory reset.
-                pub const fn cob_id(#node_id) -> u32 {
-                    #cob_id
-                }
+                #cob_id
 
                 /// The values in the data of the PDO.
                 #[inline]
@@ -105,12 +80,24 @@ impl Plan<'_> {
         }
     }
 
+    /// The field of a mapped entry.
+    fn member(&self, field: &PlannedField) -> Option<TokenStream> {
+        let entry = self.entry(field.row)?;
+        let last_bit = field.first_bit + u32::from(field.bits) - 1;
+        let about = doc(&format!("`{}`, bits {} to {last_bit}.", entry.id, field.first_bit));
+        let name = format_ident!("{}", field.name);
+        let value_type = Values { plan: self }.value_type(&entry.kind, &quote!(super::));
+        Some(quote!(#about pub #name: #value_type,))
+    }
+
     fn pdo_doc(&self, planned: &PlannedPdo<'_>) -> TokenStream {
         let pdo = planned.pdo;
         let about = self.words(&pdo.about);
         let cob_id = match &pdo.cob_id {
             Value::NodeId(offset) => format!("COB-ID {:X}h + node-ID", offset & 0x7FF),
-            other => format!("COB-ID {:X}h", other.integer().unwrap_or_default() & 0x7FF),
+            fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
+                format!("COB-ID {:X}h", fixed.integer().unwrap_or_default() & 0x7FF)
+            }
         };
         let valid = if pdo.valid { "" } else { ", off after a factory reset" };
         doc(&format!(
@@ -154,14 +141,14 @@ impl Plan<'_> {
         let at = At { root: quote!(super::), image: quote!(&data), image_mut: quote!(&mut data) };
         if Self::is_aligned(field) {
             let offset = Literal::u32_unsuffixed(field.first_bit / 8);
-            let (store, error) = values.store(&entry.kind, entry.size, &at, &quote!(#offset), &raw);
+            let Store { code, error } = values.store(&entry.kind, entry.size, &at, &quote!(#offset), &raw);
             // What does not fit its width is 0 in the data, as in the dictionary it came from.
-            return Some(if error.is_some() { quote!(let _ = #store;) } else { quote!(#store;) });
+            return Some(if error.is_some() { quote!(let _ = #code;) } else { quote!(#code;) });
         }
         let (first, bits) = (Literal::u32_unsuffixed(field.first_bit), Literal::u8_unsuffixed(field.bits));
         let bytes = At { image_mut: quote!(&mut bytes), ..at };
-        let (store, error) = values.store(&entry.kind, entry.size, &bytes, &quote!(0), &raw);
-        let store = if error.is_some() { quote!(let _ = #store;) } else { quote!(#store;) };
+        let Store { code, error } = values.store(&entry.kind, entry.size, &bytes, &quote!(0), &raw);
+        let store = if error.is_some() { quote!(let _ = #code;) } else { quote!(#code;) };
         Some(quote! {
             let mut bytes = [0; 8];
             #store
@@ -176,12 +163,11 @@ impl Plan<'_> {
         let mut members = Vec::new();
         for field in &planned.fields {
             let entry = self.entry(field.row)?;
-            let may_abort =
-                values.alias_of(entry).is_some_and(|alias| alias.outside == od_spec::model::Outside::Abort);
+            let may_abort = values.alias_of(entry).is_some_and(|alias| alias.outside == Outside::Abort);
             if may_abort {
                 return None;
             }
-            let (name, (value, _)) = (format_ident!("{}", field.name), values.get(entry, &at)?);
+            let (name, Get { value, .. }) = (format_ident!("{}", field.name), values.get(entry, &at)?);
             members.push(quote!(#name: #value,));
         }
         let dictionary = format_ident!("{}", self.name);
@@ -193,5 +179,26 @@ impl Plan<'_> {
                 Self { #(#members)* }
             }
         })
+    }
+}
+
+/// The function that gives the COB-ID; of a formula, for a node.
+fn cob_id(value: &Value) -> TokenStream {
+    let (parameter, number) = match value {
+        Value::NodeId(offset) => {
+            let offset = hex(*offset, 3);
+            (quote!(node_id: u8), quote!(#offset + node_id as u32))
+        }
+        fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
+            let raw = fixed.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default();
+            let number = hex(raw, 3);
+            (quote!(), quote!(#number))
+        }
+    };
+    quote! {
+        /// COB-ID with its flag bits after a factory reset.
+        pub const fn cob_id(#parameter) -> u32 {
+            #number
+        }
     }
 }

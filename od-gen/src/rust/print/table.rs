@@ -7,11 +7,10 @@ use od_spec::model::{DataType, EntryId, Index, Storage, SubIndex};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::condition::{Compare, Condition, Sum};
-use super::super::layout::Place;
-use super::super::plan::{Attributes, Flags, NONE, PlaceKind, Plan};
 use super::docs::{doc, escape};
-use super::value::{At, Values, decimal, hex, view_name};
+use super::literal::{decimal, hex};
+use super::value::{At, Values, view_name};
+use crate::plan::{Attributes, Compare, Condition, Flags, NONE, Place, PlaceKind, Plan, PlannedEntry, Sum};
 
 /// Bytes in a line of a byte string.
 const LINE: usize = 16;
@@ -55,7 +54,7 @@ impl Plan<'_> {
         }
     }
 
-    fn full_name(&self, entry: &super::super::plan::PlannedEntry<'_>) -> String {
+    fn full_name(&self, entry: &PlannedEntry<'_>) -> String {
         self.device.entry_name(entry.id).unwrap_or_default()
     }
 

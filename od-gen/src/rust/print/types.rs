@@ -1,14 +1,18 @@
 //! Units, enums, bit fields and special values.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use od_spec::model::{Edge, EnumValue};
+use od_spec::model::Edge;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::plan::{Members, Plan, PlannedBits, PlannedSpecial, PlannedType, PlannedUnit};
+use super::super::language;
 use super::docs::{doc, escape};
-use super::value::{decimal, hex};
+use super::literal::{decimal, hex};
+use crate::plan::{
+    Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
+};
 
 impl Plan<'_> {
     /// `mod units`.
@@ -17,10 +21,8 @@ impl Plan<'_> {
             return quote!();
         }
         let units = self.units.iter().map(|unit| self.unit(unit));
-        let mut bases: Vec<(&str, &str)> =
-            self.units.iter().map(|unit| (unit.base.as_str(), unit.unit.base_symbol())).collect();
-        bases.sort_unstable();
-        bases.dedup();
+        let bases: BTreeSet<(String, &str)> =
+            self.units.iter().map(|unit| (base_name(unit), unit.unit.base_symbol())).collect();
         let bases = bases.into_iter().map(|(name, symbol)| {
             let (about, name) = (doc(&format!("Measured in {}.", escape(symbol))), format_ident!("{name}"));
             quote!(#about #[derive(Debug)] pub enum #name {})
@@ -40,12 +42,14 @@ impl Plan<'_> {
     }
 
     fn unit(&self, planned: &PlannedUnit<'_>) -> TokenStream {
-        let PlannedUnit { unit, name, scale, step, base } = planned;
+        let PlannedUnit { unit, name, scale, step } = planned;
         let about = self.words(&unit.about);
         let text = format!("{}: one raw step is {}.", escape(&unit.name), escape(&step_text(unit)));
         let about = doc(format!("{text} {about}").trim());
-        let (name, base, symbol) = (format_ident!("{name}"), format_ident!("{base}"), &unit.symbol);
-        let [n, d, sn, sd] = [scale.0, scale.1, step.0, step.1].map(|number| decimal(number.into()));
+        let (name, base, symbol) =
+            (format_ident!("{name}"), format_ident!("{}", base_name(planned)), &unit.symbol);
+        let [n, d, sn, sd] = [scale.numerator, scale.denominator, step.numerator, step.denominator]
+            .map(|number| decimal(number.into()));
         quote! {
             super::glue::unit! {
                 #about
@@ -80,10 +84,9 @@ impl Plan<'_> {
         let label = &planned.named.name;
         match &planned.members {
             Members::Values(values) => {
-                let constants = values
-                    .iter()
-                    .map(|(constant, value)| self.constant(constant, value, &quote!(Self), &quote!(Self)));
-                let names = values.iter().map(|(_, value)| {
+                let constants =
+                    values.iter().map(|planned| self.constant(planned, &quote!(Self), &quote!(Self)));
+                let names = values.iter().map(|PlannedValue { value, .. }| {
                     let (number, text) = (decimal(value.value), &value.name);
                     quote!(#number => #text,)
                 });
@@ -126,7 +129,8 @@ impl Plan<'_> {
         }
     }
 
-    fn constant(&self, name: &str, value: &EnumValue, ty: &TokenStream, wrap: &TokenStream) -> TokenStream {
+    fn constant(&self, planned: &PlannedValue<'_>, ty: &TokenStream, wrap: &TokenStream) -> TokenStream {
+        let PlannedValue { name, value } = planned;
         let (name, number) = (format_ident!("{name}"), decimal(value.value));
         let about = self.words(&value.about);
         let support = if value.supported { "" } else { " Not supported." };
@@ -140,35 +144,10 @@ impl Plan<'_> {
         quote!(#about pub const #name: #ty = #wrap(#number);)
     }
 
+    /// The accessors of a bit or of a run of bits.
     fn bits(&self, bits: &PlannedBits<'_>, raw: &TokenStream, width: u16) -> TokenStream {
-        let (get, with) = (format_ident!("{}", bits.name), format_ident!("with_{}", bits.name));
-        let about = self.bits_doc(bits);
-        let with_about = doc(&format!("With another [`{}`](Self::{}).", bits.name, bits.name));
-        let shift = |value: TokenStream, operator: TokenStream| {
-            let first = Literal::u8_unsuffixed(bits.first);
-            if bits.first == 0 { value } else { quote!(#value #operator #first) }
-        };
-        let (left, right) = (|value| shift(value, quote!(<<)), |value| shift(value, quote!(>>)));
-        if bits.first == bits.last {
-            let (read, mask, set) = (right(quote!(self.0)), left(quote!(1)), left(quote!((value as #raw))));
-            return quote! {
-                #about
-                #[inline]
-                pub const fn #get(self) -> bool {
-                    #read & 1 != 0
-                }
-
-                #with_about
-                #[inline]
-                #[must_use]
-                pub const fn #with(self, value: bool) -> Self {
-                    Self(self.0 & !(#mask) | #set)
-                }
-            };
-        }
-        let run = u16::from(bits.last - bits.first) + 1;
-        let mask = hex(u64::MAX >> (64 - run), usize::from(run.div_ceil(4)));
-        let constants = bits.values.iter().map(|(name, value)| {
+        let accessors = if bits.first == bits.last { one_bit(bits, raw) } else { run(bits, raw, width) };
+        let constants = bits.values.iter().map(|PlannedValue { name, value }| {
             let (name, number) = (format_ident!("{name}"), decimal(value.value));
             let about = self.words(&value.about);
             let end = if about.is_empty() { "." } else { ": " };
@@ -181,29 +160,10 @@ impl Plan<'_> {
             ));
             quote!(#about pub const #name: #raw = #number;)
         });
-        let (read, write) = if run == width {
-            (quote!(self.0), quote!(Self(value)))
-        } else {
-            let (read, place, set) =
-                (right(quote!(self.0)), left(quote!(#mask)), left(quote!((value & #mask))));
-            (quote!(#read & #mask), quote!(Self(self.0 & !(#place) | #set)))
-        };
-        quote! {
-            #(#constants)*
-
-            #about
-            #[inline]
-            pub const fn #get(self) -> #raw {
-                #read
-            }
-
-            #with_about
-            #[inline]
-            #[must_use]
-            pub const fn #with(self, value: #raw) -> Self {
-                #write
-            }
-        }
+        // A single bit is a `bool`, which needs no constants.
+        let constants = constants.filter(|_| bits.first != bits.last);
+        let about = self.bits_doc(bits);
+        quote!(#(#constants)* #about #accessors)
     }
 
     fn bits_doc(&self, bits: &PlannedBits<'_>) -> TokenStream {
@@ -252,18 +212,83 @@ impl Plan<'_> {
     }
 }
 
+/// A value at the place of some bits, or from there.
+fn shifted(bits: &PlannedBits<'_>, value: TokenStream, operator: &TokenStream) -> TokenStream {
+    let first = Literal::u8_unsuffixed(bits.first);
+    if bits.first == 0 { value } else { quote!(#value #operator #first) }
+}
+
+/// The documentation of what gives a word with other bits.
+fn with_doc(bits: &PlannedBits<'_>) -> TokenStream {
+    doc(&format!("With another [`{}`](Self::{}).", bits.name, bits.name))
+}
+
+fn one_bit(bits: &PlannedBits<'_>, raw: &TokenStream) -> TokenStream {
+    let (get, with, with_about) = (format_ident!("{}", bits.name), with(bits), with_doc(bits));
+    let read = shifted(bits, quote!(self.0), &quote!(>>));
+    let mask = shifted(bits, quote!(1), &quote!(<<));
+    let set = shifted(bits, quote!((value as #raw)), &quote!(<<));
+    quote! {
+        #[inline]
+        pub const fn #get(self) -> bool {
+            #read & 1 != 0
+        }
+
+        #with_about
+        #[inline]
+        #[must_use]
+        pub const fn #with(self, value: bool) -> Self {
+            Self(self.0 & !(#mask) | #set)
+        }
+    }
+}
+
+fn run(bits: &PlannedBits<'_>, raw: &TokenStream, width: u16) -> TokenStream {
+    let (get, with, with_about) = (format_ident!("{}", bits.name), with(bits), with_doc(bits));
+    let count = u16::from(bits.last - bits.first) + 1;
+    let mask = hex(u64::MAX >> (64 - count), usize::from(count.div_ceil(4)));
+    let (read, write) = if count == width {
+        (quote!(self.0), quote!(Self(value)))
+    } else {
+        let read = shifted(bits, quote!(self.0), &quote!(>>));
+        let place = shifted(bits, quote!(#mask), &quote!(<<));
+        let set = shifted(bits, quote!((value & #mask)), &quote!(<<));
+        (quote!(#read & #mask), quote!(Self(self.0 & !(#place) | #set)))
+    };
+    quote! {
+        #[inline]
+        pub const fn #get(self) -> #raw {
+            #read
+        }
+
+        #with_about
+        #[inline]
+        #[must_use]
+        pub const fn #with(self, value: #raw) -> Self {
+            #write
+        }
+    }
+}
+
+fn with(bits: &PlannedBits<'_>) -> Ident {
+    format_ident!("{}", language::with(&bits.name))
+}
+
 fn special(planned: &PlannedSpecial) -> TokenStream {
     let name = format_ident!("{}", planned.name);
-    let texts: Vec<String> =
-        planned.values.iter().map(|(_, text, value)| format!("{} ({value})", escape(text))).collect();
+    let texts: Vec<String> = planned
+        .values
+        .iter()
+        .map(|PlannedSpecialValue { text, value, .. }| format!("{} ({value})", escape(text)))
+        .collect();
     let about = doc(&format!("{}.", texts.join(" or ")));
-    let variants = planned.values.iter().map(|(variant, text, value)| {
+    let variants = planned.values.iter().map(|PlannedSpecialValue { name, text, value }| {
         let (about, variant): (_, Ident) =
-            (doc(&format!("{}: raw value {value}.", escape(text))), format_ident!("{variant}"));
+            (doc(&format!("{}: raw value {value}.", escape(text))), format_ident!("{name}"));
         quote!(#about #variant,)
     });
-    let names = planned.values.iter().map(|(variant, text, _)| {
-        let variant = format_ident!("{variant}");
+    let names = planned.values.iter().map(|PlannedSpecialValue { name, text, .. }| {
+        let variant = format_ident!("{name}");
         quote!(Self::#variant => #text,)
     });
     quote! {
@@ -291,6 +316,22 @@ fn special(planned: &PlannedSpecial) -> TokenStream {
 
         super::glue::defmt_text!(#name);
     }
+}
+
+/// The base of a unit as an identifier of its own, whatever characters its symbol has: `BaseV`, `BasePUPersUB2`.
+fn base_name(planned: &PlannedUnit<'_>) -> String {
+    planned.unit.base_symbol().chars().fold("Base".to_owned(), |mut name, c| {
+        match c {
+            c if c.is_ascii_alphanumeric() => name.push(c),
+            '/' => name.push_str("Per"),
+            '°' => name.push_str("Degree"),
+            '%' => name.push_str("Percent"),
+            c => {
+                let _ = write!(name, "U{:X}", u32::from(c));
+            }
+        }
+        name
+    })
 }
 
 fn step_text(unit: &od_spec::model::Unit) -> String {

@@ -1,11 +1,13 @@
 //! Values in code: their types, and how bytes become values and values bytes.
 
-use od_spec::model::{DataType, Value};
+use od_spec::model::{DataType, Family, Outside, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::layout::Place;
-use super::super::plan::{Plan, PlannedAlias, PlannedEntry, ValueKind};
+use super::literal::{decimal, hex};
+use crate::plan::{
+    Members, Place, Plan, PlannedAlias, PlannedEntry, PlannedSpecialValue, ValueKind, default_integer,
+};
 
 /// How a number is carried in code.
 #[derive(Clone, Copy)]
@@ -34,6 +36,21 @@ impl Carrier {
         let name = format_ident!("{}{bits}", if self.signed { 'i' } else { 'u' });
         quote!(#name)
     }
+}
+
+/// How a raw value is carried in code.
+#[derive(Clone, Copy)]
+enum Raw {
+    Integer(Carrier),
+    Bool,
+    Single,
+    Double,
+    Visible,
+    Octets,
+    Unicode,
+    Time,
+    /// A DOMAIN lies with the application: code has no value of it.
+    Nothing,
 }
 
 /// What is printed where: how module paths begin, and the bytes that hold the values.
@@ -72,6 +89,20 @@ impl At {
     }
 }
 
+/// Code that gives a value.
+pub(super) struct Get {
+    pub value: TokenStream,
+    /// The type of the value; for an alias that may have nothing to show, an `Option`.
+    pub value_type: TokenStream,
+}
+
+/// Code that stores a value.
+pub(super) struct Store {
+    pub code: TokenStream,
+    /// The error of the `Result` that the code gives; `None` for code that always succeeds and gives nothing.
+    pub error: Option<TokenStream>,
+}
+
 /// Printing of values for one dictionary.
 pub(super) struct Values<'p, 'a> {
     pub plan: &'p Plan<'a>,
@@ -81,26 +112,39 @@ impl Values<'_, '_> {
     fn is_bits(&self, kind: &ValueKind) -> bool {
         let named =
             kind.named.as_ref().and_then(|name| self.plan.types.iter().find(|planned| planned.name == *name));
-        named.is_some_and(|planned| matches!(planned.members, super::super::plan::Members::Bits(_)))
+        named.is_some_and(|planned| matches!(planned.members, Members::Bits(_)))
     }
 
     fn carrier(&self, kind: &ValueKind) -> Option<Carrier> {
         Carrier::of(kind, self.is_bits(kind))
     }
 
+    fn raw(&self, kind: &ValueKind) -> Raw {
+        match kind.data_type.family() {
+            Family::Signed | Family::Unsigned => self.carrier(kind).map_or(Raw::Nothing, Raw::Integer),
+            Family::Boolean => Raw::Bool,
+            Family::Real if kind.data_type == DataType::Real32 => Raw::Single,
+            Family::Real => Raw::Double,
+            Family::VisibleString => Raw::Visible,
+            Family::OctetString => Raw::Octets,
+            Family::UnicodeString => Raw::Unicode,
+            Family::Time => Raw::Time,
+            Family::Domain => Raw::Nothing,
+        }
+    }
+
     /// The type without its wrapping: `u16`, `f32`, `bool`, `&str`.
     pub(super) fn raw_type(&self, kind: &ValueKind, root: &TokenStream) -> TokenStream {
-        if let Some(carrier) = self.carrier(kind) {
-            return carrier.name();
-        }
-        match kind.data_type {
-            DataType::Boolean => quote!(bool),
-            DataType::Real32 => quote!(f32),
-            DataType::Real64 => quote!(f64),
-            DataType::VisibleString => quote!(&str),
-            DataType::OctetString => quote!(&[u8]),
-            DataType::UnicodeString => quote!(#root glue::Utf16<'_>),
-            _ => quote!(#root glue::Time),
+        match self.raw(kind) {
+            Raw::Integer(carrier) => carrier.name(),
+            Raw::Bool => quote!(bool),
+            Raw::Single => quote!(f32),
+            Raw::Double => quote!(f64),
+            Raw::Visible => quote!(&str),
+            Raw::Octets => quote!(&[u8]),
+            Raw::Unicode => quote!(#root glue::Utf16<'_>),
+            Raw::Time => quote!(#root glue::Time),
+            Raw::Nothing => quote!(()),
         }
     }
 
@@ -151,7 +195,7 @@ impl Values<'_, '_> {
         else {
             return Self::wrap(kind, root, raw);
         };
-        let arms = special.values.iter().map(|(variant, _, value)| {
+        let arms = special.values.iter().map(|PlannedSpecialValue { name: variant, value, .. }| {
             let (variant, value) = (format_ident!("{variant}"), decimal(*value));
             quote!(#value => #root glue::Special::Special(#root specials::#name::#variant),)
         });
@@ -164,9 +208,9 @@ impl Values<'_, '_> {
         let literal = decimal(number);
         let special = kind.special.and_then(|at| self.plan.specials.get(at)).zip(self.special_name(kind));
         let Some((special, name)) = special else { return Self::wrap(kind, root, &quote!(#literal)) };
-        match special.values.iter().find(|(_, _, value)| *value == number) {
-            Some((variant, ..)) => {
-                let variant = format_ident!("{variant}");
+        match special.values.iter().find(|special| special.value == number) {
+            Some(special) => {
+                let variant = format_ident!("{}", special.name);
                 quote!(#root glue::Special::Special(#root specials::#name::#variant))
             }
             None => {
@@ -185,10 +229,11 @@ impl Values<'_, '_> {
         else {
             return unwrap(value);
         };
-        let arms = special.values.iter().map(|(variant, _, number)| {
-            let (variant, number) = (format_ident!("{variant}"), decimal(*number));
-            quote!(#root glue::Special::Special(#root specials::#name::#variant) => #number,)
-        });
+        let arms =
+            special.values.iter().map(|PlannedSpecialValue { name: variant, value: number, .. }| {
+                let (variant, number) = (format_ident!("{variant}"), decimal(*number));
+                quote!(#root glue::Special::Special(#root specials::#name::#variant) => #number,)
+            });
         let inner = unwrap(&quote!(value));
         quote!(match #value { #root glue::Special::Value(value) => #inner, #(#arms)* })
     }
@@ -196,40 +241,29 @@ impl Values<'_, '_> {
     /// The raw form of the value at an offset of some bytes.
     pub(super) fn load(&self, kind: &ValueKind, size: usize, at: &At, offset: &TokenStream) -> TokenStream {
         let At { root, image, .. } = at;
-        if let Some(name) = self.plain_name(kind) {
-            let get = format_ident!("get_{name}");
-            return quote!(#root glue::#get(#image, #offset));
-        }
-        if let Some(carrier) = self.carrier(kind) {
-            let bytes = Literal::usize_unsuffixed(carrier.bytes);
-            let get = if carrier.signed { quote!(get_signed) } else { quote!(get_unsigned) };
-            return quote!(#root glue::image::#get::<#bytes>(#image, #offset));
-        }
         let size = Literal::usize_unsuffixed(size);
-        let get = match kind.data_type {
-            DataType::VisibleString => quote!(visible),
-            DataType::OctetString => quote!(octets),
-            _ => quote!(unicode),
-        };
-        quote!(#root glue::text::#get(#image, #offset, #size))
-    }
-
-    /// The name of a type that the run-time half reads and writes whole.
-    fn plain_name(&self, kind: &ValueKind) -> Option<String> {
-        if let Some(carrier) = self.carrier(kind) {
-            return carrier.is_exact().then(|| carrier.name().to_string());
+        match self.raw(kind) {
+            Raw::Integer(carrier) if carrier.is_exact() => {
+                let get = format_ident!("get_{}", carrier.name().to_string());
+                quote!(#root glue::#get(#image, #offset))
+            }
+            Raw::Integer(carrier) => {
+                let bytes = Literal::usize_unsuffixed(carrier.bytes);
+                let get = if carrier.signed { quote!(get_signed) } else { quote!(get_unsigned) };
+                quote!(#root glue::image::#get::<#bytes>(#image, #offset))
+            }
+            Raw::Bool => quote!(#root glue::get_bool(#image, #offset)),
+            Raw::Single => quote!(#root glue::get_f32(#image, #offset)),
+            Raw::Double => quote!(#root glue::get_f64(#image, #offset)),
+            Raw::Time => quote!(#root glue::get_time(#image, #offset)),
+            Raw::Visible => quote!(#root glue::text::visible(#image, #offset, #size)),
+            Raw::Octets => quote!(#root glue::text::octets(#image, #offset, #size)),
+            Raw::Unicode => quote!(#root glue::text::unicode(#image, #offset, #size)),
+            Raw::Nothing => quote!(()),
         }
-        let name = match kind.data_type {
-            DataType::Boolean => "bool",
-            DataType::Real32 => "f32",
-            DataType::Real64 => "f64",
-            DataType::TimeOfDay | DataType::TimeDifference => "time",
-            _ => return None,
-        };
-        Some(name.to_owned())
     }
 
-    /// Code that puts a raw value at an offset, and the error it may have.
+    /// Code that puts a raw value at an offset.
     pub(super) fn store(
         &self,
         kind: &ValueKind,
@@ -237,27 +271,35 @@ impl Values<'_, '_> {
         at: &At,
         offset: &TokenStream,
         raw: &TokenStream,
-    ) -> (TokenStream, Option<TokenStream>) {
+    ) -> Store {
         let At { root, image_mut, .. } = at;
-        if let Some(name) = self.plain_name(kind) {
-            let put = format_ident!("put_{name}");
-            return (quote!(#root glue::#put(#image_mut, #offset, #raw)), None);
-        }
-        if let Some(carrier) = self.carrier(kind) {
-            let bytes = Literal::usize_unsuffixed(carrier.bytes);
-            let put = if carrier.signed { quote!(put_signed) } else { quote!(put_unsigned) };
-            return (
-                quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)),
-                Some(quote!(#root glue::OutOfRange)),
-            );
-        }
         let size = Literal::usize_unsuffixed(size);
-        let put = match kind.data_type {
-            DataType::VisibleString => quote!(put_visible),
-            DataType::OctetString => quote!(put_octets),
-            _ => quote!(put_unicode),
-        };
-        (quote!(#root glue::text::#put(#image_mut, #offset, #size, #raw)), Some(quote!(#root glue::NoFit)))
+        let always = |code| Store { code, error: None };
+        let in_range = |code| Store { code, error: Some(quote!(#root glue::OutOfRange)) };
+        let with_room = |code| Store { code, error: Some(quote!(#root glue::NoFit)) };
+        match self.raw(kind) {
+            Raw::Integer(carrier) if carrier.is_exact() => {
+                let put = format_ident!("put_{}", carrier.name().to_string());
+                always(quote!(#root glue::#put(#image_mut, #offset, #raw)))
+            }
+            Raw::Integer(carrier) => {
+                let bytes = Literal::usize_unsuffixed(carrier.bytes);
+                let put = if carrier.signed { quote!(put_signed) } else { quote!(put_unsigned) };
+                in_range(quote!(#root glue::image::#put::<#bytes>(#image_mut, #offset, #raw)))
+            }
+            Raw::Bool => always(quote!(#root glue::put_bool(#image_mut, #offset, #raw))),
+            Raw::Single => always(quote!(#root glue::put_f32(#image_mut, #offset, #raw))),
+            Raw::Double => always(quote!(#root glue::put_f64(#image_mut, #offset, #raw))),
+            Raw::Time => always(quote!(#root glue::put_time(#image_mut, #offset, #raw))),
+            Raw::Visible => {
+                with_room(quote!(#root glue::text::put_visible(#image_mut, #offset, #size, #raw)))
+            }
+            Raw::Octets => with_room(quote!(#root glue::text::put_octets(#image_mut, #offset, #size, #raw))),
+            Raw::Unicode => {
+                with_room(quote!(#root glue::text::put_unicode(#image_mut, #offset, #size, #raw)))
+            }
+            Raw::Nothing => always(quote!(())),
+        }
     }
 
     /// What a setter takes.
@@ -265,40 +307,46 @@ impl Values<'_, '_> {
         if kind.data_type == DataType::UnicodeString { quote!(&str) } else { self.value_type(kind, root) }
     }
 
-    /// The value of an entry wherever it lies; with its type, which for an alias that may have none is an `Option`.
-    pub(super) fn get(&self, entry: &PlannedEntry<'_>, at: &At) -> Option<(TokenStream, TokenStream)> {
+    /// The value of an entry wherever it lies; `None` for what lies with the application.
+    pub(super) fn get(&self, entry: &PlannedEntry<'_>, at: &At) -> Option<Get> {
         let value_type = self.value_type(&entry.kind, &at.root);
         match entry.place {
             Place::Image(offset) => {
                 let offset = Literal::usize_unsuffixed(offset);
                 let raw = self.load(&entry.kind, entry.size, at, &quote!(#offset));
-                Some((self.decode(&entry.kind, &at.root, &raw), value_type))
+                Some(Get { value: self.decode(&entry.kind, &at.root, &raw), value_type })
             }
             Place::Constant(_) => {
                 let raw = self.literal(entry)?;
-                let value_type = match entry.kind.data_type {
-                    DataType::VisibleString => quote!(&'static str),
-                    DataType::OctetString => quote!(&'static [u8]),
-                    _ => value_type,
+                let value_type = match entry.kind.data_type.family() {
+                    Family::VisibleString => quote!(&'static str),
+                    Family::OctetString => quote!(&'static [u8]),
+                    Family::Boolean
+                    | Family::Signed
+                    | Family::Unsigned
+                    | Family::Real
+                    | Family::UnicodeString
+                    | Family::Time
+                    | Family::Domain => value_type,
                 };
-                Some((self.decode(&entry.kind, &at.root, &raw), value_type))
+                Some(Get { value: self.decode(&entry.kind, &at.root, &raw), value_type })
             }
             Place::Alias => {
                 let alias = self.alias_of(entry)?;
                 let target = self.number(self.plan.entry(alias.target)?, at)?;
                 let (root, view) = (&at.root, view_name(entry));
-                if alias.outside == od_spec::model::Outside::Abort {
+                if alias.outside == Outside::Abort {
                     let narrow = self.narrowed(&entry.kind, root, &quote!(number));
                     let value = self.decode(&entry.kind, root, &narrow);
-                    return Some((
-                        quote!(#root #view.show(#target).ok().map(|number| #value)),
-                        quote!(Option<#value_type>),
-                    ));
+                    return Some(Get {
+                        value: quote!(#root #view.show(#target).ok().map(|number| #value)),
+                        value_type: quote!(Option<#value_type>),
+                    });
                 }
                 let shown = quote!(#root #view.show_or_zero(#target));
                 let raw = self.narrowed(&entry.kind, root, &shown);
                 let value = self.decode(&entry.kind, root, &raw);
-                Some((value, value_type))
+                Some(Get { value, value_type })
             }
             Place::Application => None,
         }
@@ -358,7 +406,7 @@ impl Values<'_, '_> {
                 })
             }
             Place::Constant(_) => {
-                let number = super::super::plan::default_integer(entry.entry)?;
+                let number = default_integer(entry.entry)?;
                 let number = match (i64::try_from(number), u64::try_from(number)) {
                     (Ok(number), _) if plain.data_type != DataType::Unsigned64 => {
                         Literal::i64_suffixed(number)
@@ -419,11 +467,12 @@ impl Values<'_, '_> {
                 quote!(#literal)
             }
             Value::Text(text) if kind.data_type == DataType::VisibleString => quote!(#text),
+            // Code has no constant for a formula, which each node resolves, nor for characters of 16 bits.
+            Value::NodeId(_) | Value::Text(_) => return None,
             Value::Bytes(bytes) => {
                 let literal = Literal::byte_string(bytes);
                 quote!(#literal)
             }
-            _ => return None,
         })
     }
 }
@@ -431,37 +480,4 @@ impl Values<'_, '_> {
 /// The constant that says how an alias shows its target: `VIEW_5064`.
 pub(super) fn view_name(entry: &PlannedEntry<'_>) -> proc_macro2::Ident {
     format_ident!("VIEW_{:04X}", entry.id.index.0)
-}
-
-/// A decimal literal, in groups of three digits where it is long.
-pub(super) fn decimal(value: i128) -> Literal {
-    use std::str::FromStr as _;
-    let digits = value.unsigned_abs().to_string();
-    if digits.len() < 6 {
-        return Literal::i128_unsuffixed(value);
-    }
-    let mut text = String::from(if value < 0 { "-" } else { "" });
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at).is_multiple_of(3) {
-            text.push('_');
-        }
-        text.push(digit);
-    }
-    Literal::from_str(&text).unwrap_or_else(|_| Literal::i128_unsuffixed(value))
-}
-
-/// A hexadecimal literal.
-pub(super) fn hex(value: u64, digits: usize) -> Literal {
-    use std::str::FromStr as _;
-    let plain = format!("{value:0digits$X}");
-    // Groups of four digits from the right, where there are more.
-    let mut text = String::from("0x");
-    for (at, digit) in plain.chars().enumerate() {
-        let rest = plain.len() - at;
-        if at > 0 && plain.len() > 4 && rest.is_multiple_of(4) {
-            text.push('_');
-        }
-        text.push(digit);
-    }
-    Literal::from_str(&text).unwrap_or_else(|_| Literal::u64_unsuffixed(value))
 }

@@ -4,9 +4,9 @@ use od_spec::model::{Origin, SubIndex, Value};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::super::plan::{Plan, PlannedEntry};
 use super::docs::doc;
 use super::value::Values;
+use crate::plan::{Plan, PlannedEntry, ValueKind};
 
 impl Plan<'_> {
     /// `mod defaults`: the values after a factory reset that the specification states, apart from those of PDOs.
@@ -51,7 +51,7 @@ impl Plan<'_> {
             .filter(|entry| entry.entry.low.is_some() || entry.entry.high.is_some())
             .filter_map(|entry| {
                 let (lowest, highest) = entry.entry.data_type.range()?;
-                let kind = super::super::plan::ValueKind { special: None, ..entry.kind.clone() };
+                let kind = ValueKind { special: None, ..entry.kind.clone() };
                 let end = |raw: i128| {
                     let literal = values.literal_of(&kind, &Value::Integer(raw)).unwrap_or_else(|| quote!(0));
                     values.decode(&kind, &root, &literal)
@@ -93,6 +93,6 @@ fn static_type(value_type: TokenStream, default: &Value) -> TokenStream {
     match default {
         Value::Text(_) => quote!(&str),
         Value::Bytes(_) => quote!(&[u8]),
-        _ => value_type,
+        Value::Integer(_) | Value::NodeId(_) | Value::Real(_) => value_type,
     }
 }

@@ -8,7 +8,7 @@ use od_spec::model::{Dictionary, EntryId, Ratio};
 
 /// A condition: all comparisons hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Condition {
+pub(crate) struct Condition {
     pub text: String,
     pub comparisons: Vec<Compare>,
     /// Whether 64 bits are enough.
@@ -17,7 +17,7 @@ pub(super) struct Condition {
 
 /// `left op right`, both multiplied out; a side whose divisor is 0 counts as met.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Compare {
+pub(crate) struct Compare {
     pub left: Sum,
     pub op: CompareOp,
     pub right: Sum,
@@ -27,7 +27,7 @@ pub(super) struct Compare {
 
 /// An integer expression.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Sum {
+pub(crate) enum Sum {
     Number(i128),
     Entry(EntryId),
     Bit(EntryId, u8),
@@ -58,25 +58,32 @@ pub(super) enum Unusable {
     TooLarge,
 }
 
-/// A term as numerator / divisor × scale, with bounds of the two integers.
-struct Fraction {
-    numerator: Sum,
+/// An integer expression and the largest size its value can have.
+#[derive(Clone)]
+struct Bounded {
+    sum: Sum,
     bound: i128,
-    divisor: Option<(Sum, i128)>,
+}
+
+/// A term as numerator / divisor × scale.
+struct Fraction {
+    numerator: Bounded,
+    /// 1 where nothing is divided.
+    divisor: Bounded,
     scale: Ratio,
 }
 
 /// Turns a condition into comparisons of a device's own entries; links that name entries of other devices are left out.
 pub(super) fn plan(condition: &Expr, device: &Dictionary) -> Result<Condition, Unusable> {
-    let own = |term: &Term| own_entries_only(term, device);
+    let is_local = |term: &Term| own_entries_only(term, device);
     let (mut comparisons, mut narrow) = (Vec::new(), true);
     for Comparison { first, rest } in &condition.comparisons {
         let mut left = first;
         for (op, right) in rest {
-            if own(left) && own(right) {
-                let (compare, fits) = link(left, *op, right, device).ok_or(Unusable::TooLarge)?;
-                narrow &= fits;
-                comparisons.push(compare);
+            if is_local(left) && is_local(right) {
+                let linked = link(left, *op, right, device).ok_or(Unusable::TooLarge)?;
+                narrow &= linked.bound <= i128::from(i64::MAX);
+                comparisons.push(linked.compare);
             }
             left = right;
         }
@@ -88,46 +95,71 @@ pub(super) fn plan(condition: &Expr, device: &Dictionary) -> Result<Condition, U
 }
 
 fn own_entries_only(term: &Term, device: &Dictionary) -> bool {
-    let here = |entry: &EntryRef| {
+    let is_of_device = |entry: &EntryRef| {
         entry.device.as_ref().is_none_or(|key| *key == device.key) && device.entry(entry.id).is_some()
     };
     match term {
         Term::Number(_) => true,
-        Term::Entry(entry) | Term::Bit(entry, _) => here(entry),
+        Term::Entry(entry) | Term::Bit(entry, _) => is_of_device(entry),
         Term::Binary(left, _, right) => own_entries_only(left, device) && own_entries_only(right, device),
     }
 }
 
-/// One comparison, and whether 64 bits are enough for it.
-fn link(left: &Term, op: CompareOp, right: &Term, device: &Dictionary) -> Option<(Compare, bool)> {
+/// A comparison and the largest size its sides can have.
+struct Link {
+    compare: Compare,
+    bound: i128,
+}
+
+fn link(left: &Term, op: CompareOp, right: &Term, device: &Dictionary) -> Option<Link> {
     let (left, right) = (fraction(left, device)?, fraction(right, device)?);
     // value = numerator / divisor × p / q
     let factors = left.scale.checked_div(right.scale)?;
-    let mut one = scaled(left.numerator, left.bound, factors.numerator())?;
-    let mut other = scaled(right.numerator, right.bound, factors.denominator())?;
-    let mut divisors = Vec::new();
-    for (divisor, on_left) in [(left.divisor, true), (right.divisor, false)] {
-        let Some((divisor, bound)) = divisor else { continue };
-        // A side's divisor goes to the other side. One that may be negative would turn the comparison round, so both sides
-        // take it once more: its square is positive.
-        let powers = if divisor.is_positive(device) { (0, 1) } else { (1, 2) };
-        let (on_one, on_other) = if on_left { powers } else { (powers.1, powers.0) };
-        let times = |side: (Sum, i128), power: u32| -> Option<(Sum, i128)> {
-            (0..power).try_fold(side, |(sum, most), _| {
-                Some((binary(sum, ArithmeticOp::Multiply, divisor.clone()), most.checked_mul(bound)?))
-            })
-        };
-        one = times(one, on_one)?;
-        other = times(other, on_other)?;
-        divisors.push(divisor);
-    }
-    let narrow = one.1.max(other.1) <= i128::from(i64::MAX);
-    Some((Compare { left: one.0, op, right: other.0, divisors }, narrow))
+    let left_side = left.numerator.scaled(factors.numerator())?;
+    let right_side = right.numerator.scaled(factors.denominator())?;
+    let (left_side, right_side) = cleared(&left.divisor, left_side, right_side, device)?;
+    let (right_side, left_side) = cleared(&right.divisor, right_side, left_side, device)?;
+    let bound = left_side.bound.max(right_side.bound);
+    let divisors = [left.divisor.sum, right.divisor.sum];
+    let divisors = divisors.into_iter().filter(|divisor| *divisor != Sum::Number(1)).collect();
+    Some(Link { compare: Compare { left: left_side.sum, op, right: right_side.sum, divisors }, bound })
 }
 
-fn scaled(sum: Sum, bound: i128, factor: i128) -> Option<(Sum, i128)> {
-    let product = if factor == 1 { sum } else { binary(sum, ArithmeticOp::Multiply, Sum::Number(factor)) };
-    Some((product, bound.checked_mul(factor.checked_abs()?)?))
+/// The two sides without the divisor of one of them, which goes to the opposite side. One that may be negative would turn
+/// the comparison round, so both sides take it once more: its square is positive.
+fn cleared(
+    divisor: &Bounded,
+    divided: Bounded,
+    opposite: Bounded,
+    device: &Dictionary,
+) -> Option<(Bounded, Bounded)> {
+    let opposite = opposite.times(divisor)?;
+    if divisor.sum.is_positive(device) {
+        return Some((divided, opposite));
+    }
+    Some((divided.times(divisor)?, opposite.times(divisor)?))
+}
+
+impl Bounded {
+    /// Of a size of one at most.
+    const fn unit(sum: Sum) -> Self {
+        Self { sum, bound: 1 }
+    }
+
+    /// The product; `None` where it can leave 128 bits.
+    fn times(self, factor: &Self) -> Option<Self> {
+        let bound = self.bound.checked_mul(factor.bound)?;
+        Some(Self { sum: binary(self.sum, ArithmeticOp::Multiply, factor.sum.clone()), bound })
+    }
+
+    /// The product with a number; `None` where it can leave 128 bits.
+    fn scaled(self, factor: i128) -> Option<Self> {
+        let bound = self.bound.checked_mul(factor.checked_abs()?)?;
+        if factor == 1 {
+            return Some(Self { bound, ..self });
+        }
+        Some(Self { sum: binary(self.sum, ArithmeticOp::Multiply, Sum::Number(factor)), bound })
+    }
 }
 
 fn binary(left: Sum, op: ArithmeticOp, right: Sum) -> Sum {
@@ -142,26 +174,28 @@ fn binary(left: Sum, op: ArithmeticOp, right: Sum) -> Sum {
 }
 
 fn fraction(term: &Term, device: &Dictionary) -> Option<Fraction> {
-    let whole = |numerator, bound, scale| Some(Fraction { numerator, bound, divisor: None, scale });
+    let whole =
+        |numerator, scale| Some(Fraction { numerator, divisor: Bounded::unit(Sum::Number(1)), scale });
     match term {
         // Zero has no direction in which a scale could be divided.
-        Term::Number(number) if number.numerator() == 0 => whole(Sum::Number(0), 1, Ratio::ONE),
+        Term::Number(number) if number.numerator() == 0 => whole(Bounded::unit(Sum::Number(0)), Ratio::ONE),
         Term::Number(number) => {
             let size = Ratio::new(number.numerator().checked_abs()?, number.denominator())?;
-            whole(Sum::Number(number.numerator().signum()), 1, size)
+            whole(Bounded::unit(Sum::Number(number.numerator().signum())), size)
         }
-        Term::Bit(entry, bit) => whole(Sum::Bit(entry.id, *bit), 1, Ratio::ONE),
+        Term::Bit(entry, bit) => whole(Bounded::unit(Sum::Bit(entry.id, *bit)), Ratio::ONE),
         Term::Entry(reference) => {
             let entry = device.entry(reference.id)?;
             let (low, high) = entry.data_type.range()?;
             let scale = entry.unit.as_ref().map_or(Some(Ratio::ONE), |unit| unit.step())?;
-            whole(Sum::Entry(reference.id), low.checked_abs()?.max(high), scale)
+            let bound = low.checked_abs()?.max(high);
+            whole(Bounded { sum: Sum::Entry(reference.id), bound }, scale)
         }
         Term::Binary(left, op, right) => {
             let (left, right) = (fraction(left, device)?, fraction(right, device)?);
             match op {
-                ArithmeticOp::Multiply => product(left, right),
-                ArithmeticOp::Divide => product(left, inverse(right)?),
+                ArithmeticOp::Multiply => product(left, &right),
+                ArithmeticOp::Divide => product(left, &inverse(right)?),
                 ArithmeticOp::Add | ArithmeticOp::Subtract => sum(left, *op, right),
             }
         }
@@ -170,23 +204,13 @@ fn fraction(term: &Term, device: &Dictionary) -> Option<Fraction> {
 
 fn inverse(of: Fraction) -> Option<Fraction> {
     let scale = Ratio::ONE.checked_div(of.scale)?;
-    let (numerator, bound) = of.divisor.unwrap_or((Sum::Number(1), 1));
-    let divisor = match of.numerator {
-        Sum::Number(1) => None,
-        sum => Some((sum, of.bound)),
-    };
-    Some(Fraction { numerator, bound, divisor, scale })
+    Some(Fraction { numerator: of.divisor, divisor: of.numerator, scale })
 }
 
-fn product(left: Fraction, right: Fraction) -> Option<Fraction> {
-    let divisor = match (left.divisor, right.divisor) {
-        (Some((a, m)), Some((b, n))) => Some((binary(a, ArithmeticOp::Multiply, b), m.checked_mul(n)?)),
-        (a, b) => a.or(b),
-    };
+fn product(left: Fraction, right: &Fraction) -> Option<Fraction> {
     Some(Fraction {
-        numerator: binary(left.numerator, ArithmeticOp::Multiply, right.numerator),
-        bound: left.bound.checked_mul(right.bound)?,
-        divisor,
+        numerator: left.numerator.times(&right.numerator)?,
+        divisor: left.divisor.times(&right.divisor)?,
         scale: left.scale.checked_mul(right.scale)?,
     })
 }
@@ -194,24 +218,14 @@ fn product(left: Fraction, right: Fraction) -> Option<Fraction> {
 fn sum(left: Fraction, op: ArithmeticOp, right: Fraction) -> Option<Fraction> {
     let factors = left.scale.checked_div(right.scale)?;
     let scale = right.scale.checked_mul(Ratio::new(1, factors.denominator())?)?;
-    let (mut one, mut bound_one) = scaled(left.numerator, left.bound, factors.numerator())?;
-    let (mut other, mut bound_other) = scaled(right.numerator, right.bound, factors.denominator())?;
-    if let Some((divisor, bound)) = &right.divisor {
-        (one, bound_one) =
-            (binary(one, ArithmeticOp::Multiply, divisor.clone()), bound_one.checked_mul(*bound)?);
-    }
-    if let Some((divisor, bound)) = &left.divisor {
-        (other, bound_other) =
-            (binary(other, ArithmeticOp::Multiply, divisor.clone()), bound_other.checked_mul(*bound)?);
-    }
-    let divisor = match (left.divisor, right.divisor) {
-        (Some((a, m)), Some((b, n))) => Some((binary(a, ArithmeticOp::Multiply, b), m.checked_mul(n)?)),
-        (a, b) => a.or(b),
-    };
+    let of_left = left.numerator.scaled(factors.numerator())?.times(&right.divisor)?;
+    let of_right = right.numerator.scaled(factors.denominator())?.times(&left.divisor)?;
     Some(Fraction {
-        numerator: binary(one, op, other),
-        bound: bound_one.checked_add(bound_other)?,
-        divisor,
+        numerator: Bounded {
+            bound: of_left.bound.checked_add(of_right.bound)?,
+            sum: binary(of_left.sum, op, of_right.sum),
+        },
+        divisor: left.divisor.times(&right.divisor)?,
         scale,
     })
 }

@@ -6,7 +6,7 @@ use std::ops::Deref;
 use super::NONE;
 
 /// Different items, each with its position. There are never more of them than rows.
-pub(in super::super) struct Pool<T> {
+pub(crate) struct Pool<T> {
     list: Vec<T>,
     positions: BTreeMap<T, u16>,
 }

@@ -1,6 +1,13 @@
-//! What the code of a device will consist of: names, places, tables. Nothing here knows Rust's syntax.
+//! What the code of a device will consist of: names, places, tables.
+//!
+//! A plan is in no language. What it has to know of the one it will be printed in, it asks the [`Language`]: how an
+//! identifier is spelled, and which are taken. A second language is a printer beside the first.
 
+mod condition;
 mod entries;
+mod language;
+mod layout;
+mod names;
 mod pool;
 mod relations;
 mod vocabulary;
@@ -14,16 +21,18 @@ use od_spec::model::{
 };
 use od_spec::source::Span;
 
-use self::pool::Pool;
-use super::condition::Condition;
-use super::layout::{Layout, Place, lay_out};
-use super::names::{Scope, camel};
+pub(crate) use self::condition::{Compare, Condition, Sum};
+pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
+pub(crate) use self::layout::{Layout, Place};
+use self::names::Scope;
+pub(crate) use self::names::Words;
+pub(crate) use self::pool::Pool;
 
 /// "None" in the table's 16-bit references.
-pub(super) const NONE: u16 = u16::MAX;
+pub(crate) const NONE: u16 = u16::MAX;
 
 /// The code of one device.
-pub(super) struct Plan<'a> {
+pub(crate) struct Plan<'a> {
     pub system: &'a System,
     pub device: &'a Dictionary,
     /// Name of the dictionary's type.
@@ -44,13 +53,14 @@ pub(super) struct Plan<'a> {
     pub conditions: Vec<Condition>,
     pub constraints: Vec<PlannedConstraint<'a>>,
     pub machines: Vec<PlannedMachine<'a>>,
-    /// Error codes of the device, with the names of their constants.
-    pub errors: Vec<(String, &'a ErrorCode)>,
+    /// Error codes of the device.
+    pub errors: Vec<PlannedError<'a>>,
     rows: BTreeMap<EntryId, u16>,
+    language: &'a dyn Language,
 }
 
 /// An object and how code reaches it.
-pub(super) struct PlannedObject<'a> {
+pub(crate) struct PlannedObject<'a> {
     pub object: &'a Object,
     pub name: String,
     pub first_row: u16,
@@ -58,7 +68,7 @@ pub(super) struct PlannedObject<'a> {
 }
 
 /// How code reaches the entries of an object.
-pub(super) enum Shape {
+pub(crate) enum Shape {
     /// One accessor.
     Var,
     /// One accessor that takes the sub-index, as all elements are alike; with the name of sub-index 0 where it can change.
@@ -68,13 +78,13 @@ pub(super) enum Shape {
 }
 
 /// An entry, in the order of the table.
-pub(super) struct PlannedEntry<'a> {
+pub(crate) struct PlannedEntry<'a> {
     pub id: EntryId,
     pub object: usize,
     pub entry: &'a Entry,
     /// Name in the enumeration of all entries.
     pub variant: String,
-    /// Name among all entries, in lower case.
+    /// Name where entries of many objects stand together.
     pub name: String,
     /// Name of its accessor, in its object's group.
     pub member: String,
@@ -86,7 +96,7 @@ pub(super) struct PlannedEntry<'a> {
 
 /// What values of an entry are in code.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct ValueKind {
+pub(crate) struct ValueKind {
     pub data_type: DataType,
     /// The enum or bit field around the number.
     pub named: Option<String>,
@@ -98,7 +108,7 @@ pub(super) struct ValueKind {
 
 /// What entries have in common in the table.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Attributes {
+pub(crate) struct Attributes {
     pub data_type: DataType,
     pub flags: Flags,
     pub place: PlaceKind,
@@ -112,7 +122,7 @@ pub(super) struct Attributes {
 
 /// Yes-or-no facts of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(super) struct Flags {
+pub(crate) struct Flags {
     pub read: bool,
     pub write: bool,
     pub locked: bool,
@@ -124,7 +134,7 @@ pub(super) struct Flags {
 
 /// Where a value lies, without the offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum PlaceKind {
+pub(crate) enum PlaceKind {
     Image,
     Constant,
     Alias,
@@ -132,7 +142,7 @@ pub(super) enum PlaceKind {
 }
 
 /// A view of another entry.
-pub(super) struct PlannedAlias {
+pub(crate) struct PlannedAlias {
     /// Row of the view.
     pub row: u16,
     /// Row of what it shows.
@@ -145,30 +155,43 @@ pub(super) struct PlannedAlias {
 }
 
 /// A physical unit.
-pub(super) struct PlannedUnit<'a> {
+pub(crate) struct PlannedUnit<'a> {
     pub unit: &'a Unit,
     pub name: String,
-    pub scale: (u64, u64),
-    pub step: (u64, u64),
-    /// Name of the base.
-    pub base: String,
+    /// The unit in its base.
+    pub scale: Fraction,
+    /// One raw step in the base.
+    pub step: Fraction,
+}
+
+/// A positive fraction that code computes with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Fraction {
+    pub numerator: u64,
+    pub denominator: u64,
 }
 
 /// An enum or a bit field.
-pub(super) struct PlannedType<'a> {
+pub(crate) struct PlannedType<'a> {
     pub named: &'a NamedType,
     pub name: String,
     pub members: Members<'a>,
 }
 
 /// What a named type consists of.
-pub(super) enum Members<'a> {
-    Values(Vec<(String, &'a EnumValue)>),
+pub(crate) enum Members<'a> {
+    Values(Vec<PlannedValue<'a>>),
     Bits(Vec<PlannedBits<'a>>),
 }
 
+/// A value with a name.
+pub(crate) struct PlannedValue<'a> {
+    pub name: String,
+    pub value: &'a EnumValue,
+}
+
 /// A bit or a run of bits with one accessor.
-pub(super) struct PlannedBits<'a> {
+pub(crate) struct PlannedBits<'a> {
     pub name: String,
     pub label: String,
     pub first: u8,
@@ -176,19 +199,28 @@ pub(super) struct PlannedBits<'a> {
     pub about: &'a Text,
     pub field: &'a BitField,
     /// Constants for the values of the run.
-    pub values: Vec<(String, &'a EnumValue)>,
+    pub values: Vec<PlannedValue<'a>>,
 }
 
 /// A set of special values that entries share.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct PlannedSpecial {
+pub(crate) struct PlannedSpecial {
     pub name: String,
-    /// Name, text and raw value.
-    pub values: Vec<(String, String, i128)>,
+    pub values: Vec<PlannedSpecialValue>,
+}
+
+/// A special value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct PlannedSpecialValue {
+    pub name: String,
+    /// What the specification calls it.
+    pub text: String,
+    /// Raw value.
+    pub value: i128,
 }
 
 /// A PDO with its default mapping.
-pub(super) struct PlannedPdo<'a> {
+pub(crate) struct PlannedPdo<'a> {
     pub pdo: &'a Pdo,
     pub name: String,
     pub fields: Vec<PlannedField>,
@@ -196,7 +228,7 @@ pub(super) struct PlannedPdo<'a> {
 }
 
 /// A mapped entry in a PDO.
-pub(super) struct PlannedField {
+pub(crate) struct PlannedField {
     pub name: String,
     pub row: u16,
     pub first_bit: u32,
@@ -204,7 +236,7 @@ pub(super) struct PlannedField {
 }
 
 /// A condition between entries of the device.
-pub(super) struct PlannedConstraint<'a> {
+pub(crate) struct PlannedConstraint<'a> {
     pub name: &'a str,
     pub function: String,
     pub about: &'a Text,
@@ -215,7 +247,7 @@ pub(super) struct PlannedConstraint<'a> {
 }
 
 /// A state machine.
-pub(super) struct PlannedMachine<'a> {
+pub(crate) struct PlannedMachine<'a> {
     pub machine: &'a StateMachine,
     /// Begins the names of its types.
     pub name: String,
@@ -227,36 +259,24 @@ pub(super) struct PlannedMachine<'a> {
     pub commands: Vec<String>,
 }
 
-/// Names that generated code uses where groups of accessors and the dictionary are defined.
-const PRELUDE: [&str; 9] = ["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D"];
+/// An error code with a constant.
+pub(crate) struct PlannedError<'a> {
+    pub name: String,
+    pub error: &'a ErrorCode,
+}
 
-/// Plans the code of a device. What cannot be code is reported; the plan is of use only if nothing was.
-pub(super) fn plan<'a>(
+/// Plans the code of a device in a language. What cannot be code is reported; the plan is of use only if nothing was.
+pub(crate) fn plan<'a>(
     system: &'a System,
     device: &'a Dictionary,
+    language: &'a dyn Language,
     diagnostics: &mut Diagnostics,
 ) -> Plan<'a> {
-    let layout = lay_out(device, diagnostics);
-    let name = camel(&device.key);
-    let mut top = Scope::with_reserved(&[&PRELUDE[..], &["Entry"]].concat());
-    top.claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);
-    let mut rows = BTreeMap::new();
-    for (row, (id, ..)) in device.entries().enumerate() {
-        let Ok(row) =
-            u16::try_from(row).map_err(drop).and_then(|row| if row < NONE { Ok(row) } else { Err(()) })
-        else {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::NOT_IN_FIRMWARE,
-                    device.span,
-                    format!("`{}` has more than {} entries", device.key, NONE - 1),
-                )
-                .help("leave entries out, or give the device fewer PDOs or mapping entries"),
-            );
-            break;
-        };
-        rows.insert(id, row);
-    }
+    let layout = layout::lay_out(device, diagnostics);
+    let name = language.identifier(Role::Type, &Words::of(&device.key));
+    let mut dictionaries = Scope::with_reserved(language.reserved(ScopeKind::Dictionary));
+    dictionaries.claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);
+    let rows = rows(device, diagnostics);
     let mut plan = Plan {
         system,
         device,
@@ -277,6 +297,7 @@ pub(super) fn plan<'a>(
         machines: Vec::new(),
         errors: Vec::new(),
         rows,
+        language,
     };
     plan.vocabulary(diagnostics);
     plan.objects(diagnostics);
@@ -287,29 +308,41 @@ pub(super) fn plan<'a>(
     plan
 }
 
+/// The row of every entry; not more of them than the table can number.
+fn rows(device: &Dictionary, diagnostics: &mut Diagnostics) -> BTreeMap<EntryId, u16> {
+    let count = device.entries().count();
+    if count > usize::from(NONE) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::NOT_IN_FIRMWARE,
+                device.span,
+                format!("`{}` has more than {} entries", device.key, NONE),
+            )
+            .help("leave entries out, or give the device fewer PDOs or mapping entries"),
+        );
+    }
+    device.entries().zip(0..NONE).map(|((id, ..), row)| (id, row)).collect()
+}
+
 impl<'a> Plan<'a> {
     /// The row of an entry.
-    pub(super) fn row(&self, id: EntryId) -> Option<u16> {
+    pub(crate) fn row(&self, id: EntryId) -> Option<u16> {
         self.rows.get(&id).copied()
     }
 
     /// The entry of a row.
-    pub(super) fn entry(&self, row: u16) -> Option<&PlannedEntry<'a>> {
+    pub(crate) fn entry(&self, row: u16) -> Option<&PlannedEntry<'a>> {
         self.entries.get(usize::from(row))
     }
 
-    /// The call that reads each entry.
-    pub(super) fn accessors(&self) -> BTreeMap<EntryId, String> {
-        let call = |planned: &PlannedEntry<'_>| {
-            let object = self.objects.get(planned.object)?;
-            Some(match &object.shape {
-                Shape::Var => format!("{}()", object.name),
-                Shape::Indexed { count } if planned.id.sub.0 == 0 => format!("{}()", count.as_ref()?),
-                Shape::Indexed { .. } => format!("{}({})", object.name, planned.id.sub),
-                Shape::Group { .. } => format!("{}().{}()", object.name, planned.member),
-            })
-        };
-        self.entries.iter().filter_map(|planned| Some((planned.id, call(planned)?))).collect()
+    /// The identifier that a name becomes.
+    fn identifier(&self, role: Role, name: &str) -> String {
+        self.language.identifier(role, &Words::of(name))
+    }
+
+    /// An empty scope.
+    fn scope(&self, kind: ScopeKind) -> Scope {
+        Scope::with_reserved(self.language.reserved(kind))
     }
 }
 
@@ -323,6 +356,6 @@ fn too_large(span: Span, what: &str) -> Diagnostic {
 }
 
 /// The raw default of an entry, where it is an integer.
-pub(super) fn default_integer(entry: &Entry) -> Option<i128> {
+pub(crate) fn default_integer(entry: &Entry) -> Option<i128> {
     entry.default.as_ref().and_then(Value::integer)
 }

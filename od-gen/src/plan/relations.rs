@@ -2,22 +2,18 @@
 
 use od_spec::diag::Diagnostics;
 use od_spec::expr::Expr;
-use od_spec::model::{Direction, PdoTarget};
+use od_spec::model::{PdoTarget, StateMachine};
 
-use super::{Plan, PlannedConstraint, PlannedField, PlannedMachine, PlannedPdo, too_large};
-use crate::rust::condition::{self, Unusable};
-use crate::rust::names::{Scope, camel, screaming, snake};
+use super::condition::{self, Unusable};
+use super::language::{Role, ScopeKind};
+use super::{Plan, PlannedConstraint, PlannedError, PlannedField, PlannedMachine, PlannedPdo, too_large};
 
 impl Plan<'_> {
     pub(super) fn pdos(&mut self, diagnostics: &mut Diagnostics) {
         for pdo in &self.device.pdos {
-            let name = format!(
-                "{}{}",
-                if pdo.direction == Direction::Receive { "Rpdo" } else { "Tpdo" },
-                pdo.number
-            );
+            let name = self.identifier(Role::Type, &format!("{}{}", pdo.direction.pdo(), pdo.number));
             let (mut fields, mut first_bit) = (Vec::new(), 0);
-            let mut scope = Scope::default();
+            let mut scope = self.scope(ScopeKind::PdoFields);
             for mapped in &pdo.map {
                 if let PdoTarget::Entry(id) = mapped.target
                     && let Some(row) = self.row(id)
@@ -34,50 +30,55 @@ impl Plan<'_> {
 
     pub(super) fn machines(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let here = |devices: &[String]| devices.is_empty() || devices.contains(&device.key);
-        let mut scope = Scope::default();
-        for machine in system.machines.values().filter(|machine| here(&machine.devices)) {
+        let has = |devices: &[String]| devices.is_empty() || devices.contains(&device.key);
+        let mut scope = self.scope(ScopeKind::Machines);
+        for machine in system.machines.values().filter(|machine| has(&machine.devices)) {
             let (Some(status), Some(command)) = (self.row(machine.status), self.row(machine.command)) else {
                 continue;
             };
-            let name = camel(&machine.name);
+            let name = self.identifier(Role::Type, &machine.name);
             scope.claim(&name, &format!("state machine `{}`", machine.name), device.span, diagnostics);
-            let mut named = |names: Vec<&str>, what: &str| -> Vec<String> {
-                let mut own = Scope::default();
-                let names = names.into_iter().map(|text| {
-                    let name = camel(text);
-                    own.claim(
-                        &name,
-                        &format!("{what} `{text}` of `{}`", machine.name),
-                        device.span,
-                        diagnostics,
-                    );
-                    name
-                });
-                names.collect()
-            };
-            let states = named(machine.states.iter().map(|state| state.name.as_str()).collect(), "state");
-            let commands =
-                named(machine.commands.iter().map(|command| command.name.as_str()).collect(), "command");
+            let states = machine.states.iter().map(|state| state.name.as_str());
+            let states = self.machine_variants(machine, "state", states, diagnostics);
+            let commands = machine.commands.iter().map(|command| command.name.as_str());
+            let commands = self.machine_variants(machine, "command", commands, diagnostics);
             self.machines.push(PlannedMachine { machine, name, status, command, states, commands });
         }
     }
 
+    /// Identifiers of the states or commands of a machine.
+    fn machine_variants<'n>(
+        &self,
+        machine: &StateMachine,
+        what: &str,
+        names: impl Iterator<Item = &'n str>,
+        diagnostics: &mut Diagnostics,
+    ) -> Vec<String> {
+        let mut scope = self.scope(ScopeKind::MachineVariants);
+        let identifiers = names.map(|name| {
+            let identifier = self.identifier(Role::Variant, name);
+            let what = format!("{what} `{name}` of `{}`", machine.name);
+            scope.claim(&identifier, &what, self.device.span, diagnostics);
+            identifier
+        });
+        identifiers.collect()
+    }
+
     pub(super) fn errors(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let mut scope = Scope::default();
+        let mut scope = self.scope(ScopeKind::Errors);
         for error in &system.errors {
             if error.devices.is_empty() || error.devices.contains(&device.key) {
-                let name = screaming(&error.name);
+                let name = self.identifier(Role::Constant, &error.name);
                 scope.claim(&name, &format!("error {:04X}h", error.code), device.span, diagnostics);
-                self.errors.push((name, error));
+                self.errors.push(PlannedError { name, error });
             }
         }
     }
 
     pub(super) fn plan_constraints(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let mut scope = Scope::default();
+        let mut scope = self.scope(ScopeKind::Constraints);
         for constraint in
             system.constraints.iter().filter(|constraint| constraint.devices.contains(&device.key))
         {
@@ -96,13 +97,13 @@ impl Plan<'_> {
             let (when, require) = match (when, planned(&constraint.require)) {
                 (Ok(when), Ok(require)) => (when, require),
                 (Err(Unusable::Elsewhere), _) | (_, Err(Unusable::Elsewhere)) => continue,
-                _ => {
+                (Err(Unusable::TooLarge), _) | (_, Err(Unusable::TooLarge)) => {
                     diagnostics
                         .push(too_large(constraint.span, &format!("constraint `{}`", constraint.name)));
                     continue;
                 }
             };
-            let function = snake(&constraint.name);
+            let function = self.identifier(Role::Function, &constraint.name);
             scope.claim(
                 &function,
                 &format!("constraint `{}`", constraint.name),

@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
-    Access, DataType, Dictionary, Entry, EntryId, Object, Origin, Storage, SubIndex, Value,
+    Access, DataType, Dictionary, Entry, EntryId, Family, Object, Origin, Storage, SubIndex, Value,
 };
+
+/// The image is made for the node 0; a node adds its node-ID when it starts.
+const NO_NODE: u8 = 0;
 
 /// Where the value of an entry lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// Offset in the image.
     Image(usize),
     /// Offset in the constants.
@@ -20,9 +23,17 @@ pub(super) enum Place {
     Application,
 }
 
+/// Where the value of an entry lies, and how large it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Placed {
+    pub place: Place,
+    /// Bytes; of a string its capacity.
+    pub size: usize,
+}
+
 /// A part of the image that is stored together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Region {
+pub(crate) struct Region {
     pub storage: Storage,
     pub start: usize,
     pub end: usize,
@@ -31,9 +42,9 @@ pub(super) struct Region {
 
 /// The values of a dictionary in memory.
 #[derive(Debug, Default)]
-pub(super) struct Layout {
-    /// Place and size of every entry; the size of a string is its capacity.
-    pub places: BTreeMap<EntryId, (Place, usize)>,
+pub(crate) struct Layout {
+    /// Place of every entry.
+    pub places: BTreeMap<EntryId, Placed>,
     /// The image after a factory reset of node 0.
     pub factory: Vec<u8>,
     /// Alignment of the image.
@@ -46,32 +57,49 @@ pub(super) struct Layout {
     pub regions: Vec<Region>,
 }
 
-/// Groups in the order in which they lie in the image.
-const GROUPS: [Storage; 5] =
-    [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent, Storage::No];
+/// The position of a group in the image.
+const fn rank(storage: Storage) -> u8 {
+    match storage {
+        Storage::Communication => 0,
+        Storage::Application => 1,
+        Storage::Manufacturer => 2,
+        Storage::Remanent => 3,
+        Storage::No => 4,
+    }
+}
+
+/// An entry with a value in the image.
+struct Variable<'a> {
+    id: EntryId,
+    entry: &'a Entry,
+    size: usize,
+}
 
 /// Lays out a dictionary: stored groups first, each in one piece, and in each group the widest values first, so that every
 /// value is aligned without gaps. Elements of an array stay together.
 pub(super) fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
     let mut layout = Layout { align: 4, ..Layout::default() };
-    let mut groups: BTreeMap<usize, Vec<(usize, EntryId, &Entry, usize)>> = BTreeMap::new();
+    let mut variables = Vec::new();
     for (id, object, entry) in device.entries() {
         let Some(size) = size(id, entry, diagnostics) else { continue };
-        if entry.alias.is_some() {
-            layout.places.insert(id, (Place::Alias, size));
+        let place = if entry.alias.is_some() {
+            Place::Alias
         } else if entry.data_type == DataType::Domain {
-            layout.places.insert(id, (Place::Application, size));
+            Place::Application
         } else if let Some(bytes) = constant(object, entry) {
-            let at = layout.constant(&bytes);
-            layout.places.insert(id, (Place::Constant(at), size));
+            Place::Constant(layout.constant(&bytes))
         } else {
-            let group = GROUPS.iter().position(|group| *group == entry.stored).unwrap_or(GROUPS.len());
-            groups.entry(group).or_default().push((align(entry.data_type), id, entry, size));
-        }
+            variables.push(Variable { id, entry, size });
+            continue;
+        };
+        layout.places.insert(id, Placed { place, size });
     }
-    for (group, mut entries) in groups {
-        entries.sort_by_key(|(align, id, ..)| (std::cmp::Reverse(*align), *id));
-        layout.group(GROUPS.get(group).copied().unwrap_or(Storage::No), &entries);
+    variables.sort_by_key(|variable| {
+        let Variable { id, entry, .. } = variable;
+        (rank(entry.stored), std::cmp::Reverse(align(entry.data_type)), *id)
+    });
+    for group in variables.chunk_by(|one, next| one.entry.stored == next.entry.stored) {
+        layout.group(group);
     }
     let end = layout.factory.len().next_multiple_of(layout.align);
     layout.factory.resize(end, 0);
@@ -87,15 +115,17 @@ impl Layout {
         })
     }
 
-    fn group(&mut self, storage: Storage, entries: &[(usize, EntryId, &Entry, usize)]) {
-        let first = entries.first().map_or(1, |(align, ..)| *align);
-        self.align = self.align.max(first);
-        self.factory.resize(self.factory.len().next_multiple_of(first), 0);
+    /// Adds the entries of one storage, the widest first.
+    fn group(&mut self, group: &[Variable<'_>]) {
+        let Some(first) = group.first() else { return };
+        let (storage, widest) = (first.entry.stored, align(first.entry.data_type));
+        self.align = self.align.max(widest);
+        self.factory.resize(self.factory.len().next_multiple_of(widest), 0);
         let (start, mut hash) = (self.factory.len(), Fnv::new());
-        for (_, id, entry, size) in entries {
+        for Variable { id, entry, size } in group {
             let at = self.factory.len();
             let prefix = prefix(entry.data_type);
-            let value = entry.default.as_ref().and_then(|value| value.bytes_in(entry.data_type));
+            let value = entry.default.as_ref().and_then(|value| value.bytes_for(entry.data_type, NO_NODE));
             let mut bytes = value.unwrap_or_default();
             if prefix > 0 {
                 let length = u16::try_from(bytes.len()).unwrap_or_default();
@@ -110,7 +140,7 @@ impl Layout {
                 hash.add(part);
             }
             self.factory.extend(bytes);
-            self.places.insert(*id, (Place::Image(at), *size));
+            self.places.insert(*id, Placed { place: Place::Image(at), size: *size });
         }
         if storage != Storage::No {
             self.regions.push(Region { storage, start, end: self.factory.len(), layout: hash.0 });
@@ -124,7 +154,7 @@ fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
     let derived = !entry.access.is_writable() && (counts || object.origin == Origin::Pdo);
     let plain = !matches!(entry.default, Some(Value::NodeId(_)));
     if plain && (entry.access == Access::Const || derived) {
-        return entry.default.as_ref()?.bytes_in(entry.data_type);
+        return entry.default.as_ref()?.bytes_for(entry.data_type, NO_NODE);
     }
     None
 }
@@ -134,12 +164,15 @@ fn size(id: EntryId, entry: &Entry, diagnostics: &mut Diagnostics) -> Option<usi
     if let Some(bits) = entry.data_type.bits() {
         return Some(usize::from(bits.div_ceil(8)));
     }
-    if entry.data_type == DataType::Domain {
+    if entry.data_type.family() == Family::Domain {
         return Some(0);
     }
     let constant = entry.access == Access::Const;
-    let length =
-        entry.default.as_ref().filter(|_| constant).and_then(|value| value.bytes_in(entry.data_type));
+    let length = entry
+        .default
+        .as_ref()
+        .filter(|_| constant)
+        .and_then(|value| value.bytes_for(entry.data_type, NO_NODE));
     if let Some(bytes) = length {
         return Some(bytes.len());
     }
@@ -168,8 +201,18 @@ fn align(data_type: DataType) -> usize {
 }
 
 /// Bytes before a value: an OCTET_STRING has its length there.
-fn prefix(data_type: DataType) -> usize {
-    if data_type == DataType::OctetString { 2 } else { 0 }
+const fn prefix(data_type: DataType) -> usize {
+    match data_type.family() {
+        Family::OctetString => 2,
+        Family::Boolean
+        | Family::Signed
+        | Family::Unsigned
+        | Family::Real
+        | Family::VisibleString
+        | Family::UnicodeString
+        | Family::Time
+        | Family::Domain => 0,
+    }
 }
 
 /// FNV-1a of 32 bits.
@@ -245,7 +288,7 @@ mod tests {
             prop_assert!(diagnostics.is_empty());
             let mut used = vec![false; layout.factory.len()];
             for (id, _, entry) in device.entries() {
-                let (place, size) = layout.places[&id];
+                let Placed { place, size } = layout.places[&id];
                 let Place::Image(at) = place else { continue };
                 prop_assert_eq!(at % align(entry.data_type), 0, "{} is not aligned", id);
                 let end = at + size + prefix(entry.data_type);
@@ -280,8 +323,8 @@ mod tests {
         };
         let first = layout(&[(2, 2, 0), (4, 0, 0)]);
         assert_eq!(first, layout(&[(2, 2, 0), (1, 0, 0)]), "what is not stored does not count");
-        for other in [&[(1, 2, 0)][..], &[(2, 2, 1)], &[(2, 2, 0), (2, 2, 0)], &[(2, 1, 0), (2, 2, 0)]] {
-            assert_ne!(first, layout(other), "{other:?}");
+        for changed in [&[(1, 2, 0)][..], &[(2, 2, 1)], &[(2, 2, 0), (2, 2, 0)], &[(2, 1, 0), (2, 2, 0)]] {
+            assert_ne!(first, layout(changed), "{changed:?}");
         }
         assert_eq!(layout(&[(2, 1, 0)]), None);
     }

@@ -1,0 +1,48 @@
+//! `[Comments]` (CiA 306 4.6.5): what a person should know about the whole file.
+
+use od_spec::eds::Document;
+use od_spec::model::{Date, Dictionary, Entry, Fact, Storage, System};
+
+use super::writer::SectionWriter;
+
+/// The lines of `[Comments]`.
+pub(super) fn write(document: &mut Document, system: &System, device: &Dictionary) {
+    let mut lines = vec![format!("{}: {}", system.title, device.name)];
+    if let Some(source) = &system.document.source {
+        lines.push(format!("Manual: {source}"));
+    }
+    if let Some(revision) = &system.document.revision {
+        let Date { year, month, day } = revision.date;
+        lines.push(format!("Holds issue {} of {year:04}-{month:02}-{day:02}", revision.number));
+    }
+    if system.vendor.number == 0 || device.info.product == 0 {
+        lines.push(
+            "Vendor number or product code is 0, not known: fill them in before a PLC checks identities."
+                .to_owned(),
+        );
+    }
+    let withheld = || device.entries().filter(|(.., entry)| entry.default.is_some() && !entry.eds.default);
+    let kept = |entry: &Entry| entry.locked || entry.stored != Storage::No;
+    let of_the_standard =
+        withheld().filter(|(.., entry)| entry.is_only_standard(Fact::Default) && !kept(entry)).count();
+    let of_the_maker = withheld().count() - of_the_standard;
+    if of_the_maker > 0 {
+        lines.push(format!(
+            "{of_the_maker} defaults of stored or locked parameters are left out, so that no PLC writes them back at boot."
+        ));
+    }
+    if of_the_standard > 0 {
+        lines.push(format!(
+            "{of_the_standard} defaults are left out because only the standard states them; the device may have others."
+        ));
+    }
+    if of_the_maker + of_the_standard > 0 {
+        lines.push("The comments above each section list them, with units and meanings.".to_owned());
+    }
+    let mut section = SectionWriter::new("Comments", &[]);
+    section.key("Lines", lines.len());
+    for (number, line) in (1..).zip(lines) {
+        section.key(&format!("Line{number}"), line.replace('=', ":"));
+    }
+    section.finish(document);
+}

@@ -1,0 +1,22 @@
+//! `[DeviceComissioning]` of a DCF (CiA 306 5.3): node-ID, bit rate and names.
+
+use od_spec::Commissioning;
+use od_spec::eds::Document;
+use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
+
+use super::writer::SectionWriter;
+
+/// `[DeviceComissioning]`, in the standard's spelling.
+pub(super) fn write(document: &mut Document, device: &Dictionary, commissioning: &Commissioning) {
+    let mut section = SectionWriter::new("DeviceComissioning", &[]);
+    section.key("NodeID", commissioning.node);
+    section.key("NodeName", &commissioning.node_name);
+    section.key("Baudrate", commissioning.bit_rate);
+    section.key("NetNumber", commissioning.net_number);
+    section.key("NetworkName", &commissioning.net_name);
+    section.flag("CANopenManager", false);
+    let serial = EntryId { index: Index(0x1018), sub: SubIndex(4) };
+    let serial = commissioning.values.get(&serial).or_else(|| device.entry(serial)?.default.as_ref());
+    section.key("LSS_SerialNumber", format_args!("0x{:08X}", serial.and_then(Value::integer).unwrap_or(0)));
+    section.finish(document);
+}

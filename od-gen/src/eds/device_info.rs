@@ -1,0 +1,42 @@
+//! `[DeviceInfo]` and `[DummyUsage]` (CiA 306 4.5 and 4.6.2): what the device is and what it supports.
+
+use od_spec::eds::Document;
+use od_spec::model::{DataType, Dictionary, Direction, System};
+
+use super::writer::SectionWriter;
+
+/// Bit rates that an EDS has keys for, in kbit/s.
+const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+
+/// `[DeviceInfo]`: whose device it is and what it can do.
+pub(super) fn write(document: &mut Document, system: &System, device: &Dictionary) {
+    let info = &device.info;
+    let mut section = SectionWriter::new("DeviceInfo", &[]);
+    section.key("VendorName", &system.vendor.name);
+    section.key("VendorNumber", format_args!("0x{:08X}", system.vendor.number));
+    section.key("ProductName", &info.product_name);
+    section.key("ProductNumber", format_args!("0x{:08X}", info.product));
+    section.key("RevisionNumber", format_args!("0x{:08X}", info.product_revision));
+    section.key("OrderCode", &info.order_code);
+    for rate in BIT_RATES {
+        section.flag(&format!("BaudRate_{rate}"), info.bit_rates.contains(&rate));
+    }
+    section.flag("SimpleBootUpMaster", info.boot_up_master);
+    section.flag("SimpleBootUpSlave", info.boot_up_slave);
+    section.key("Granularity", info.granularity);
+    section.key("DynamicChannelsSupported", 0);
+    section.flag("GroupMessaging", info.group_messaging);
+    section.key("NrOfRXPDO", device.pdos_of(Direction::Receive).count());
+    section.key("NrOfTXPDO", device.pdos_of(Direction::Transmit).count());
+    section.flag("LSS_Supported", info.lss);
+    section.finish(document);
+}
+
+/// `[DummyUsage]`: the placeholders that an RPDO takes. Readers want a key for each.
+pub(super) fn write_dummies(document: &mut Document, device: &Dictionary) {
+    let mut section = SectionWriter::new("DummyUsage", &[]);
+    for data_type in DataType::ALL.into_iter().filter(|data_type| data_type.is_dummy()) {
+        section.flag(&format!("Dummy{:04X}", data_type.code()), device.info.dummies.contains(&data_type));
+    }
+    section.finish(document);
+}

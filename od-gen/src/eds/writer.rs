@@ -1,0 +1,88 @@
+//! Fills a document within the limits of the format: ASCII, 255 characters a line, comments only above a section.
+
+use std::fmt::{Display, Write as _};
+
+use od_spec::ascii::transliterate;
+use od_spec::eds::{Document, Section};
+
+/// Longest line without its line break (CiA 306 4.2).
+const LONGEST_LINE: usize = 255;
+/// Width at which comments are broken.
+const COMMENT_WIDTH: usize = 110;
+/// Longest word of a comment; what is longer is cut.
+const LONGEST_WORD: usize = LONGEST_LINE - COMMENT_WIDTH;
+
+/// A section that is being written.
+pub(super) struct SectionWriter(Section);
+
+impl SectionWriter {
+    /// Begins a section, with comments directly above its header: the one place where every reader takes them.
+    pub(super) fn new(name: impl Into<String>, comments: &[String]) -> Self {
+        Self(Section::new(name).with_comments(comments.iter().flat_map(|comment| broken(comment))))
+    }
+
+    /// A key and its value. Text is transliterated and cut to the line length.
+    pub(super) fn key(&mut self, key: &str, value: impl Display) {
+        let text = value.to_string();
+        let longest = LONGEST_LINE - 1 - key.len();
+        let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+        if is_plain && text.len() <= longest && text.trim() == text {
+            self.0.push(key, text);
+        } else {
+            let mut ascii = transliterate(&text);
+            ascii.truncate(longest);
+            self.0.push(key, ascii.trim());
+        }
+    }
+
+    /// A key whose value is 1 or 0.
+    pub(super) fn flag(&mut self, key: &str, value: bool) {
+        self.key(key, u8::from(value));
+    }
+
+    /// Puts the section behind those of the document.
+    pub(super) fn finish(self, document: &mut Document) {
+        document.push(self.0);
+    }
+}
+
+/// The lines of a comment, those after the first indented.
+fn broken(comment: &str) -> Vec<String> {
+    let text = transliterate(comment);
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace().map(|word| word.get(..LONGEST_WORD).unwrap_or(word)) {
+        match lines.last_mut() {
+            // The `;` counts, and the blanks in front of both words.
+            Some(line) if 2 + line.len() + 1 + word.len() <= COMMENT_WIDTH => {
+                let _ = write!(line, " {word}");
+            }
+            Some(_) => lines.push(format!("  {word}")),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_stand_above_headers_and_lines_stay_short() {
+        let mut document = Document::default();
+        let mut section = SectionWriter::new("A", &[]);
+        section.key("Name", "Größe");
+        section.finish(&mut document);
+        let mut section = SectionWriter::new("B", &["word ".repeat(60), String::new(), "x".repeat(400)]);
+        section.key("Long", "y".repeat(400));
+        section.finish(&mut document);
+        let text = document.to_string();
+        assert!(text.starts_with("[A]\r\nName=Groesse\r\n\r\n; word word"));
+        assert!(text.is_ascii());
+        assert!(text.split("\r\n").all(|line| line.len() <= 255 && !line.contains('\n')));
+        assert!(text.ends_with("y\r\n"));
+        let widths: Vec<usize> =
+            text.lines().filter(|line| line.starts_with(';')).map(|line| line.trim_end().len()).collect();
+        assert_eq!(widths, [106, 108, 93, 2 + LONGEST_WORD]);
+    }
+}

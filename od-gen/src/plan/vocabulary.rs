@@ -1,0 +1,171 @@
+//! What values are in code: units, enums, bit fields and special values.
+
+use std::collections::BTreeMap;
+
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::model::{
+    BitField, BitUsage, DataType, Entry, EnumValue, NamedType, Ratio, Text, TypeKind, Unit,
+};
+
+use super::language::{Companion, Role, ScopeKind};
+use super::names::Scope;
+use super::{
+    Fraction, Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit,
+    PlannedValue, ValueKind, too_large,
+};
+
+impl<'a> Plan<'a> {
+    /// Units, types and special values that the device's entries use, by name.
+    pub(super) fn vocabulary(&mut self, diagnostics: &mut Diagnostics) {
+        let (mut units, mut types) = (BTreeMap::new(), BTreeMap::new());
+        for (_, _, entry) in self.device.entries() {
+            if let Some(unit) = entry.unit.as_deref().filter(|_| entry.data_type.is_integer()) {
+                units.insert(unit.name.as_str(), unit);
+            }
+            if let Some(named) = entry.named_type.as_deref() {
+                types.insert(named.name.as_str(), named);
+            }
+        }
+        self.plan_units(units.into_values(), diagnostics);
+        self.plan_types(types.into_values(), diagnostics);
+    }
+
+    fn plan_units(&mut self, units: impl Iterator<Item = &'a Unit>, diagnostics: &mut Diagnostics) {
+        let span = self.device.span;
+        let mut scope = self.scope(ScopeKind::Units);
+        for unit in units {
+            let name = self.identifier(Role::Type, &unit.name);
+            scope.claim(&name, &format!("unit `{}`", unit.name), span, diagnostics);
+            let (Some(scale), Some(step)) = (fraction(unit.scale), unit.step().and_then(fraction)) else {
+                diagnostics.push(too_large(span, &format!("the scale of unit `{}`", unit.name)));
+                continue;
+            };
+            self.units.push(PlannedUnit { unit, name, scale, step });
+        }
+    }
+
+    fn plan_types(&mut self, types: impl Iterator<Item = &'a NamedType>, diagnostics: &mut Diagnostics) {
+        let span = self.device.span;
+        let mut scope = self.scope(ScopeKind::Types);
+        for named in types {
+            let name = self.identifier(Role::Type, &named.name);
+            scope.claim(&name, &format!("type `{}`", named.name), span, diagnostics);
+            if matches!(named.kind, TypeKind::Enum(_)) && named.base == DataType::Unsigned64 {
+                diagnostics.push(too_large(span, &format!("enum `{}`", named.name)));
+            }
+            let members = self.members(named, diagnostics);
+            self.types.push(PlannedType { named, name, members });
+        }
+    }
+
+    pub(super) fn kind(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> ValueKind {
+        let named = entry.named_type.as_deref().map(|named| self.identifier(Role::Type, &named.name));
+        let integer = entry.data_type.is_integer() && named.is_none();
+        let unit =
+            entry.unit.as_deref().filter(|_| integer).map(|unit| self.identifier(Role::Type, &unit.name));
+        let special = (integer && !entry.special.is_empty()).then(|| self.special(entry, diagnostics));
+        ValueKind { data_type: entry.data_type, named, unit, special }
+    }
+
+    /// The set of special values of an entry; equal sets are one type.
+    fn special(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> usize {
+        let values: Vec<_> = entry
+            .special
+            .iter()
+            .map(|special| PlannedSpecialValue {
+                name: self.identifier(Role::Variant, &special.name),
+                text: special.name.clone(),
+                value: special.value,
+            })
+            .collect();
+        let variants: Vec<&str> = values.iter().map(|value| value.name.as_str()).collect();
+        let set = PlannedSpecial { name: self.language.alternatives(&variants), values };
+        if let Some(at) = self.specials.iter().position(|planned| *planned == set) {
+            return at;
+        }
+        if self.specials.iter().any(|planned| planned.name == set.name) {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::IDENTIFIER_CLASH,
+                    entry.span,
+                    format!("`{}` would name two sets of special values", set.name),
+                )
+                .help("give special values that differ different names"),
+            );
+        }
+        let mut scope = self.scope(ScopeKind::SpecialValues);
+        for PlannedSpecialValue { name, text, .. } in &set.values {
+            scope.claim(name, &format!("special value `{text}`"), entry.span, diagnostics);
+        }
+        self.specials.push(set);
+        self.specials.len() - 1
+    }
+
+    fn members(&self, named: &'a NamedType, diagnostics: &mut Diagnostics) -> Members<'a> {
+        let mut scope = self.scope(ScopeKind::TypeMembers);
+        match &named.kind {
+            TypeKind::Enum(values) => {
+                Members::Values(self.constants("", values, named, &mut scope, diagnostics))
+            }
+            TypeKind::Bits(fields) => {
+                let used = fields.iter().filter(|field| field.usage == BitUsage::Used);
+                let planned =
+                    used.flat_map(|field| self.bit_accessors(field, named, &mut scope, diagnostics));
+                Members::Bits(planned.collect())
+            }
+        }
+    }
+
+    /// A field under its name, and under one for each mode of operation in which it means something.
+    fn bit_accessors(
+        &self,
+        field: &'a BitField,
+        named: &NamedType,
+        scope: &mut Scope,
+        diagnostics: &mut Diagnostics,
+    ) -> Vec<PlannedBits<'a>> {
+        let span = self.device.span;
+        let general = [(field.name.clone(), &field.about)].into_iter().filter(|(name, _)| !name.is_empty());
+        let said = |mode: &&(String, String, Text)| !matches!(mode.1.as_str(), "reserved" | "unused");
+        let modes =
+            field.modes.iter().filter(said).map(|(mode, name, about)| (format!("{mode} {name}"), about));
+        let labels = general.chain(modes);
+        let planned = labels.map(|(label, about)| {
+            let name = self.identifier(Role::Function, &label);
+            let what = format!("bit {} of type `{}`", field.first, named.name);
+            scope.claim(&name, &what, span, diagnostics);
+            if let Some(with) = self.language.companion(Companion::With, &name) {
+                scope.claim(&with, &Companion::With.describe(&what), span, diagnostics);
+            }
+            let values = self.constants(&label, &field.values, named, scope, diagnostics);
+            PlannedBits { name, label, first: field.first, last: field.last, about, field, values }
+        });
+        planned.collect()
+    }
+
+    /// Constants for values; their names begin with a prefix.
+    fn constants(
+        &self,
+        prefix: &str,
+        values: &'a [EnumValue],
+        named: &NamedType,
+        scope: &mut Scope,
+        diagnostics: &mut Diagnostics,
+    ) -> Vec<PlannedValue<'a>> {
+        let planned = values.iter().map(|value| {
+            let name = self.identifier(Role::Constant, &format!("{prefix} {}", value.name));
+            let what = format!("value {} of type `{}`", value.value, named.name);
+            scope.claim(&name, &what, self.device.span, diagnostics);
+            PlannedValue { name, value }
+        });
+        planned.collect()
+    }
+}
+
+/// A positive ratio in 64 bits, where it fits.
+fn fraction(ratio: Ratio) -> Option<Fraction> {
+    Some(Fraction {
+        numerator: u64::try_from(ratio.numerator()).ok()?,
+        denominator: u64::try_from(ratio.denominator()).ok()?,
+    })
+}

@@ -1,0 +1,133 @@
+//! Rust as a language of plans: its keywords, its spelling, and what generated modules use themselves.
+
+use crate::plan::{Companion, Language, Role, ScopeKind, Words};
+
+/// Words that Rust keeps for itself, in any edition.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
+    "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
+    "where", "while", "yield",
+];
+
+/// Names that generated code uses where groups of accessors are defined.
+const GROUPS: &[&str] = &["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D"];
+
+/// Those names, and the type that stands beside the dictionary's.
+const DICTIONARY: &[&str] =
+    &["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D", "Entry"];
+
+/// Names that the dictionary's own methods have, and the methods of its traits: an accessor would hide them.
+const METHODS: &[&str] = &[
+    "new",
+    "clone",
+    "entry",
+    "row",
+    "image",
+    "image_mut",
+    "condition",
+    "find",
+    "info",
+    "read",
+    "upload",
+    "write",
+    "upload_domain",
+    "download_domain",
+    "reset",
+    "reset_stored",
+    "stored",
+    "restore",
+    "layout",
+    "broken_constraint",
+    "write_consistent",
+];
+
+/// Rust with `firmware-glue`.
+pub(super) struct Rust;
+
+impl Language for Rust {
+    fn identifier(&self, role: Role, words: &Words) -> String {
+        match role {
+            Role::Type | Role::Variant => {
+                let name = words.camel();
+                if name == "Self" { "Self_".to_owned() } else { name }
+            }
+            // No keyword is written in capitals.
+            Role::Constant => words.screaming(),
+            Role::Function | Role::Field => {
+                let name = words.snake();
+                if KEYWORDS.contains(&name.as_str()) { format!("{name}_") } else { name }
+            }
+        }
+    }
+
+    fn companion(&self, companion: Companion, identifier: &str) -> Option<String> {
+        Some(match companion {
+            Companion::Setter => setter(identifier),
+            Companion::Mutable => mutable(identifier),
+            Companion::With => with(identifier),
+        })
+    }
+
+    fn alternatives(&self, variants: &[&str]) -> String {
+        variants.join("Or")
+    }
+
+    fn reserved(&self, scope: ScopeKind) -> &'static [&'static str] {
+        match scope {
+            ScopeKind::Dictionary => DICTIONARY,
+            ScopeKind::Accessors => METHODS,
+            ScopeKind::Groups => GROUPS,
+            // The module of what units convert into stands beside them.
+            ScopeKind::Units => &["bases"],
+            // Methods that `firmware-glue` gives to every enum and bit field.
+            ScopeKind::TypeMembers => &["known", "bits", "name", "number", "is_known"],
+            ScopeKind::GroupMembers
+            | ScopeKind::Entries
+            | ScopeKind::Fields
+            | ScopeKind::Types
+            | ScopeKind::SpecialValues
+            | ScopeKind::PdoFields
+            | ScopeKind::Machines
+            | ScopeKind::MachineVariants
+            | ScopeKind::Errors
+            | ScopeKind::Constraints => &[],
+        }
+    }
+}
+
+/// The name of a device's module.
+#[cfg(feature = "format")]
+pub(super) fn module(key: &str) -> String {
+    Rust.identifier(Role::Function, &Words::of(key))
+}
+
+/// The setter of an accessor: `set_actual_velocity`; of `type_`, `set_type`.
+pub(super) fn setter(accessor: &str) -> String {
+    format!("set_{}", accessor.trim_end_matches('_'))
+}
+
+/// The accessor of a group that is to be changed: `gear_ratio_mut`.
+pub(super) fn mutable(accessor: &str) -> String {
+    format!("{}_mut", accessor.trim_end_matches('_'))
+}
+
+/// The method that gives a word with other bits: `with_fault`.
+pub(super) fn with(accessor: &str) -> String {
+    format!("with_{accessor}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keywords_are_no_identifiers() {
+        let function = |name: &str| Rust.identifier(Role::Function, &Words::of(name));
+        assert_eq!((function("type").as_str(), function("register").as_str()), ("type_", "register"));
+        assert_eq!(Rust.identifier(Role::Type, &Words::of("self")), "Self_");
+        assert_eq!(Rust.identifier(Role::Constant, &Words::of("self")), "SELF");
+        assert_eq!((setter("type_").as_str(), mutable("type_").as_str()), ("set_type", "type_mut"));
+    }
+}
