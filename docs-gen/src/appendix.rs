@@ -1,12 +1,14 @@
 //! Tables over the whole system: what a manual has no place for, or scatters.
 
-use od_spec::model::{Constraint, Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit};
+use od_spec::model::{
+    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit,
+};
 
 use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
-use crate::tables::overview::{access, among};
+use crate::tables::overview::among;
 use crate::view::{Appendix, Cell, ErratumView, Row, Table};
 
 impl Source<'_> {
@@ -74,8 +76,8 @@ impl Source<'_> {
                 self.entry_link_on(device, alias.target),
                 Cell::plain(device.entry_name(alias.target).unwrap_or_default()),
                 Cell::plain(target.data_type.name()),
-                Cell::plain(self.language.number(&alias.factor.to_string())),
-                Cell::plain(self.conversion(alias)),
+                Cell::plain(self.wording.decimal(&alias.factor.to_string())),
+                Cell::plain(self.wording.conversion(alias)),
                 self.device_cell(device),
             ]))
         });
@@ -101,7 +103,7 @@ impl Source<'_> {
                 format!(
                     "1 {} = {} {}",
                     unit.symbol,
-                    self.language.number(&base.factor.to_string()),
+                    self.wording.decimal(&base.factor.to_string()),
                     base.symbol
                 )
             });
@@ -110,9 +112,11 @@ impl Source<'_> {
                 ..Row::of(vec![
                     Cell::plain(&unit.name),
                     Cell::plain(&unit.symbol),
-                    Cell::plain(format!("{} {}", self.language.number(&unit.scale.to_string()), unit.symbol)),
+                    Cell::plain(self.wording.counted_step(unit)),
                     base.map_or_else(Cell::default, Cell::plain),
-                    unit.formula.as_ref().map_or_else(Cell::default, |formula| self.condition(formula, &[])),
+                    unit.formula
+                        .as_ref()
+                        .map_or_else(Cell::default, |formula| self.condition(formula, &Devices::All)),
                     self.text(&unit.about),
                     entries,
                 ])
@@ -132,7 +136,7 @@ impl Source<'_> {
 
     /// The entries in a unit; an object whose entries all are stands for them.
     fn entries_in(&self, unit: &Unit) -> Cell {
-        let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|other| other.name == unit.name);
+        let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|its_unit| its_unit.name == unit.name);
         let (mut cell, mut shown) = (Cell::default(), Vec::new());
         for object in self.devices.iter().flat_map(|device| device.objects.values()) {
             let whole = among(object, has) == [true];
@@ -153,22 +157,17 @@ impl Source<'_> {
 
     /// One table per device and storage group.
     fn storage(&self) -> Vec<Table> {
-        let groups = [
-            (Storage::Communication, Word::StoredCommunication),
-            (Storage::Application, Word::StoredApplication),
-            (Storage::Manufacturer, Word::StoredManufacturer),
-            (Storage::Remanent, Word::StoredRemanent),
-        ];
+        let groups = [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent];
         let mut tables = Vec::new();
         for device in &self.devices {
-            for (group, word) in groups {
+            for group in groups {
                 let rows = device.entries().filter(|(.., entry)| entry.stored == group).map(
                     |(id, object, entry)| {
                         Row::of(vec![
                             self.entry_link_on(device, id),
                             Cell::plain(device.entry_name(id).unwrap_or_default()),
                             Cell::plain(entry.data_type.name()),
-                            Cell::plain(access(entry)),
+                            Cell::plain(self.wording.access(entry)),
                             Cell::plain(self.default(object, entry)),
                         ])
                     },
@@ -180,7 +179,7 @@ impl Source<'_> {
                     .left(self, "access", Word::Access)
                     .left(self, "default", Word::Default)
                     .full(rows.collect());
-                let title = format!("{}: {}", device.key.to_uppercase(), self.word(word));
+                let title = format!("{}: {}", device.key.to_uppercase(), self.wording.storage_group(group));
                 let anchor = format!("storage-{}-{}", device.key, group.word());
                 tables.push(Table::unnumbered(anchor, "storage", Cell::plain(title), vec![grid]));
             }
@@ -195,9 +194,13 @@ impl Source<'_> {
                 rows.push((Word::OnlyThere, self.condition(when, &constraint.devices)));
             }
             if self.system.devices.len() > 1 {
-                let on: Vec<String> = constraint.devices.iter().map(|key| key.to_uppercase()).collect();
-                let on = if on.is_empty() { self.word(Word::All).to_owned() } else { on.join(", ") };
-                rows.push((Word::On, Cell::plain(on)));
+                let devices = match &constraint.devices {
+                    Devices::All => self.word(Word::All).to_owned(),
+                    Devices::Only(keys) => {
+                        keys.iter().map(|key| key.to_uppercase()).collect::<Vec<_>>().join(", ")
+                    }
+                };
+                rows.push((Word::On, Cell::plain(devices)));
             }
             rows.push((Word::Because, self.text(&constraint.about)));
             let rows = rows
@@ -252,7 +255,7 @@ impl Source<'_> {
         let erratum = &self.system.errata[at];
         ErratumView {
             number: at + 1,
-            kind: self.spec_word(erratum.kind.word()),
+            kind: self.wording.erratum_kind(erratum.kind).to_owned(),
             place: self.text(&erratum.place),
             prints: self.text(&erratum.prints),
             reads: self.text(&erratum.reads),
@@ -265,17 +268,13 @@ impl Source<'_> {
         let rows = errata.map(|(at, erratum)| {
             let view = self.erratum(at);
             let mut entries = Cell::default();
-            for (place, one) in erratum.at.iter().enumerate() {
-                entries = if place == 0 { entries } else { entries.text(", ") };
-                entries = entries.and(match one {
-                    ErratumPlace::Object(index) => {
-                        self.link_on(&erratum.devices, *index, index.to_string(), object_anchor(*index))
-                    }
-                    ErratumPlace::Entry(id) => {
-                        let text = format!("{}.{}", id.index, id.sub);
-                        self.link_on(&erratum.devices, id.index, text, entry_anchor(*id))
-                    }
-                });
+            for (position, place) in erratum.at.iter().enumerate() {
+                entries = if position == 0 { entries } else { entries.text(", ") };
+                let (index, anchor) = match place {
+                    ErratumPlace::Object(index) => (*index, object_anchor(*index)),
+                    ErratumPlace::Entry(id) => (id.index, entry_anchor(*id)),
+                };
+                entries = entries.and(self.link_on(&erratum.devices, index, place.to_string(), anchor));
             }
             Row {
                 anchor: format!("erratum-{}", at + 1),
@@ -321,7 +320,7 @@ impl Source<'_> {
                 number,
                 printed.title,
                 Cell::plain(printed.section),
-                Cell::plain(self.spec_word(printed.kind)),
+                Cell::plain(self.language.table_kind(printed.kind)),
                 Cell::default().link(place, printed.anchor, printed.page),
                 errata,
             ])
@@ -340,7 +339,7 @@ impl Source<'_> {
 
 /// A name as part of an anchor, with a number where an earlier name would give the same.
 fn unique<'b>(names: impl Iterator<Item = &'b String>, name: &str) -> String {
-    let own = slug(name);
-    let before = names.take_while(|other| *other != name).filter(|other| slug(other) == own).count();
-    if before == 0 && !own.is_empty() { own } else { format!("{own}-no-{}", before + 1) }
+    let part = slug(name);
+    let before = names.take_while(|earlier| *earlier != name).filter(|earlier| slug(earlier) == part).count();
+    if before == 0 && !part.is_empty() { part } else { format!("{part}-no-{}", before + 1) }
 }

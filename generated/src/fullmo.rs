@@ -816,7 +816,7 @@ impl Fullmo {
 
     /// `6067h` Position window: Fenster um die Zielposition. Bleibt die Istposition für die Zeit 6068h darin, wird Bit 10 (target reached) des Zustandsworts gesetzt.
     ///
-    /// UNSIGNED32, rw, RPDO, in PU, 4294967295: monitoring off.
+    /// UNSIGNED32, rw, RPDO, in PU, 0xFFFFFFFF: monitoring off.
     #[inline]
     pub fn position_window(
         &self,
@@ -2006,7 +2006,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> IdentityObject<D> {
         /// `1018h.1` Vendor-ID: Number of the manufacturer, assigned by CiA.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 312)
@@ -2014,7 +2014,7 @@ pub mod records {
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn product_code(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 316)
@@ -5867,10 +5867,10 @@ pub mod specials {
 
     super::glue::defmt_text!(HeartbeatOff);
 
-    /// monitoring off (4294967295).
+    /// monitoring off (0xFFFFFFFF).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum MonitoringOff {
-        /// monitoring off: raw value 4294967295.
+        /// monitoring off: raw value 0xFFFFFFFF.
         MonitoringOff,
     }
 

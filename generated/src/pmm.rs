@@ -1322,7 +1322,7 @@ impl Pmm {
 
     /// `30E3h` selftest time: Cycle time of the automatic battery test, at least 60 minutes. The result is in test status (3005h) and 3068h.
     ///
-    /// UNSIGNED16, rw, in min, from 60 min, 0: automatic test off, default 0 (automatic test off), stored with the application parameters.
+    /// UNSIGNED16, rw, in min, ≥ 60 min, 0: automatic test off, default 0 (automatic test off), stored with the application parameters.
     #[inline]
     pub fn selftest_time(
         &self,
@@ -2313,7 +2313,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> StoreParameters<D> {
         /// `1010h.1` Save all parameters: Saves everything that can be saved.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_all_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 504))
@@ -2321,7 +2321,7 @@ pub mod records {
 
         /// `1010h.2` Save communication parameters: Saves 1000h to 1FFFh and the manufacturer's communication parameters.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_communication_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 508))
@@ -2329,7 +2329,7 @@ pub mod records {
 
         /// `1010h.3` Save application parameters: Saves 6000h to 9FFFh and the manufacturer's application parameters.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_application_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 512))
@@ -2337,7 +2337,7 @@ pub mod records {
 
         /// `1010h.4` Save manufacturer defined parameters: Saves a group of parameters that the manufacturer chose.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_manufacturer_defined_parameters(
             &self,
@@ -2388,7 +2388,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> RestoreDefaultParameters<D> {
         /// `1011h.1` Restore all default parameters: Restores everything; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_all_default_parameters(&self) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
@@ -2398,7 +2398,7 @@ pub mod records {
 
         /// `1011h.2` Restore communication default parameters: Restores 1000h to 1FFFh and the manufacturer's communication parameters; takes effect with the next reset of the communication.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_communication_default_parameters(
             &self,
@@ -2410,7 +2410,7 @@ pub mod records {
 
         /// `1011h.3` Restore application default parameters: Restores 6000h to 9FFFh and the manufacturer's application parameters; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_application_default_parameters(
             &self,
@@ -2422,7 +2422,7 @@ pub mod records {
 
         /// `1011h.4` Restore manufacturer defined default parameters: Restores a group of parameters that the manufacturer chose; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_manufacturer_defined_default_parameters(
             &self,
@@ -2478,7 +2478,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> IdentityObject<D> {
         /// `1018h.1` Vendor-ID: Number of the manufacturer, assigned by CiA.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 540)
@@ -2486,7 +2486,7 @@ pub mod records {
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn product_code(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 544)

@@ -37,6 +37,7 @@ mod parameters;
 mod reference;
 mod resolve;
 pub mod source;
+pub mod wording;
 pub mod yaml;
 
 pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};

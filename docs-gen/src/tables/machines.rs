@@ -4,7 +4,7 @@ use od_spec::model::{BitPattern, Dictionary, Entry, EntryId, PatternBit, StateMa
 
 use super::Columns;
 use crate::language::Word;
-use crate::source::{Source, bit_pattern};
+use crate::source::Source;
 use crate::view::{Cell, Grid, Row};
 
 /// A pattern in groups of four bits, most significant first: `xxxx xxxx x01x 0001`.
@@ -111,7 +111,7 @@ impl Source<'_> {
                 cells.extend(bits.iter().map(|bit| Cell::plain(level(bit_of(&command.pattern, *bit)))));
                 let send = command.send.zip(data_type);
                 cells.push(send.map_or_else(Cell::default, |(value, data_type)| {
-                    Cell::plain(bit_pattern(data_type, i128::from(value)))
+                    Cell::plain(self.wording.pattern(data_type, i128::from(value)))
                 }));
                 let transitions: Vec<String> = command.transitions.iter().map(u8::to_string).collect();
                 cells.push(Cell::plain(transitions.join(", ")));
@@ -124,8 +124,7 @@ impl Source<'_> {
 
     /// The devices shown that have the machine.
     fn having<'b>(&'b self, machine: &'b StateMachine) -> impl Iterator<Item = &'b Dictionary> {
-        let has = |device: &&Dictionary| machine.devices.is_empty() || machine.devices.contains(&device.key);
-        self.devices.iter().copied().filter(has)
+        self.devices.iter().copied().filter(|device| machine.devices.includes(&device.key))
     }
 
     fn name_of(&self, machine: &StateMachine, id: EntryId) -> Option<String> {

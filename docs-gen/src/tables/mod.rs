@@ -7,11 +7,13 @@ pub(crate) mod objects;
 pub(crate) mod overview;
 pub(crate) mod pdos;
 pub(crate) mod texts;
+pub(crate) mod variants;
 
 use od_spec::model::{Constraint, Dictionary, Index, TableContent, TableId, TypeKind};
 
 use crate::language::Word;
-use crate::source::{Source, kind_of};
+use crate::outline::{kind_of, table_anchor};
+use crate::source::Source;
 use crate::view::{Cell, Column, Grid, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.
@@ -134,7 +136,7 @@ impl Source<'_> {
             return None;
         }
         Some(Table {
-            anchor: self.table_anchor(id),
+            anchor: table_anchor(self.document(), id),
             number: table.number,
             title: self.text(&table.title),
             about,
@@ -157,10 +159,7 @@ impl Source<'_> {
 
     /// The constraints that name a device shown.
     pub(crate) fn shown_constraints(&self) -> impl Iterator<Item = &Constraint> {
-        self.system.constraints.iter().filter(|constraint| {
-            constraint.devices.is_empty()
-                || self.devices.iter().any(|device| constraint.devices.contains(&device.key))
-        })
+        self.system.constraints.iter().filter(|constraint| self.shows_any(&constraint.devices))
     }
 
     /// Numbers of the errata whose place names the table.
@@ -180,10 +179,8 @@ impl Source<'_> {
         tables.next().is_some_and(|(first, ..)| first == id)
     }
 
+    /// A state machine, if a device shown has it.
     pub(crate) fn machine(&self, name: &str) -> Option<&od_spec::model::StateMachine> {
-        let machine = self.system.machines.get(name)?;
-        let shown = machine.devices.is_empty()
-            || self.devices.iter().any(|device| machine.devices.contains(&device.key));
-        shown.then_some(machine)
+        self.system.machines.get(name).filter(|machine| self.shows_any(&machine.devices))
     }
 }

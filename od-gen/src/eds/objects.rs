@@ -62,7 +62,7 @@ fn write_object(
     let index = object.index.0;
     if !object.is_structured() {
         for entry in &object.entries {
-            ini.section(format_args!("{index:X}"), &comments::entry(device, entry, language));
+            ini.section(format_args!("{index:X}"), &comments::entry(device, object.index, entry, language));
             write_entry(ini, object, entry, &object.name, dcf);
         }
         return;
@@ -73,7 +73,7 @@ fn write_object(
     ini.key("ObjectType", format_args!("0x{:X}", object.kind.code()));
     for entry in &object.entries {
         let name = format!("{index:X}sub{:X}", entry.sub.0);
-        ini.section(name, &comments::entry(device, entry, language));
+        ini.section(name, &comments::entry(device, object.index, entry, language));
         write_entry(ini, object, entry, &entry.name, dcf);
     }
 }

@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
-use od_spec::model::{
-    Access, DataType, Dictionary, Entry, EntryId, Object, Origin, Storage, SubIndex, Value,
-};
+use od_spec::model::{Access, DataType, Dictionary, Entry, EntryId, Object, Storage, SubIndex, Value};
 
 /// Where the value of an entry lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +119,7 @@ impl Layout {
 /// The value of an entry that never changes: a constant, or what follows from the shape of the dictionary.
 fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
     let counts = object.is_structured() && entry.sub == SubIndex(0);
-    let derived = !entry.access.is_writable() && (counts || object.origin == Origin::Pdo);
+    let derived = !entry.access.is_writable() && (counts || object.role().is_pdo_parameter());
     let plain = !matches!(entry.default, Some(Value::NodeId(_)));
     if plain && (entry.access == Access::Const || derived) {
         return entry.default.as_ref()?.bytes_in(entry.data_type);

@@ -10,10 +10,12 @@ mod named_type;
 mod object;
 mod pdo;
 mod ratio;
+mod role;
 mod text;
 mod types;
 mod unit;
 mod value;
+mod views;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,12 +29,16 @@ pub use named_type::{BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
+pub use role::Role;
 pub use text::Text;
 pub use types::{
     Access, Category, DataType, Direction, EntryId, Index, Outside, PdoMapping, Rounding, Storage, SubIndex,
 };
 pub use unit::{Base, Unit};
-pub use value::{Value, convert, format_value};
+pub use value::{Value, convert};
+pub use views::{Carrier, Devices, PdoField, View};
+
+pub use crate::wording::format_value;
 
 use crate::expr::Expr;
 use crate::source::Span;
@@ -92,8 +98,8 @@ pub struct ErrorCode {
     pub code: u16,
     /// Name.
     pub name: String,
-    /// Devices that report it; empty means all.
-    pub devices: Vec<String>,
+    /// Devices that report it.
+    pub devices: Devices,
     /// Priority, as the manual classes it.
     pub priority: Option<String>,
     /// What the device does.
@@ -113,8 +119,8 @@ pub struct Constraint {
     pub require: Expr,
     /// The condition counts only while this one holds.
     pub when: Option<Expr>,
-    /// Devices whose entries it names.
-    pub devices: Vec<String>,
+    /// Devices whose entries it names; a list even where it names those of every device.
+    pub devices: Devices,
     /// Where it is written.
     pub span: Span,
 }

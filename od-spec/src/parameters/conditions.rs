@@ -58,7 +58,7 @@ impl Lookup for Configured<'_> {
 pub(super) fn check(configured: &Configured<'_>, settings: &[Setting], diagnostics: &mut Diagnostics) {
     let key = &configured.device.key;
     for constraint in
-        configured.system.constraints.iter().filter(|constraint| constraint.devices.contains(key))
+        configured.system.constraints.iter().filter(|constraint| constraint.devices.includes(key))
     {
         check_constraint(constraint, configured, settings, diagnostics);
     }

@@ -4,7 +4,7 @@ use crate::ast::{ConstraintDecl, Name, Spec};
 use crate::decode::{inside, nearest};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::expr::{Comparison, EntryRef, Expr, Outcome, Term, Values};
-use crate::model::{Constraint, Dictionary, EntryId, Ratio};
+use crate::model::{Constraint, Devices, Dictionary, EntryId, Ratio};
 use crate::source::Spanned;
 use crate::yaml::shorten;
 
@@ -199,7 +199,7 @@ fn constraint(
         about: words(&decl.about),
         require: require.value.clone(),
         when: decl.when.as_ref().map(|when| when.value.clone()),
-        devices: keys,
+        devices: Devices::Only(keys),
         span: require.span,
     };
     let candidates = if own.is_empty() { vec![*all.first()?] } else { own };

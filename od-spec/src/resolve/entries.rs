@@ -355,20 +355,12 @@ fn check_default(entry: &Entry, text: Option<&Name>, diagnostics: &mut Diagnosti
                     text.span,
                     format!("the default `{}` is outside the limits{of_node}", shorten(&text.value)),
                 )
-                .label(format!("allowed: {}", allowed(entry)))
+                .label(format!("allowed: {}", super::allowed(entry)))
                 .help("correct the default or the limits, or make the value `special`"),
             );
             return;
         }
     }
-}
-
-/// `0.0 °C to 40.0 °C`: the limits, or those of the data type.
-pub(crate) fn allowed(entry: &Entry) -> String {
-    let (low, high) = entry.data_type.range().unwrap_or_default();
-    let plain = Entry { special: Vec::new(), ..entry.clone() };
-    let show = |raw: i128| crate::model::format_value(&plain, &Value::Integer(raw));
-    format!("{} to {}", show(entry.low.unwrap_or(low)), show(entry.high.unwrap_or(high)))
 }
 
 fn check_const(entry: &Entry, decl: &EntryDecl, diagnostics: &mut Diagnostics) {

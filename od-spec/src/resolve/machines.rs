@@ -10,7 +10,7 @@ use super::types::words;
 use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::model::{BitPattern, Command, Dictionary, EntryId, State, StateMachine, Transition};
+use crate::model::{BitPattern, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition};
 use crate::source::{Span, Spanned};
 use crate::yaml::shorten;
 
@@ -117,10 +117,9 @@ fn machine(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<StateMachine> {
-    let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
-    let meant = |device: &&Dictionary| on.is_empty() || on.contains(&device.key);
+    let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
     let mut found: Option<(&Dictionary, EntryId, EntryId)> = None;
-    for device in devices.iter().filter(meant) {
+    for device in devices.iter().filter(|device| on.includes(&device.key)) {
         let names = Names::new(device.objects.values());
         let mut find = |name: &Option<Name>| {
             names.find(name.as_ref()?, |id| device.entry(id).is_some(), broken, diagnostics)

@@ -21,8 +21,8 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::model::{System, Vendor};
 use crate::source::Span;
 
+pub(crate) use crate::wording::allowed;
 pub(crate) use constraints::{Lookup, check as check_constraint};
-pub(crate) use entries::allowed;
 pub(crate) use pdos::RESTRICTED as RESTRICTED_COB_IDS;
 pub(crate) use refs::lookup;
 use scope::Scope;

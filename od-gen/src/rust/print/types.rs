@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Edge, EnumValue};
-use proc_macro2::{Ident, Literal, TokenStream};
+use od_spec::model::{Edge, Entry, EnumValue};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::plan::{Members, Plan, PlannedBits, PlannedSpecial, PlannedType, PlannedUnit};
-use super::docs::{doc, escape};
+use super::docs::{WORDING, doc, escape};
 use super::value::{decimal, hex};
 
 impl Plan<'_> {
@@ -42,7 +42,8 @@ impl Plan<'_> {
     fn unit(&self, planned: &PlannedUnit<'_>) -> TokenStream {
         let PlannedUnit { unit, name, scale, step, base } = planned;
         let about = self.words(&unit.about);
-        let text = format!("{}: one raw step is {}.", escape(&unit.name), escape(&step_text(unit)));
+        let text =
+            format!("{}: one raw step is {}.", escape(&unit.name), escape(&WORDING.counted_step(unit)));
         let about = doc(format!("{text} {about}").trim());
         let (name, base, symbol) = (format_ident!("{name}"), format_ident!("{base}"), &unit.symbol);
         let [n, d, sn, sd] = [scale.0, scale.1, step.0, step.1].map(|number| decimal(number.into()));
@@ -241,7 +242,11 @@ impl Plan<'_> {
         if self.specials.is_empty() {
             return quote!();
         }
-        let specials = self.specials.iter().map(special);
+        let specials = (0..).zip(&self.specials).filter_map(|(set, planned)| {
+            // Entries that share a set show it in one type, as wide as that of the first.
+            let entry = self.entries.iter().find(|entry| entry.kind.special == Some(set))?.entry;
+            Some(special(planned, entry))
+        });
         quote! {
             /// Raw values with a meaning of their own, beside the ordinary ones.
             #[allow(dead_code, unreachable_pub)]
@@ -252,14 +257,18 @@ impl Plan<'_> {
     }
 }
 
-fn special(planned: &PlannedSpecial) -> TokenStream {
+fn special(planned: &PlannedSpecial, entry: &Entry) -> TokenStream {
     let name = format_ident!("{}", planned.name);
-    let texts: Vec<String> =
-        planned.values.iter().map(|(_, text, value)| format!("{} ({value})", escape(text))).collect();
+    let number = |raw: i128| WORDING.special_number(entry, raw);
+    let texts: Vec<String> = planned
+        .values
+        .iter()
+        .map(|(_, text, value)| format!("{} ({})", escape(text), number(*value)))
+        .collect();
     let about = doc(&format!("{}.", texts.join(" or ")));
     let variants = planned.values.iter().map(|(variant, text, value)| {
-        let (about, variant): (_, Ident) =
-            (doc(&format!("{}: raw value {value}.", escape(text))), format_ident!("{variant}"));
+        let about = doc(&format!("{}: raw value {}.", escape(text), number(*value)));
+        let variant = format_ident!("{variant}");
         quote!(#about #variant,)
     });
     let names = planned.values.iter().map(|(variant, text, _)| {
@@ -291,11 +300,6 @@ fn special(planned: &PlannedSpecial) -> TokenStream {
 
         super::glue::defmt_text!(#name);
     }
-}
-
-fn step_text(unit: &od_spec::model::Unit) -> String {
-    let text = unit.step_text();
-    if text.starts_with(|first: char| first.is_ascii_digit()) { text } else { format!("1 {text}") }
 }
 
 /// The integer of a named type: a bit field is unsigned, whatever its base.
