@@ -117,7 +117,9 @@ impl Dictionary {
 
 #[cfg(test)]
 mod tests {
-    use super::Devices;
+    use super::*;
+    use crate::model::{Index, SubIndex};
+    use crate::source::SourceMap;
 
     #[test]
     fn an_empty_list_means_all_devices() {
@@ -126,5 +128,52 @@ mod tests {
         assert!(one.includes("pmm") && !one.includes("pmc"));
         assert_eq!((one.keys(), Devices::All.keys()), (&["pmm".to_owned()][..], &[][..]));
         assert!(!Devices::Only(Vec::new()).includes("pmc"), "a list that was worked out means what it holds");
+    }
+
+    fn entry(index: u16) -> EntryId {
+        EntryId { index: Index(index), sub: SubIndex(0) }
+    }
+
+    #[test]
+    fn an_entry_knows_its_carriers_and_its_views() {
+        let text = "
+od-spec: 1
+title: Lamp
+uses: [cia301]
+devices:
+  lamp: {name: Lamp, bit-rates: [125], granularity: 1, features: [heartbeat producer]}
+objects:
+  0x2000: {name: switch, type: unsigned8, access: ro, pdo: transmit}
+  0x2001: {name: light, type: integer32, access: ro, pdo: transmit}
+  0x2003: {name: door, type: boolean, access: ro, pdo: transmit}
+  0x2002: {name: light 16, alias: 0x2001, type: integer16, outside: saturate, access: ro, pdo: transmit}
+pdos:
+  lamp:
+    transmit:
+      1: {map: [0x2000, 0x2001]}
+      2: {map: [0x2001, 0x2003, 0x2002]}
+";
+        let mut sources = SourceMap::new();
+        let root = sources.add("lamp.od.yaml", text);
+        let compiled = crate::compile(&mut sources, root, &mut crate::NoFiles);
+        let shown = crate::diag::render::render(
+            &compiled.diagnostics,
+            &sources,
+            crate::diag::render::Format::Human,
+            false,
+        );
+        let system = compiled.system.unwrap_or_else(|| panic!("{shown}"));
+        let lamp = &system.devices[0];
+        let carriers: Vec<(u16, u32)> = lamp
+            .pdos_with(entry(0x2001))
+            .map(|carrier| (carrier.pdo.number, carrier.field.first_bit))
+            .collect();
+        assert_eq!(carriers, [(1, 8), (2, 0)]);
+        let bit_by_bit: Vec<[u32; 3]> =
+            lamp.pdos[1].fields().map(|field| [field.first_bit, field.byte(), field.bit()]).collect();
+        assert_eq!(bit_by_bit, [[0, 0, 0], [32, 4, 0], [33, 4, 1]]);
+        let views: Vec<EntryId> = lamp.views_of(entry(0x2001)).map(|view| view.id).collect();
+        assert_eq!(views, [entry(0x2002)]);
+        assert_eq!(lamp.views_of(entry(0x2000)).count(), 0);
     }
 }

@@ -29,6 +29,12 @@ const FACTS: &[(&str, &str)] = &[
     ("writable-when", "Schreibbedingung"),
 ];
 
+/// Whether a fact has words.
+#[cfg(test)]
+pub(super) fn knows(name: &str) -> bool {
+    FACTS.iter().any(|(known, _)| *known == name)
+}
+
 impl Wording {
     /// A fixed word.
     pub const fn word(self, word: Word) -> &'static str {

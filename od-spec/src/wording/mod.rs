@@ -40,6 +40,8 @@ mod facts;
 mod language;
 mod number;
 mod range;
+#[cfg(test)]
+mod tests;
 mod value;
 
 pub use language::{Language, Word};
