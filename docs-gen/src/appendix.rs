@@ -1,7 +1,7 @@
 //! Tables over the whole system: what a manual has no place for, or scatters.
 
 use od_spec::model::{
-    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit,
+    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Storage, SubIndex, Unit,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -9,43 +9,83 @@ use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
 use crate::tables::overview::among;
-use crate::view::{Appendix, Cell, ErratumView, Row, Table};
+use crate::view::{Align, Appendix, Cell, ErratumView, Row, Table};
+
+/// An appendix before its words are chosen.
+struct Part {
+    /// Name of its page.
+    page: &'static str,
+    /// Heading.
+    title: Word,
+    /// What it shows.
+    intro: Option<Word>,
+    tables: Vec<Table>,
+}
 
 impl Source<'_> {
     /// All appendices that have something to show.
     pub(crate) fn appendices(&self) -> Vec<Appendix> {
         let mut list = self.device_appendices();
         list.extend(self.shown([
-            ("errata", Word::Errata, Some(Word::ErrataIntro), vec![self.errata()]),
-            ("tables", Word::AllTables, Some(Word::TablesIntro), vec![self.tables()]),
+            Part {
+                page: "errata",
+                title: Word::Errata,
+                intro: Some(Word::ErrataIntro),
+                tables: vec![self.errata()],
+            },
+            Part {
+                page: "tables",
+                title: Word::AllTables,
+                intro: Some(Word::TablesIntro),
+                tables: vec![self.tables()],
+            },
         ]));
         list
     }
 
     /// Those that a device's page shows for its device.
     pub(crate) fn device_appendices(&self) -> Vec<Appendix> {
-        let errors =
-            vec![Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()])];
+        let errors = Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()]);
         self.shown([
-            ("errors", Word::ErrorCodes, None, errors),
-            ("aliases", Word::Aliases, Some(Word::AliasesIntro), vec![self.aliases()]),
-            ("units", Word::Units, Some(Word::UnitsIntro), vec![self.units()]),
-            ("storage", Word::Storage, Some(Word::StorageIntro), self.storage()),
-            ("constraints", Word::Constraints, Some(Word::ConstraintsIntro), self.constraints()),
-            ("machines", Word::Machines, None, self.machines()),
+            Part { page: "errors", title: Word::ErrorCodes, intro: None, tables: vec![errors] },
+            Part {
+                page: "aliases",
+                title: Word::Aliases,
+                intro: Some(Word::AliasesIntro),
+                tables: vec![self.aliases()],
+            },
+            Part {
+                page: "units",
+                title: Word::Units,
+                intro: Some(Word::UnitsIntro),
+                tables: vec![self.units()],
+            },
+            Part {
+                page: "storage",
+                title: Word::Storage,
+                intro: Some(Word::StorageIntro),
+                tables: self.storage(),
+            },
+            Part {
+                page: "constraints",
+                title: Word::Constraints,
+                intro: Some(Word::ConstraintsIntro),
+                tables: self.constraints(),
+            },
+            Part { page: "machines", title: Word::Machines, intro: None, tables: self.machines() },
         ])
     }
 
-    fn shown<const N: usize>(
-        &self,
-        list: [(&'static str, Word, Option<Word>, Vec<Table>); N],
-    ) -> Vec<Appendix> {
-        list.into_iter()
-            .map(|(page, title, intro, tables)| Appendix {
-                page,
-                title: self.word(title).to_owned(),
-                intro: intro.map_or_else(String::new, |intro| self.word(intro).to_owned()),
-                tables: tables
+    /// The appendices in words, without tables that have no rows and appendices that have no tables.
+    fn shown<const N: usize>(&self, parts: [Part; N]) -> Vec<Appendix> {
+        parts
+            .into_iter()
+            .map(|part| Appendix {
+                page: part.page,
+                title: self.word(part.title).to_owned(),
+                intro: part.intro.map_or_else(String::new, |intro| self.word(intro).to_owned()),
+                tables: part
+                    .tables
                     .into_iter()
                     .filter(|table| table.grids.iter().any(|grid| !grid.rows.is_empty()))
                     .collect(),
@@ -54,30 +94,24 @@ impl Source<'_> {
             .collect()
     }
 
-    fn entries(&self) -> impl Iterator<Item = (&Dictionary, EntryId, &Object, &Entry)> {
-        self.devices
-            .iter()
-            .flat_map(|device| device.entries().map(move |(id, object, entry)| (*device, id, object, entry)))
-    }
-
     /// The device of a row, where there are several.
     fn device_cell(&self, device: &Dictionary) -> Cell {
         if self.devices.len() > 1 { Cell::plain(device.key.to_uppercase()) } else { Cell::default() }
     }
 
     fn aliases(&self) -> Table {
-        let rows = self.entries().filter_map(|(device, id, _, entry)| {
-            let alias = entry.alias.as_ref()?;
-            let target = device.entry(alias.target)?;
+        let views = self.devices.iter().flat_map(|device| device.views().map(move |view| (*device, view)));
+        let rows = views.filter_map(|(device, view)| {
+            let target = device.entry(view.alias.target)?;
             Some(Row::of(vec![
-                self.entry_link_on(device, id),
-                Cell::plain(device.entry_name(id).unwrap_or_default()),
-                Cell::plain(entry.data_type.name()),
-                self.entry_link_on(device, alias.target),
-                Cell::plain(device.entry_name(alias.target).unwrap_or_default()),
+                self.entry_link_on(device, view.id),
+                Cell::plain(device.entry_name(view.id).unwrap_or_default()),
+                Cell::plain(view.entry.data_type.name()),
+                self.entry_link_on(device, view.alias.target),
+                Cell::plain(device.entry_name(view.alias.target).unwrap_or_default()),
                 Cell::plain(target.data_type.name()),
-                Cell::plain(self.wording.decimal(&alias.factor.to_string())),
-                Cell::plain(self.wording.conversion(alias)),
+                Cell::plain(self.wording.decimal(&view.alias.factor.to_string())),
+                Cell::plain(self.wording.conversion(view.alias)),
                 self.device_cell(device),
             ]))
         });
@@ -209,7 +243,7 @@ impl Source<'_> {
                 .map(|(word, cell)| Row::of(vec![Cell::plain(self.word(word)), cell]));
             let grid = Columns::new()
                 .left(self, "name", Word::Constraint)
-                .with("value", constraint.name.clone(), "left")
+                .with("value", constraint.name.clone(), Align::Left)
                 .full(rows.collect());
             Table {
                 ladder: self.ladder(constraint),

@@ -101,12 +101,11 @@ impl Source<'_> {
 
     fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {
         let types = types_of(object).into_iter().map(|named| {
-            let (kind, grid) = match &named.kind {
-                TypeKind::Bits(fields) => ("bits", self.bits(named, fields)),
-                TypeKind::Enum(values) => ("values", self.values(named.base, values)),
+            let (kind, word, grid) = match &named.kind {
+                TypeKind::Bits(fields) => ("bits", Word::Bits, self.bits(named, fields)),
+                TypeKind::Enum(values) => ("values", Word::Values, self.values(named.base, values)),
             };
             let anchor = format!("{}-type-{}", object_anchor(object.index), slug(&named.name));
-            let word = if kind == "bits" { Word::Bits } else { Word::Values };
             let title = Cell::plain(format!("{}: {}", self.word(word), named.name));
             Table { about: self.text(&named.about), ..Table::unnumbered(anchor, kind, title, vec![grid]) }
         });
@@ -173,7 +172,12 @@ impl Source<'_> {
             unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit)),
             stored: entry.stored.word(),
             path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
-            rust: self.accessors.get(&(device.key.clone(), id)).cloned().unwrap_or_default(),
+            rust: self
+                .accessors
+                .get(&device.key)
+                .and_then(|calls| calls.get(&id))
+                .cloned()
+                .unwrap_or_default(),
         }
     }
 

@@ -11,6 +11,6 @@ pub struct Options {
     pub devices: Devices,
     /// Language; that of the specification unless given.
     pub language: Option<String>,
-    /// Calls of the accessors in generated Rust, by key of the device and entry.
-    pub accessors: BTreeMap<(String, EntryId), String>,
+    /// Calls of the accessors in generated Rust, by key of the device, then by entry.
+    pub accessors: BTreeMap<String, BTreeMap<EntryId, String>>,
 }

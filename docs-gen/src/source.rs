@@ -36,8 +36,8 @@ pub(crate) struct Source<'a> {
     pub language: Language<'a>,
     /// How facts are worded in that language.
     pub wording: Wording,
-    /// Calls of the accessors in generated Rust, by device and entry.
-    pub accessors: &'a BTreeMap<(String, EntryId), String>,
+    /// Calls of the accessors in generated Rust, by key of the device, then by entry.
+    pub accessors: &'a BTreeMap<String, BTreeMap<EntryId, String>>,
     /// The page, where pages are small, that shows an object in detail.
     homes: BTreeMap<Index, String>,
     /// The document's sections by chapter.
@@ -208,7 +208,7 @@ impl<'a> Source<'a> {
         let names = |at: &&usize| {
             self.system.errata[**at].at.iter().any(|place| match place {
                 ErratumPlace::Object(index) => *index == object.index && !object.is_structured(),
-                ErratumPlace::Entry(one) => *one == id,
+                ErratumPlace::Entry(named) => *named == id,
             })
         };
         self.errata_of_object(object.index).iter().filter(names).copied().collect()

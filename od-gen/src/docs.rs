@@ -14,8 +14,7 @@ pub fn options(system: &System, devices: &[String], language: Option<&str>) -> O
     let mut options =
         Options { devices: devices.clone(), language: language.map(str::to_owned), ..Options::default() };
     for device in chosen {
-        let accessors = rust::accessors(system, device).into_iter();
-        options.accessors.extend(accessors.map(|(id, call)| ((device.key.clone(), id), call)));
+        options.accessors.insert(device.key.clone(), rust::accessors(system, device).into_iter().collect());
     }
     options
 }

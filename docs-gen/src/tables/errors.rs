@@ -7,7 +7,7 @@ use super::variants::device_keys;
 use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
-use crate::view::{Cell, Grid, Row};
+use crate::view::{Align, Cell, Grid, Row};
 
 /// Where links to an error code lead.
 pub(crate) fn anchor(code: u16) -> String {
@@ -35,7 +35,7 @@ impl Source<'_> {
             Columns::new().left(self, "code", Word::AlarmCode).left(self, "name", Word::Meaning);
         if self.devices.len() > 1 {
             for device in &self.devices {
-                columns = columns.with("device", device.key.to_uppercase(), "center");
+                columns = columns.with("device", device.key.to_uppercase(), Align::Center);
             }
         }
         let columns =

@@ -5,7 +5,7 @@ use od_spec::model::{BitPattern, Dictionary, Entry, EntryId, PatternBit, StateMa
 use super::Columns;
 use crate::language::Word;
 use crate::source::Source;
-use crate::view::{Cell, Grid, Row};
+use crate::view::{Align, Cell, Grid, Row};
 
 /// A pattern in groups of four bits, most significant first: `xxxx xxxx x01x 0001`.
 fn pattern(pattern: &BitPattern) -> String {
@@ -50,7 +50,7 @@ impl Source<'_> {
         let title =
             self.name_of(machine, machine.status).unwrap_or_else(|| self.word(Word::Pattern).to_owned());
         Columns::new()
-            .with("pattern", title, "left")
+            .with("pattern", title, Align::Left)
             .left(self, "state", Word::State)
             .left(self, "meaning", Word::Meaning)
             .grid(rows, &["pattern", "state"])
@@ -95,8 +95,11 @@ impl Source<'_> {
         let mut columns = Columns::new().left(self, "command", Word::Command);
         for bit in &bits {
             let name = self.bit_name(machine, *bit).unwrap_or_default();
-            columns =
-                columns.with("bit", format!("{} {bit} {name}", self.word(Word::Bit)).trim_end(), "center");
+            columns = columns.with(
+                "bit",
+                format!("{} {bit} {name}", self.word(Word::Bit)).trim_end(),
+                Align::Center,
+            );
         }
         let columns = columns
             .left(self, "send", Word::Send)

@@ -14,31 +14,36 @@ use od_spec::model::{Constraint, Dictionary, Index, TableContent, TableId, TypeK
 use crate::language::Word;
 use crate::outline::{kind_of, table_anchor};
 use crate::source::Source;
-use crate::view::{Cell, Column, Grid, Row, Table};
+use crate::view::{Align, Cell, Column, Grid, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.
 pub(crate) struct Columns(Vec<Column>);
 
 impl Columns {
+    /// No columns yet.
     pub(crate) const fn new() -> Self {
         Self(Vec::new())
     }
 
-    pub(crate) fn with(mut self, key: &'static str, title: impl Into<String>, align: &'static str) -> Self {
+    /// With a column of its own title behind the others.
+    pub(crate) fn with(mut self, key: &'static str, title: impl Into<String>, align: Align) -> Self {
         self.0.push(Column { key, title: title.into(), align });
         self
     }
 
+    /// With a column of texts.
     pub(crate) fn left(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
-        self.with(key, source.word(word), "left")
+        self.with(key, source.word(word), Align::Left)
     }
 
+    /// With a column of numbers.
     pub(crate) fn right(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
-        self.with(key, source.word(word), "right")
+        self.with(key, source.word(word), Align::Right)
     }
 
+    /// With a column of marks.
     pub(crate) fn center(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
-        self.with(key, source.word(word), "center")
+        self.with(key, source.word(word), Align::Center)
     }
 
     /// A grid of these columns without those that nothing fills, apart from those that always stand.

@@ -27,7 +27,7 @@ impl Source<'_> {
             let several = variants.len() > 1;
             for (number, devices) in variants.iter().enumerate() {
                 let Some((device, object)) =
-                    devices.first().and_then(|one| Some((*one, one.objects.get(index)?)))
+                    devices.first().and_then(|device| Some((*device, device.objects.get(index)?)))
                 else {
                     continue;
                 };

@@ -9,13 +9,13 @@ use crate::cell::entry_anchor;
 use crate::conditions::relation;
 use crate::language::Word;
 use crate::source::Source;
-use crate::view::{Cell, Grid, Ladder, Row, Rung};
+use crate::view::{Align, Cell, Grid, Ladder, Row, Rung};
 
 impl Source<'_> {
     pub(crate) fn rows(&self, columns: &[Text], rows: &[Vec<Text>]) -> Grid {
         let mut titles = Columns::new();
         for title in columns {
-            titles = titles.with("text", self.text(title).text, "left");
+            titles = titles.with("text", self.text(title).text, Align::Left);
         }
         titles
             .full(rows.iter().map(|row| Row::of(row.iter().map(|text| self.text(text)).collect())).collect())
@@ -99,13 +99,13 @@ impl Source<'_> {
 
     /// The default of an entry; of each device where they differ.
     fn defaults(&self, devices: &[&Dictionary], id: EntryId) -> String {
-        let one = |device: &Dictionary| {
+        let default_on = |device: &Dictionary| {
             device
                 .entry(id)
                 .and_then(|entry| Some(self.wording.value(Some(id.index), entry, entry.default.as_ref()?)))
                 .unwrap_or_default()
         };
-        let all: Vec<String> = devices.iter().map(|device| one(device)).collect();
+        let all: Vec<String> = devices.iter().map(|device| default_on(device)).collect();
         match all.as_slice() {
             [first, rest @ ..] if rest.iter().all(|value| value == first) => first.clone(),
             _ => {
