@@ -3940,7 +3940,7 @@ pub mod records {
 /// PDOs with their default mappings.
 #[allow(dead_code, unreachable_pub)]
 pub mod pdos {
-    /// RPDO 1: COB-ID 200h + node-ID, transmission type 255; parameters `1400h` and `1600h`.
+    /// RPDO 1: CAN-ID $NODEID+0x200, transmission type 255; parameters `1400h` and `1600h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo1 {
@@ -3988,7 +3988,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo1::MAPPING).div_ceil(8) == Rpdo1::LENGTH
     );
 
-    /// RPDO 2: COB-ID 300h + node-ID, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
+    /// RPDO 2: CAN-ID $NODEID+0x300, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo2 {
@@ -4043,7 +4043,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo2::MAPPING).div_ceil(8) == Rpdo2::LENGTH
     );
 
-    /// RPDO 3: COB-ID 400h + node-ID, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
+    /// RPDO 3: CAN-ID $NODEID+0x400, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo3 {
@@ -4098,7 +4098,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo3::MAPPING).div_ceil(8) == Rpdo3::LENGTH
     );
 
-    /// RPDO 4: COB-ID 500h + node-ID, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
+    /// RPDO 4: CAN-ID $NODEID+0x500, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo4 {
@@ -4155,7 +4155,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo4::MAPPING).div_ceil(8) == Rpdo4::LENGTH
     );
 
-    /// TPDO 1: COB-ID 180h + node-ID, transmission type 255; parameters `1800h` and `1A00h`.
+    /// TPDO 1: CAN-ID $NODEID+0x180, transmission type 255; parameters `1800h` and `1A00h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo1 {
@@ -4213,7 +4213,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo1::MAPPING).div_ceil(8) == Tpdo1::LENGTH
     );
 
-    /// TPDO 2: COB-ID 280h + node-ID, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
+    /// TPDO 2: CAN-ID $NODEID+0x280, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo2 {
@@ -4281,7 +4281,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo2::MAPPING).div_ceil(8) == Tpdo2::LENGTH
     );
 
-    /// TPDO 3: COB-ID 380h + node-ID, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
+    /// TPDO 3: CAN-ID $NODEID+0x380, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo3 {
@@ -4349,7 +4349,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo3::MAPPING).div_ceil(8) == Tpdo3::LENGTH
     );
 
-    /// TPDO 4: COB-ID 480h + node-ID, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
+    /// TPDO 4: CAN-ID $NODEID+0x480, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo4 {

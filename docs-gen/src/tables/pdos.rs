@@ -1,6 +1,6 @@
 //! Factory PDOs in the form of a manual: a row for the number of mapped entries, then a row for each of them.
 
-use od_spec::model::{DataType, Dictionary, Direction, Index, Pdo, PdoTarget, Ratio, Value};
+use od_spec::model::{DataType, Dictionary, Direction, Index, Pdo, PdoTarget, Ratio};
 
 use super::Columns;
 use crate::cell::{entry_anchor, object_anchor};
@@ -22,7 +22,7 @@ impl Source<'_> {
                 anchor: String::new(),
                 ..Row::of(vec![
                     Cell::plain(format!("{} {}", direction.pdo(), pdo.number)),
-                    Cell::plain(self.cob_id_entry(pdo)),
+                    Cell::plain(self.wording.cob_id_entry(&pdo.cob_id)),
                     Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No })),
                     Cell::plain(Index(pdo.mapping_index()).to_string()),
                     Cell::plain("0"),
@@ -56,26 +56,6 @@ impl Source<'_> {
             .full(rows)
     }
 
-    /// The COB-ID entry with its flag bits: `80000300h + node-ID`.
-    fn cob_id_entry(&self, pdo: &Pdo) -> String {
-        self.cob_id(pdo, u64::from(u32::MAX))
-    }
-
-    /// The CAN-ID alone.
-    fn can_id(&self, pdo: &Pdo) -> String {
-        self.cob_id(pdo, 0x1FFF_FFFF)
-    }
-
-    fn cob_id(&self, pdo: &Pdo, mask: u64) -> String {
-        match &pdo.cob_id {
-            Value::NodeId(offset) => self.wording.node_id_formula(offset & mask),
-            cob_id => {
-                let raw = cob_id.integer().map(|raw| raw.unsigned_abs() & u128::from(mask));
-                raw.map_or_else(String::new, |raw| self.wording.cob_id(raw))
-            }
-        }
-    }
-
     /// A PDO with what is needed to draw it.
     pub(crate) fn pdo(&self, device: &Dictionary, pdo: &Pdo) -> PdoView {
         let fields = pdo.fields().map(|field| {
@@ -101,7 +81,7 @@ impl Source<'_> {
             name: format!("{} {}", pdo.direction.pdo(), pdo.number),
             anchor: anchor(pdo),
             direction: pdo.direction.word(),
-            cob_id: self.can_id(pdo),
+            cob_id: self.wording.can_id(&pdo.cob_id),
             valid: pdo.valid,
             facts: self.pdo_facts(pdo),
             fields: fields.collect(),
@@ -116,7 +96,7 @@ impl Source<'_> {
             Cell::default().link(index.to_string(), object_anchor(index), self.home(index))
         };
         let mut rows = vec![
-            (Word::CobId, Cell::plain(self.cob_id_entry(pdo))),
+            (Word::CobId, Cell::plain(self.wording.cob_id_entry(&pdo.cob_id))),
             (Word::Enabled, Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No }))),
             (Word::Transmission, Cell::plain(pdo.transmission.to_string())),
         ];

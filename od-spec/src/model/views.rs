@@ -4,6 +4,13 @@
 use super::{Alias, Dictionary, Entry, EntryId, Mapped, Pdo, PdoTarget};
 
 /// The devices that something is about.
+///
+/// ```
+/// use od_spec::model::Devices;
+///
+/// assert!(Devices::listed(Vec::<String>::new()).includes("pmc"));
+/// assert!(!Devices::listed(["pmm"]).includes("pmc"));
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Devices {
     /// Every device of the specification.
@@ -95,7 +102,8 @@ pub struct View<'a> {
 }
 
 impl Dictionary {
-    /// The aliases of an entry, ascending.
+    /// The aliases of an entry, ascending. Looks at every entry of the device: where all views are wanted, take
+    /// [`views`](Self::views).
     pub fn views_of(&self, id: EntryId) -> impl Iterator<Item = View<'_>> {
         self.views().filter(move |view| view.alias.target == id)
     }
@@ -106,7 +114,7 @@ impl Dictionary {
             .filter_map(|(id, _, entry)| entry.alias.as_ref().map(|alias| View { id, entry, alias }))
     }
 
-    /// The places of an entry in the factory mappings of PDOs, RPDOs first, by number.
+    /// The places of an entry in the factory mappings of PDOs, RPDOs first, by number; an entry may stand in several.
     pub fn pdos_with(&self, id: EntryId) -> impl Iterator<Item = Carrier<'_>> {
         let carries = move |field: &PdoField<'_>| field.mapped.target == PdoTarget::Entry(id);
         self.pdos

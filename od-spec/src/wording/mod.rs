@@ -35,6 +35,18 @@
 //!   errata, are [`Wording::fact`].
 //!
 //! Numbers and words follow the language in the documents alone; all other places are English.
+//!
+//! ```
+//! use od_spec::model::{DataType, PdoMapping, Storage};
+//! use od_spec::wording::{Language, Notation, Wording};
+//!
+//! let (eds, manual) = (Wording::english(Notation::Eds), Wording::manual(Language::German));
+//! assert_eq!(eds.pattern(DataType::Integer16, -1), "0xFFFF");
+//! assert_eq!(manual.pattern(DataType::Integer16, -1), "FFFFh");
+//! assert_eq!(eds.storage(Storage::Application), "stored with the application parameters");
+//! assert_eq!(manual.storage(Storage::Application), "Anwendung");
+//! assert_eq!((eds.mapping(PdoMapping::Receive), manual.mapping(PdoMapping::Receive)), ("RPDO", "Y (R)"));
+//! ```
 
 mod facts;
 mod language;

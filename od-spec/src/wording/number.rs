@@ -1,7 +1,7 @@
 //! Numbers: patterns and counts, physical values, node-ID formulas.
 
 use super::{Notation, Word, Wording};
-use crate::model::{DataType, Entry, Index, Ratio, TypeKind, Unit};
+use crate::model::{DataType, Entry, Index, Ratio, TypeKind, Unit, Value};
 
 /// How the numbers of an entry are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -84,8 +84,26 @@ impl Wording {
         }
     }
 
-    /// A COB-ID: three digits, or eight where flag bits or a 29-bit CAN-ID are set.
-    pub fn cob_id(self, raw: u128) -> String {
+    /// A COB-ID entry with its flag bits (CiA 301 7.5.2.35): `80000300h + node-ID`; empty for what is no number.
+    pub fn cob_id_entry(self, cob_id: &Value) -> String {
+        self.masked(cob_id, u64::from(u32::MAX))
+    }
+
+    /// The CAN-ID of a COB-ID entry, which has up to 29 bits: `300h + node-ID`; empty for what is no number.
+    pub fn can_id(self, cob_id: &Value) -> String {
+        self.masked(cob_id, 0x1FFF_FFFF)
+    }
+
+    fn masked(self, cob_id: &Value, mask: u64) -> String {
+        match cob_id {
+            Value::NodeId(offset) => self.node_id_formula(offset & mask),
+            Value::Integer(raw) => self.cob_id(raw.unsigned_abs() & u128::from(mask)),
+            Value::Real(_) | Value::Text(_) | Value::Bytes(_) => String::new(),
+        }
+    }
+
+    /// Three digits, or eight where flag bits or a 29-bit CAN-ID are set.
+    fn cob_id(self, raw: u128) -> String {
         self.hexadecimal(raw, if raw > 0xFFFF { 8 } else { 3 })
     }
 

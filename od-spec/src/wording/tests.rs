@@ -169,6 +169,13 @@ fn numbers_of_the_communication_profile_are_patterns() {
     assert_eq!(manual.mapping_parameter(0x6040_0010), "6040 00 10h");
     assert_eq!(eds.mapping_parameter(0x6040_0010), "0x60400010");
     assert_eq!(manual.node_id_formula(0x180), "180h + node-ID");
+    assert_eq!(manual.cob_id_entry(&Value::NodeId(0x8000_0300)), "80000300h + node-ID");
+    assert_eq!(
+        (manual.can_id(&Value::NodeId(0x8000_0300)), eds.can_id(&Value::Integer(0x4000_0180))),
+        ("300h + node-ID".to_owned(), "0x180".to_owned())
+    );
+    // A 29-bit CAN-ID keeps all of its bits.
+    assert_eq!(eds.can_id(&Value::Integer(0x2001_2345)), "0x00012345");
     assert_eq!(manual.pattern(DataType::Integer8, -1), "FFh");
 }
 

@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::plan::{Plan, PlannedField, PlannedPdo};
-use super::docs::doc;
+use super::docs::{WORDING, doc};
 use super::value::{At, Values, hex};
 
 impl Plan<'_> {
@@ -108,13 +108,10 @@ impl Plan<'_> {
     fn pdo_doc(&self, planned: &PlannedPdo<'_>) -> TokenStream {
         let pdo = planned.pdo;
         let about = self.words(&pdo.about);
-        let cob_id = match &pdo.cob_id {
-            Value::NodeId(offset) => format!("COB-ID {:X}h + node-ID", offset & 0x7FF),
-            other => format!("COB-ID {:X}h", other.integer().unwrap_or_default() & 0x7FF),
-        };
+        let can_id = WORDING.can_id(&pdo.cob_id);
         let valid = if pdo.valid { "" } else { ", off after a factory reset" };
         doc(&format!(
-            "{} {}: {cob_id}, transmission type {}{valid}; parameters `{:04X}h` and `{:04X}h`.\n\n{about}",
+            "{} {}: CAN-ID {can_id}, transmission type {}{valid}; parameters `{:04X}h` and `{:04X}h`.\n\n{about}",
             pdo.direction.pdo(),
             pdo.number,
             pdo.transmission,
