@@ -206,6 +206,13 @@ fn facts_have_words_in_every_language() {
         assert_eq!((german.fact(name).as_str(), english.fact(name).as_str()), (expected, name));
     }
     for name in [
+        "bit-rates",
+        "capacity",
+        "eds",
+        "granularity",
+        "identifier",
+        "no-rtr",
+        "since",
         "name",
         "access",
         "added",
