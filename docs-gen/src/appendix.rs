@@ -1,49 +1,91 @@
 //! Tables over the whole system: what a manual has no place for, or scatters.
 
-use od_spec::model::{Constraint, Dictionary, Entry, EntryId, ErratumPlace, Object, Storage, SubIndex, Unit};
+use od_spec::model::{
+    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Storage, SubIndex, Unit,
+};
 
 use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
-use crate::tables::overview::{access, among};
-use crate::view::{Appendix, Cell, ErratumView, Row, Table};
+use crate::tables::overview::among;
+use crate::view::{Align, Appendix, Cell, ErratumView, Row, Table};
+
+/// An appendix before its words are chosen.
+struct Part {
+    /// Name of its page.
+    page: &'static str,
+    /// Heading.
+    title: Word,
+    /// What it shows.
+    intro: Option<Word>,
+    tables: Vec<Table>,
+}
 
 impl Source<'_> {
     /// All appendices that have something to show.
     pub(crate) fn appendices(&self) -> Vec<Appendix> {
         let mut list = self.device_appendices();
         list.extend(self.shown([
-            ("errata", Word::Errata, Some(Word::ErrataIntro), vec![self.errata()]),
-            ("tables", Word::AllTables, Some(Word::TablesIntro), vec![self.tables()]),
+            Part {
+                page: "errata",
+                title: Word::Errata,
+                intro: Some(Word::ErrataIntro),
+                tables: vec![self.errata()],
+            },
+            Part {
+                page: "tables",
+                title: Word::AllTables,
+                intro: Some(Word::TablesIntro),
+                tables: vec![self.tables()],
+            },
         ]));
         list
     }
 
     /// Those that a device's page shows for its device.
     pub(crate) fn device_appendices(&self) -> Vec<Appendix> {
-        let errors =
-            vec![Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()])];
+        let errors = Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()]);
         self.shown([
-            ("errors", Word::ErrorCodes, None, errors),
-            ("aliases", Word::Aliases, Some(Word::AliasesIntro), vec![self.aliases()]),
-            ("units", Word::Units, Some(Word::UnitsIntro), vec![self.units()]),
-            ("storage", Word::Storage, Some(Word::StorageIntro), self.storage()),
-            ("constraints", Word::Constraints, Some(Word::ConstraintsIntro), self.constraints()),
-            ("machines", Word::Machines, None, self.machines()),
+            Part { page: "errors", title: Word::ErrorCodes, intro: None, tables: vec![errors] },
+            Part {
+                page: "aliases",
+                title: Word::Aliases,
+                intro: Some(Word::AliasesIntro),
+                tables: vec![self.aliases()],
+            },
+            Part {
+                page: "units",
+                title: Word::Units,
+                intro: Some(Word::UnitsIntro),
+                tables: vec![self.units()],
+            },
+            Part {
+                page: "storage",
+                title: Word::Storage,
+                intro: Some(Word::StorageIntro),
+                tables: self.storage(),
+            },
+            Part {
+                page: "constraints",
+                title: Word::Constraints,
+                intro: Some(Word::ConstraintsIntro),
+                tables: self.constraints(),
+            },
+            Part { page: "machines", title: Word::Machines, intro: None, tables: self.machines() },
         ])
     }
 
-    fn shown<const N: usize>(
-        &self,
-        list: [(&'static str, Word, Option<Word>, Vec<Table>); N],
-    ) -> Vec<Appendix> {
-        list.into_iter()
-            .map(|(page, title, intro, tables)| Appendix {
-                page,
-                title: self.word(title).to_owned(),
-                intro: intro.map_or_else(String::new, |intro| self.word(intro).to_owned()),
-                tables: tables
+    /// The appendices in words, without tables that have no rows and appendices that have no tables.
+    fn shown<const N: usize>(&self, parts: [Part; N]) -> Vec<Appendix> {
+        parts
+            .into_iter()
+            .map(|part| Appendix {
+                page: part.page,
+                title: self.word(part.title).to_owned(),
+                intro: part.intro.map_or_else(String::new, |intro| self.word(intro).to_owned()),
+                tables: part
+                    .tables
                     .into_iter()
                     .filter(|table| table.grids.iter().any(|grid| !grid.rows.is_empty()))
                     .collect(),
@@ -52,30 +94,24 @@ impl Source<'_> {
             .collect()
     }
 
-    fn entries(&self) -> impl Iterator<Item = (&Dictionary, EntryId, &Object, &Entry)> {
-        self.devices
-            .iter()
-            .flat_map(|device| device.entries().map(move |(id, object, entry)| (*device, id, object, entry)))
-    }
-
     /// The device of a row, where there are several.
     fn device_cell(&self, device: &Dictionary) -> Cell {
         if self.devices.len() > 1 { Cell::plain(device.key.to_uppercase()) } else { Cell::default() }
     }
 
     fn aliases(&self) -> Table {
-        let rows = self.entries().filter_map(|(device, id, _, entry)| {
-            let alias = entry.alias.as_ref()?;
-            let target = device.entry(alias.target)?;
+        let views = self.devices.iter().flat_map(|device| device.views().map(move |view| (*device, view)));
+        let rows = views.filter_map(|(device, view)| {
+            let target = device.entry(view.alias.target)?;
             Some(Row::of(vec![
-                self.entry_link_on(device, id),
-                Cell::plain(device.entry_name(id).unwrap_or_default()),
-                Cell::plain(entry.data_type.name()),
-                self.entry_link_on(device, alias.target),
-                Cell::plain(device.entry_name(alias.target).unwrap_or_default()),
+                self.entry_link_on(device, view.id),
+                Cell::plain(device.entry_name(view.id).unwrap_or_default()),
+                Cell::plain(view.entry.data_type.name()),
+                self.entry_link_on(device, view.alias.target),
+                Cell::plain(device.entry_name(view.alias.target).unwrap_or_default()),
                 Cell::plain(target.data_type.name()),
-                Cell::plain(self.language.number(&alias.factor.to_string())),
-                Cell::plain(self.conversion(alias)),
+                Cell::plain(self.wording.decimal(&view.alias.factor.to_string())),
+                Cell::plain(self.wording.conversion(view.alias)),
                 self.device_cell(device),
             ]))
         });
@@ -101,7 +137,7 @@ impl Source<'_> {
                 format!(
                     "1 {} = {} {}",
                     unit.symbol,
-                    self.language.number(&base.factor.to_string()),
+                    self.wording.decimal(&base.factor.to_string()),
                     base.symbol
                 )
             });
@@ -110,9 +146,11 @@ impl Source<'_> {
                 ..Row::of(vec![
                     Cell::plain(&unit.name),
                     Cell::plain(&unit.symbol),
-                    Cell::plain(format!("{} {}", self.language.number(&unit.scale.to_string()), unit.symbol)),
+                    Cell::plain(self.wording.counted_step(unit)),
                     base.map_or_else(Cell::default, Cell::plain),
-                    unit.formula.as_ref().map_or_else(Cell::default, |formula| self.condition(formula, &[])),
+                    unit.formula
+                        .as_ref()
+                        .map_or_else(Cell::default, |formula| self.condition(formula, &Devices::All)),
                     self.text(&unit.about),
                     entries,
                 ])
@@ -132,7 +170,7 @@ impl Source<'_> {
 
     /// The entries in a unit; an object whose entries all are stands for them.
     fn entries_in(&self, unit: &Unit) -> Cell {
-        let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|other| other.name == unit.name);
+        let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|its_unit| its_unit.name == unit.name);
         let (mut cell, mut shown) = (Cell::default(), Vec::new());
         for object in self.devices.iter().flat_map(|device| device.objects.values()) {
             let whole = among(object, has) == [true];
@@ -153,22 +191,17 @@ impl Source<'_> {
 
     /// One table per device and storage group.
     fn storage(&self) -> Vec<Table> {
-        let groups = [
-            (Storage::Communication, Word::StoredCommunication),
-            (Storage::Application, Word::StoredApplication),
-            (Storage::Manufacturer, Word::StoredManufacturer),
-            (Storage::Remanent, Word::StoredRemanent),
-        ];
+        let groups = [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent];
         let mut tables = Vec::new();
         for device in &self.devices {
-            for (group, word) in groups {
+            for group in groups {
                 let rows = device.entries().filter(|(.., entry)| entry.stored == group).map(
                     |(id, object, entry)| {
                         Row::of(vec![
                             self.entry_link_on(device, id),
                             Cell::plain(device.entry_name(id).unwrap_or_default()),
                             Cell::plain(entry.data_type.name()),
-                            Cell::plain(access(entry)),
+                            Cell::plain(self.wording.access(entry)),
                             Cell::plain(self.default(object, entry)),
                         ])
                     },
@@ -180,7 +213,7 @@ impl Source<'_> {
                     .left(self, "access", Word::Access)
                     .left(self, "default", Word::Default)
                     .full(rows.collect());
-                let title = format!("{}: {}", device.key.to_uppercase(), self.word(word));
+                let title = format!("{}: {}", device.key.to_uppercase(), self.wording.storage_group(group));
                 let anchor = format!("storage-{}-{}", device.key, group.word());
                 tables.push(Table::unnumbered(anchor, "storage", Cell::plain(title), vec![grid]));
             }
@@ -195,9 +228,13 @@ impl Source<'_> {
                 rows.push((Word::OnlyThere, self.condition(when, &constraint.devices)));
             }
             if self.system.devices.len() > 1 {
-                let on: Vec<String> = constraint.devices.iter().map(|key| key.to_uppercase()).collect();
-                let on = if on.is_empty() { self.word(Word::All).to_owned() } else { on.join(", ") };
-                rows.push((Word::On, Cell::plain(on)));
+                let devices = match &constraint.devices {
+                    Devices::All => self.word(Word::All).to_owned(),
+                    Devices::Only(keys) => {
+                        keys.iter().map(|key| key.to_uppercase()).collect::<Vec<_>>().join(", ")
+                    }
+                };
+                rows.push((Word::On, Cell::plain(devices)));
             }
             rows.push((Word::Because, self.text(&constraint.about)));
             let rows = rows
@@ -206,7 +243,7 @@ impl Source<'_> {
                 .map(|(word, cell)| Row::of(vec![Cell::plain(self.word(word)), cell]));
             let grid = Columns::new()
                 .left(self, "name", Word::Constraint)
-                .with("value", constraint.name.clone(), "left")
+                .with("value", constraint.name.clone(), Align::Left)
                 .full(rows.collect());
             Table {
                 ladder: self.ladder(constraint),
@@ -252,7 +289,7 @@ impl Source<'_> {
         let erratum = &self.system.errata[at];
         ErratumView {
             number: at + 1,
-            kind: self.spec_word(erratum.kind.word()),
+            kind: self.wording.erratum_kind(erratum.kind).to_owned(),
             place: self.text(&erratum.place),
             prints: self.text(&erratum.prints),
             reads: self.text(&erratum.reads),
@@ -265,17 +302,13 @@ impl Source<'_> {
         let rows = errata.map(|(at, erratum)| {
             let view = self.erratum(at);
             let mut entries = Cell::default();
-            for (place, one) in erratum.at.iter().enumerate() {
-                entries = if place == 0 { entries } else { entries.text(", ") };
-                entries = entries.and(match one {
-                    ErratumPlace::Object(index) => {
-                        self.link_on(&erratum.devices, *index, index.to_string(), object_anchor(*index))
-                    }
-                    ErratumPlace::Entry(id) => {
-                        let text = format!("{}.{}", id.index, id.sub);
-                        self.link_on(&erratum.devices, id.index, text, entry_anchor(*id))
-                    }
-                });
+            for (position, place) in erratum.at.iter().enumerate() {
+                entries = if position == 0 { entries } else { entries.text(", ") };
+                let (index, anchor) = match place {
+                    ErratumPlace::Object(index) => (*index, object_anchor(*index)),
+                    ErratumPlace::Entry(id) => (id.index, entry_anchor(*id)),
+                };
+                entries = entries.and(self.link_on(&erratum.devices, index, place.to_string(), anchor));
             }
             Row {
                 anchor: format!("erratum-{}", at + 1),
@@ -321,7 +354,7 @@ impl Source<'_> {
                 number,
                 printed.title,
                 Cell::plain(printed.section),
-                Cell::plain(self.spec_word(printed.kind)),
+                Cell::plain(self.language.table_kind(printed.kind)),
                 Cell::default().link(place, printed.anchor, printed.page),
                 errata,
             ])
@@ -340,7 +373,7 @@ impl Source<'_> {
 
 /// A name as part of an anchor, with a number where an earlier name would give the same.
 fn unique<'b>(names: impl Iterator<Item = &'b String>, name: &str) -> String {
-    let own = slug(name);
-    let before = names.take_while(|other| *other != name).filter(|other| slug(other) == own).count();
-    if before == 0 && !own.is_empty() { own } else { format!("{own}-no-{}", before + 1) }
+    let part = slug(name);
+    let before = names.take_while(|earlier| *earlier != name).filter(|earlier| slug(earlier) == part).count();
+    if before == 0 && !part.is_empty() { part } else { format!("{part}-no-{}", before + 1) }
 }

@@ -3,7 +3,7 @@
 use od_spec::model::{EntryId, Index, Text};
 
 use crate::language::Language;
-use crate::view::{Cell, Part};
+use crate::view::{Cell, Part, PartKind};
 
 impl Cell {
     /// A plain text.
@@ -26,30 +26,23 @@ impl Cell {
         self.parts.is_empty()
     }
 
-    fn push(
-        mut self,
-        kind: &'static str,
-        text: String,
-        anchor: String,
-        page: String,
-        language: String,
-    ) -> Self {
-        if text.is_empty() && kind != "break" {
+    fn push(mut self, part: Part) -> Self {
+        if part.text.is_empty() && part.kind != PartKind::Break {
             return self;
         }
-        self.text.push_str(if kind == "break" { "\n" } else { &text });
-        self.parts.push(Part { kind, text, anchor, page, language });
+        self.text.push_str(if part.kind == PartKind::Break { "\n" } else { &part.text });
+        self.parts.push(part);
         self
     }
 
     /// With a plain text behind it.
     pub(crate) fn text(self, text: impl Into<String>) -> Self {
-        self.push("text", text.into(), String::new(), String::new(), String::new())
+        self.push(Part::of(PartKind::Text, text))
     }
 
     /// With something to be typed or read as it stands.
     pub(crate) fn code(self, text: impl Into<String>) -> Self {
-        self.push("code", text.into(), String::new(), String::new(), String::new())
+        self.push(Part::of(PartKind::Code, text))
     }
 
     /// With a link.
@@ -59,32 +52,34 @@ impl Cell {
         anchor: impl Into<String>,
         page: impl Into<String>,
     ) -> Self {
-        self.push("link", text.into(), anchor.into(), page.into(), String::new())
+        self.push(Part { anchor: anchor.into(), page: page.into(), ..Part::of(PartKind::Link, text) })
     }
 
     /// With a new line, unless this is the first.
     pub(crate) fn line(self) -> Self {
-        if self.is_empty() {
-            self
-        } else {
-            self.push("break", String::new(), String::new(), String::new(), String::new())
-        }
+        if self.is_empty() { self } else { self.push(Part::of(PartKind::Break, "")) }
     }
 
     /// With another cell behind it.
-    pub(crate) fn and(mut self, other: Cell) -> Self {
-        self.text.push_str(&other.text);
-        self.parts.extend(other.parts);
+    pub(crate) fn and(mut self, behind: Cell) -> Self {
+        self.text.push_str(&behind.text);
+        self.parts.extend(behind.parts);
         self
     }
 
     /// With a text of the specification behind it.
     pub(crate) fn and_words(self, text: &Text, language: Language<'_>) -> Self {
         let Some(words) = text.get(language.code) else { return self };
-        let other = text.iter().all(|(code, _)| code != language.code);
-        let code =
-            if other && has_words(words) { text.iter().next().map_or("", |(code, _)| code) } else { "" };
-        self.push("text", words.to_owned(), String::new(), String::new(), code.to_owned())
+        let is_foreign = text.iter().all(|(code, _)| code != language.code) && has_words(words);
+        let written_in = text.iter().next().map_or("", |(code, _)| code);
+        let marked = if is_foreign { written_in } else { "" };
+        self.push(Part { language: marked.to_owned(), ..Part::of(PartKind::Text, words) })
+    }
+}
+
+impl Part {
+    fn of(kind: PartKind, text: impl Into<String>) -> Self {
+        Self { kind, text: text.into(), anchor: String::new(), page: String::new(), language: String::new() }
     }
 }
 

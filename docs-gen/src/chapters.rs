@@ -2,7 +2,8 @@
 
 use od_spec::model::TableId;
 
-use crate::source::{Source, section_anchor};
+use crate::outline::section_anchor;
+use crate::source::Source;
 use crate::view::{Chapter, Section, Table};
 
 impl Source<'_> {
@@ -10,11 +11,11 @@ impl Source<'_> {
     pub(crate) fn chapter_views(&self) -> Vec<Chapter> {
         let partial = self.devices.len() < self.system.devices.len();
         let mut chapters = Vec::new();
-        for (page, sections) in self.chapters() {
+        for chapter in self.outline.chapters() {
             let mut views: Vec<Section> = Vec::new();
-            for (at, level) in sections {
-                let section = &self.document().sections[at];
-                let ids = (0..section.tables.len()).map(|table| TableId { section: at, table });
+            for plan in &chapter.sections {
+                let section = &self.document().sections[plan.position];
+                let ids = (0..section.tables.len()).map(|table| TableId { section: plan.position, table });
                 let tables: Vec<Table> = ids.filter_map(|id| self.table(id)).collect();
                 if partial && tables.is_empty() && !section.tables.is_empty() {
                     continue;
@@ -22,8 +23,8 @@ impl Source<'_> {
                 views.push(Section {
                     number: section.number.clone(),
                     title: self.text(&section.title),
-                    anchor: section_anchor(self.document(), at),
-                    level,
+                    anchor: section_anchor(self.document(), plan.position),
+                    level: plan.level,
                     tables,
                 });
             }
@@ -34,7 +35,7 @@ impl Source<'_> {
             chapters.push(Chapter {
                 number: first.number.clone(),
                 title: first.title.clone(),
-                page,
+                page: chapter.page.clone(),
                 sections: views,
             });
         }

@@ -3,19 +3,18 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    BitErrors, BitField, Category, Dictionary, Direction, Entry, EntryId, Object, ObjectKind, Origin,
-    PdoMapping, PdoTarget, Storage, TypeKind, Value,
+    Dictionary, Direction, Entry, EntryId, Object, ObjectKind, PdoMapping, Storage, TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::language::Word;
-use crate::source::{Source, hex, section_anchor};
+use crate::outline::section_anchor;
+use crate::source::Source;
+use crate::tables::Columns;
 use crate::tables::bits::types_of;
-use crate::tables::overview::{access, among};
-use crate::tables::{Columns, errors, pdos};
-use crate::view::{
-    Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, Place, Row, Table, Used,
-};
+use crate::tables::overview::among;
+use crate::uses::Uses;
+use crate::view::{Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, Place, Row, Table};
 
 impl Source<'_> {
     /// The page of a device: all links stay on it. The source is that of the device alone.
@@ -26,36 +25,7 @@ impl Source<'_> {
         let rows = device.objects.values().map(|object| self.overview_row(object)).collect();
         let overview =
             Table::unnumbered("overview", "overview", Cell::default(), vec![self.overview_grid(rows)]);
-        let all = |facts: fn(&ObjectView) -> &[String]| -> Vec<String> {
-            let all: BTreeSet<&String> = objects.iter().flat_map(facts).collect();
-            all.into_iter().cloned().collect()
-        };
-        let groups = [
-            (Storage::Communication, Word::StoredCommunication),
-            (Storage::Application, Word::StoredApplication),
-            (Storage::Manufacturer, Word::StoredManufacturer),
-            (Storage::Remanent, Word::StoredRemanent),
-            (Storage::No, Word::NotStored),
-        ];
-        let filters = Filters {
-            types: all(|object| &object.data_types),
-            access: all(|object| &object.access),
-            units: all(|object| &object.units),
-            stored: groups
-                .iter()
-                .filter(|(group, _)| {
-                    objects.iter().any(|object| object.stored.iter().any(|one| one == group.word()))
-                })
-                .map(|(group, word)| (group.word(), self.word(*word).to_owned()))
-                .collect(),
-            mappable: [Direction::Receive, Direction::Transmit]
-                .into_iter()
-                .map(|direction| (direction.word(), direction.pdo()))
-                .filter(|(word, _)| {
-                    objects.iter().any(|object| object.mappable.iter().any(|one| one == word))
-                })
-                .collect(),
-        };
+        let filters = self.filters(&objects);
         DeviceView {
             key: device.key.clone(),
             name: device.name.clone(),
@@ -69,16 +39,49 @@ impl Source<'_> {
         }
     }
 
+    /// What a filter can offer: whatever occurs.
+    fn filters(&self, objects: &[ObjectView]) -> Filters {
+        let all = |facts: fn(&ObjectView) -> &[String]| -> Vec<String> {
+            let all: BTreeSet<&String> = objects.iter().flat_map(facts).collect();
+            all.into_iter().cloned().collect()
+        };
+        let occurs = |facts: fn(&ObjectView) -> &[String], word: &str| {
+            objects.iter().flat_map(facts).any(|fact| fact == word)
+        };
+        Filters {
+            types: all(|object| &object.data_types),
+            access: all(|object| &object.access),
+            units: all(|object| &object.units),
+            stored: [
+                Storage::Communication,
+                Storage::Application,
+                Storage::Manufacturer,
+                Storage::Remanent,
+                Storage::No,
+            ]
+            .into_iter()
+            .filter(|group| occurs(|object| &object.stored, group.word()))
+            .map(|group| (group.word(), self.wording.storage_group(group).to_owned()))
+            .collect(),
+            mappable: [Direction::Receive, Direction::Transmit]
+                .into_iter()
+                .filter(|direction| occurs(|object| &object.mappable, direction.word()))
+                .map(|direction| (direction.word(), direction.pdo()))
+                .collect(),
+        }
+    }
+
     fn facts(&self, device: &Dictionary) -> Table {
         let info = &device.info;
+        let number = |number: u32| self.wording.hexadecimal(number.into(), 8);
         let rates: Vec<String> = info.bit_rates.iter().map(u16::to_string).collect();
         let rows = [
             (Word::Vendor, self.system.vendor.name.clone()),
             (Word::Name, info.product_name.clone()),
             (Word::OrderCode, info.order_code.clone()),
-            (Word::Product, hex(u128::from(info.product), 8)),
-            (Word::ProductRevision, hex(u128::from(info.product_revision), 8)),
-            (Word::DeviceType, hex(u128::from(info.device_type), 8)),
+            (Word::Product, number(info.product)),
+            (Word::ProductRevision, number(info.product_revision)),
+            (Word::DeviceType, number(info.device_type)),
             (Word::BitRates, format!("{} kbit/s", rates.join(", "))),
         ];
         let rows = rows
@@ -98,12 +101,11 @@ impl Source<'_> {
 
     fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {
         let types = types_of(object).into_iter().map(|named| {
-            let (kind, grid) = match &named.kind {
-                TypeKind::Bits(fields) => ("bits", self.bits(named, fields)),
-                TypeKind::Enum(values) => ("values", self.values(named.base, values)),
+            let (kind, word, grid) = match &named.kind {
+                TypeKind::Bits(fields) => ("bits", Word::Bits, self.bits(named, fields)),
+                TypeKind::Enum(values) => ("values", Word::Values, self.values(named.base, values)),
             };
             let anchor = format!("{}-type-{}", object_anchor(object.index), slug(&named.name));
-            let word = if kind == "bits" { Word::Bits } else { Word::Values };
             let title = Cell::plain(format!("{}: {}", self.word(word), named.name));
             Table { about: self.text(&named.about), ..Table::unnumbered(anchor, kind, title, vec![grid]) }
         });
@@ -131,14 +133,11 @@ impl Source<'_> {
             errata: self
                 .errata_of_object(object.index)
                 .iter()
-                .filter(|at| {
-                    let devices = &self.system.errata[**at].devices;
-                    devices.is_empty() || devices.contains(&device.key)
-                })
+                .filter(|at| self.system.errata[**at].devices.includes(&device.key))
                 .map(|at| self.erratum(*at))
                 .collect(),
             entries,
-            access: accesses(object),
+            access: self.accesses(object),
             data_types: data_types.into_iter().map(str::to_owned).collect(),
             units,
             stored: among(object, |entry| entry.stored.word().to_owned()),
@@ -159,19 +158,26 @@ impl Source<'_> {
             name: entry.name.clone(),
             anchor: entry_anchor(id),
             data_type: entry.data_type.name(),
-            access: access(entry),
+            access: self.wording.access(entry),
             pdo: entry.pdo.word(),
             default: match &entry.default {
                 Some(Value::Integer(raw)) => raw.to_string(),
-                Some(other) => self.value(entry, other),
+                Some(Value::NodeId(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
+                    self.default(object, entry)
+                }
                 None => String::new(),
             },
             low: limit(entry.low),
             high: limit(entry.high),
-            unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.step(unit)),
+            unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit)),
             stored: entry.stored.word(),
             path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
-            rust: self.accessors.get(&(device.key.clone(), id)).cloned().unwrap_or_default(),
+            rust: self
+                .accessors
+                .get(&device.key)
+                .and_then(|calls| calls.get(&id))
+                .cloned()
+                .unwrap_or_default(),
         }
     }
 
@@ -207,21 +213,14 @@ impl Source<'_> {
         if let Some(profile) = &object.profile {
             let mut note = Cell::plain(format!("{} {profile}", self.word(Word::FromStandard)));
             if !object.departures.is_empty() {
-                let differs: Vec<String> = object
-                    .departures
-                    .iter()
-                    .map(|departure| self.spec_word(&departure.to_string()))
-                    .collect();
+                let differs: Vec<String> =
+                    object.departures.iter().map(|departure| self.wording.departure(*departure)).collect();
                 note = note.text(format!(". {}: {}", self.word(Word::Differs), differs.join(", ")));
             }
             notes.push(note.text("."));
         }
         if let Some(category) = object.category {
-            let word = self.word(match category {
-                Category::Mandatory => Word::CategoryMandatory,
-                Category::Optional => Word::CategoryOptional,
-                Category::Conditional => Word::CategoryConditional,
-            });
+            let word = self.wording.category(category);
             notes.push(Cell::plain(format!("{}: {word}.", self.word(Word::Category))));
         }
         if let Some(since) = &object.since {
@@ -234,32 +233,30 @@ impl Source<'_> {
         notes
     }
 
+    /// Accesses of an object's entries, each once; that of sub-index 0 where it can be written.
+    fn accesses(&self, object: &Object) -> Vec<String> {
+        let mut all = among(object, |entry| self.wording.access(entry));
+        for entry in object.entries.iter().filter(|entry| entry.access.is_writable()) {
+            let access = self.wording.access(entry);
+            if !all.contains(&access) {
+                all.push(access);
+            }
+        }
+        all
+    }
+
     /// The sections of the manual whose tables show the object in detail.
     fn places(&self, object: &Object) -> Vec<Place> {
-        if object.origin != Origin::Manual {
-            return Vec::new();
-        }
         let sections = self.sections_of(object.index).iter();
         sections
             .map(|at| {
                 let section = &self.document().sections[*at];
                 let title = self.text(&section.title).text;
                 let text = format!("{} {title}", section.number).trim().to_owned();
-                Place { text, anchor: section_anchor(self.document(), *at), page: self.page_of(*at) }
+                Place { text, anchor: section_anchor(self.document(), *at), page: self.outline.page_of(*at) }
             })
             .collect()
     }
-}
-
-/// Accesses of an object's entries, each once; that of sub-index 0 where it can be written.
-fn accesses(object: &Object) -> Vec<String> {
-    let mut all = among(object, access);
-    for entry in object.entries.iter().filter(|entry| entry.access.is_writable()) {
-        if !all.contains(&access(entry)) {
-            all.push(access(entry));
-        }
-    }
-    all
 }
 
 /// Unit symbols of an object's entries, each once.
@@ -298,103 +295,4 @@ fn search(object: &Object, view: &ObjectView) -> String {
         }
     }
     text.to_lowercase()
-}
-
-/// What refers to each object of a device, worked out once.
-struct Uses(std::collections::BTreeMap<od_spec::model::Index, Vec<Used>>);
-
-impl Uses {
-    fn new(source: &Source<'_>, device: &Dictionary) -> Self {
-        let mut uses = Self(std::collections::BTreeMap::new());
-        for pdo in &device.pdos {
-            let mut bit = 0;
-            for mapped in &pdo.map {
-                let start = bit;
-                bit += u32::from(mapped.bits);
-                let PdoTarget::Entry(id) = mapped.target else { continue };
-                let (byte, rest) = (start / 8, start % 8);
-                let mut place = format!("{} {byte}", source.word(Word::Byte));
-                if rest > 0 {
-                    place = format!("{place}, {} {rest}", source.word(Word::Bit));
-                }
-                let off = if pdo.valid { String::new() } else { format!(", {}", source.word(Word::Off)) };
-                let line = Cell::default()
-                    .link(
-                        format!("{} {}", pdo.direction.pdo(), pdo.number),
-                        pdos::anchor(pdo),
-                        device.key.clone(),
-                    )
-                    .text(format!(" ({place}, {} bit{off})", mapped.bits));
-                uses.add(id, "pdos", source.word(Word::Pdos), line);
-            }
-        }
-        for (id, _, entry) in device.entries() {
-            if let Some(alias) = &entry.alias {
-                let line = source.named_entry(device, id).text(format!("; {}", source.conversion(alias)));
-                uses.add(alias.target, "aliases", source.word(Word::Alias), line);
-            }
-            for named in entry.writable_when.iter().flat_map(od_spec::expr::Expr::entries) {
-                let line = source.named_entry(device, id);
-                uses.add(named.id, "conditions", source.word(Word::Gates), line);
-            }
-            for code in codes(entry) {
-                let name =
-                    source.system.errors.iter().find(|error| error.code == code).map(|error| &error.name);
-                let line = Cell::default()
-                    .link(hex(u128::from(code), 4), errors::anchor(code), "errors")
-                    .text(format!(" {}", name.map_or("", String::as_str)));
-                uses.add(id, "errors", source.word(Word::ErrorCodes), line);
-            }
-        }
-        for constraint in &source.system.constraints {
-            let conditions = std::iter::once(&constraint.require).chain(&constraint.when);
-            let applies = constraint.devices.is_empty() || constraint.devices.contains(&device.key);
-            for named in conditions.flat_map(od_spec::expr::Expr::entries) {
-                if named.device.as_ref().map_or(applies, |key| *key == device.key) {
-                    let line = Cell::default().link(
-                        &constraint.name,
-                        source.constraint_anchor(constraint),
-                        "constraints",
-                    );
-                    uses.add(named.id, "constraints", source.word(Word::Constraints), line);
-                }
-            }
-        }
-        for machine in source.system.machines.values() {
-            if machine.devices.is_empty() || machine.devices.contains(&device.key) {
-                for (id, word) in [(machine.status, Word::Status), (machine.command, Word::Command)] {
-                    let line = Cell::plain(format!("{} ({})", machine.name, source.word(word)));
-                    uses.add(id, "machines", source.word(Word::Machines), line);
-                }
-            }
-        }
-        uses
-    }
-
-    fn add(&mut self, id: EntryId, kind: &'static str, title: &str, line: Cell) {
-        let uses = self.0.entry(id.index).or_default();
-        let at = uses.iter().position(|used| used.kind == kind).unwrap_or_else(|| {
-            uses.push(Used { kind, title: title.to_owned(), lines: Vec::new() });
-            uses.len() - 1
-        });
-        let lines = &mut uses[at].lines;
-        if !lines.contains(&line) {
-            lines.push(line);
-        }
-    }
-
-    fn of(&self, index: od_spec::model::Index) -> Vec<Used> {
-        self.0.get(&index).cloned().unwrap_or_default()
-    }
-}
-
-/// Error codes that come with the bits of an entry.
-fn codes(entry: &Entry) -> Vec<u16> {
-    let mut codes: Vec<u16> = entry.bit_errors.iter().flat_map(BitErrors::error_codes).collect();
-    if let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) {
-        codes.extend(fields.iter().flat_map(BitField::error_codes));
-    }
-    codes.sort_unstable();
-    codes.dedup();
-    codes
 }

@@ -1,6 +1,8 @@
-//! The fixed words of the documents, and how numbers are written.
+//! The fixed words of the documents: headings, column titles, notes. Words about facts are those of [`od_spec::wording`].
 
 use std::collections::BTreeMap;
+
+use od_spec::wording::{self, Wording};
 
 macro_rules! words {
     ($($variant:ident $key:literal: $en:literal, $de:literal;)+) => {
@@ -14,8 +16,11 @@ macro_rules! words {
                 match self { $(Word::$variant => $key,)+ }
             }
 
-            const fn text(self, german: bool) -> &'static str {
-                match self { $(Word::$variant => if german { $de } else { $en },)+ }
+            const fn text(self, language: wording::Language) -> &'static str {
+                match (self, language) {
+                    $((Word::$variant, wording::Language::English) => $en,
+                    (Word::$variant, wording::Language::German) => $de,)+
+                }
             }
 
             const ALL: &'static [Word] = &[$(Word::$variant,)+];
@@ -34,11 +39,7 @@ words! {
     States "states": "states", "Zustände";
     Commands "commands": "commands", "Befehle";
     On "on": "Devices", "Geräte";
-    Remanent "remanent": "by itself", "von selbst";
-    Manufacturer "manufacturer": "manufacturer", "Hersteller";
-    Communication "communication": "communication", "Kommunikation";
     Capacity "capacity": "At most {n} bytes.", "Höchstens {n} Byte.";
-    Application "application": "application", "Anwendung";
     And "and": "and", "und";
     Abbreviation "abbreviation": "Abbreviation", "Abkürzung";
     Access "access": "Attr", "Zugriff";
@@ -62,9 +63,6 @@ words! {
     BothEdges "both_edges": "0↔1", "0↔1";
     Byte "byte": "Byte", "Byte";
     Category "category": "Category", "Kategorie";
-    CategoryConditional "conditional": "conditional", "bedingt";
-    CategoryMandatory "mandatory": "mandatory", "verpflichtend";
-    CategoryOptional "optional": "optional", "optional";
     Chapters "chapters": "Chapters", "Kapitel";
     Clamp "clamp": "Clamp", "Klemme";
     CobId "cob_id": "COB-ID", "COB-ID";
@@ -120,8 +118,6 @@ words! {
     NoMatch "no_match":
         "Nothing fits. Escape clears the search.",
         "Nichts passt. Esc leert die Suche.";
-    NodeId "node_id": "node-ID", "Node-ID";
-    NotStored "not_stored": "not stored", "nicht gespeichert";
     NotSupported "not_supported": "not supported", "nicht unterstützt";
     Number "number": "No.", "Nr.";
     Object "object": "Object", "Objekt";
@@ -129,11 +125,6 @@ words! {
     Off "off": "off after start-up", "nach dem Einschalten aus";
     OnlyThere "only_there": "Only while", "Nur solange";
     OrderCode "order_code": "Order code", "Bestellnummer";
-    OutsideAbort "outside_abort": "outside its range: abort", "außerhalb seines Bereichs: Abbruch";
-    OutsideSaturate "outside_saturate":
-        "outside its range: the nearest value",
-        "außerhalb seines Bereichs: der nächstgelegene Wert";
-    OutsideWrap "outside_wrap": "outside its range: the low bits", "außerhalb seines Bereichs: die unteren Bits";
     Parameter "parameter": "Parameter", "Parameter";
     Pattern "pattern": "Bits", "Bits";
     Pdo "pdo": "PDO", "PDO";
@@ -158,10 +149,6 @@ words! {
     ReportedBy "reported_by": "Shown by", "Angezeigt von";
     Reserved "reserved": "reserved", "reserviert";
     Revision "revision": "Issue", "Ausgabe";
-    RoundedDown "rounded_down": "rounded down", "nach unten gerundet";
-    RoundedNearest "rounded_nearest": "rounded to the nearest step", "auf den nächstgelegenen Schritt gerundet";
-    RoundedUp "rounded_up": "rounded up", "nach oben gerundet";
-    RoundedZero "rounded_zero": "rounded towards zero", "zur Null hin gerundet";
     Search "search": "Search", "Suche";
     SearchHint "search_hint": "index, name or word", "Index, Name oder Wort";
     Section "section": "Section", "Abschnitt";
@@ -176,10 +163,6 @@ words! {
         "What is kept over power-off: the entries that each command of store parameters (1010h) saves and that restore default parameters (1011h) sets back, and what the device keeps by itself.",
         "Was das Ausschalten überdauert: die Einträge, die jeder Befehl von 1010h (Parameter speichern) sichert und 1011h (Vorgaben wiederherstellen) zurücksetzt, und was das Gerät von sich aus hält.";
     Stored "stored": "Stored", "Gespeichert";
-    StoredApplication "stored_application": "1010h.3, application parameters", "1010h.3, Anwendungsparameter";
-    StoredCommunication "stored_communication": "1010h.2, communication parameters", "1010h.2, Kommunikationsparameter";
-    StoredManufacturer "stored_manufacturer": "1010h.4 and above, manufacturer parameters", "1010h.4 und höher, Herstellerparameter";
-    StoredRemanent "stored_remanent": "by the device itself", "vom Gerät selbst";
     Step "step": "One step", "Ein Schritt";
     SubIndex "sub": "Sub-Index", "Subindex";
     Sub "sub_short": "Sub", "Sub";
@@ -194,7 +177,6 @@ words! {
     Target "target": "Shows", "Zeigt";
     Theme "theme": "Light or dark", "Hell oder dunkel";
     To "to": "To", "Nach";
-    ToRange "to_range": "to", "bis";
     Transition "transition": "Transition", "Übergang";
     Transmission "transmission": "Transmission type", "Übertragungsart";
     Type "type": "Type", "Typ";
@@ -212,105 +194,63 @@ words! {
     Yes "yes": "yes", "ja";
 }
 
-/// Words of the specification that documents show, such as kinds of errata and facts in which a device differs from a
-/// library, and the German ones.
-const SPEC_WORDS: &[(&str, &str)] = &[
-    ("access", "Zugriff"),
-    ("added", "zusätzlich"),
-    ("alias", "Abbild"),
-    ("bit-errors", "Fehlercodes der Bits"),
+/// Kinds of tables by the key of the specification that fills them, and their German names.
+const TABLE_KINDS: &[(&str, &str)] = &[
     ("bits", "Bits"),
-    ("category", "Kategorie"),
     ("commands", "Befehle"),
-    ("count", "Anzahl"),
-    ("default", "Vorgabe"),
-    ("elements", "Elemente"),
     ("errors", "Fehlercodes"),
-    ("gap", "Lücke"),
     ("glossary", "Glossar"),
     ("history", "Änderungen"),
-    ("index", "Index"),
     ("ladder", "Stufenfolge"),
-    ("limit", "Grenze"),
-    ("max", "größter Wert"),
-    ("meaning", "Bedeutung"),
-    ("min", "kleinster Wert"),
-    ("name", "Name"),
-    ("object-type", "Objekttyp"),
     ("objects", "Objekte"),
     ("overview", "Übersicht"),
-    ("pdo", "PDO-Mapping"),
     ("pdos", "PDOs"),
-    ("profile", "Profil"),
     ("reactions", "Reaktionen"),
     ("rows", "Zeilen"),
-    ("sign", "Vorzeichen"),
-    ("special", "besondere Werte"),
     ("states", "Zustände"),
-    ("stored", "Speicherung"),
-    ("sub-index", "Subindex"),
-    ("table", "Tabelle"),
-    ("text", "Text"),
     ("transitions", "Übergänge"),
-    ("type", "Datentyp"),
-    ("unit", "Einheit"),
     ("values", "Werte"),
-    ("writable-when", "Schreibbedingung"),
 ];
 
 /// Languages whose fixed words are known; others get English words.
-pub const LANGUAGES: &[&str] = &["en", "de"];
+pub const LANGUAGES: &[&str] = wording::Language::CODES;
 
 /// The language of a document.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Language<'a> {
+    /// Its code, by which texts of the specification are chosen.
     pub code: &'a str,
 }
 
 impl Language<'_> {
-    fn is_german(self) -> bool {
-        self.code == "de" || self.code.starts_with("de-")
+    /// The language of fixed words.
+    fn known(self) -> wording::Language {
+        wording::Language::of(self.code)
+    }
+
+    /// How documents in this language word facts.
+    pub(crate) fn wording(self) -> Wording {
+        Wording::manual(self.known())
     }
 
     /// A fixed word.
     pub(crate) fn word(self, word: Word) -> &'static str {
-        word.text(self.is_german())
+        word.text(self.known())
     }
 
-    /// All fixed words by the names that templates use.
+    /// All fixed words by the names that templates use, also those about facts.
     pub(crate) fn words(self) -> BTreeMap<&'static str, &'static str> {
-        Word::ALL.iter().map(|word| (word.key(), self.word(*word))).collect()
+        let facts = wording::Word::ALL.iter().map(|word| (word.key(), word.text(self.known())));
+        Word::ALL.iter().map(|word| (word.key(), self.word(*word))).chain(facts).collect()
     }
 
-    /// A word of the specification, such as `unit`, or one about some sub-indices, such as `sub-index 2: unit`.
-    pub(crate) fn spec_word(self, word: &str) -> String {
-        if !self.is_german() {
-            return word.to_owned();
-        }
-        let german =
-            |word: &str| SPEC_WORDS.iter().find(|(english, _)| *english == word).map(|(_, german)| *german);
-        let Some((place, fact)) = word.split_once(": ") else {
-            return german(word).unwrap_or(word).to_owned();
-        };
-        let place = place
-            .replace("sub-index", "Subindex")
-            .replace("sub-indices", "Subindizes")
-            .replace(" to ", " bis ");
-        format!("{}: {}", german(&place).unwrap_or(&place), german(fact).unwrap_or(fact))
-    }
-
-    /// A number that was written with a decimal point, as the language writes it.
-    pub(crate) fn number(self, text: &str) -> String {
-        if self.is_german() { text.replace('.', ",") } else { text.to_owned() }
-    }
-
-    /// A date: `2009-05-27`, in German `27.05.2009`.
-    pub(crate) fn date(self, date: od_spec::model::Date) -> String {
-        let od_spec::model::Date { year, month, day } = date;
-        if self.is_german() {
-            format!("{day:02}.{month:02}.{year:04}")
-        } else {
-            format!("{year:04}-{month:02}-{day:02}")
+    /// What fills a table, as a person says it.
+    pub(crate) fn table_kind(self, kind: &'static str) -> &'static str {
+        match self.known() {
+            wording::Language::English => kind,
+            wording::Language::German => {
+                TABLE_KINDS.iter().find(|(key, _)| *key == kind).map_or(kind, |(_, german)| german)
+            }
         }
     }
 }
@@ -322,7 +262,7 @@ mod tests {
     #[test]
     fn every_word_has_one_key() {
         let language = Language { code: "en" };
-        assert_eq!(language.words().len(), Word::ALL.len());
+        assert_eq!(language.words().len(), Word::ALL.len() + wording::Word::ALL.len());
     }
 
     /// A word that nothing shows is a leftover.
@@ -351,42 +291,13 @@ mod tests {
     }
 
     #[test]
-    fn words_of_the_specification_are_translated() {
+    fn every_kind_of_table_has_a_german_name() {
         let german = Language { code: "de" };
-        for (word, expected) in [
-            ("gap", "Lücke"),
-            ("elements: unit", "Elemente: Einheit"),
-            ("sub-index 0: name", "Subindex 0: Name"),
-            ("sub-indices 2 to 15: added", "Subindizes 2 bis 15: zusätzlich"),
-        ] {
-            assert_eq!(german.spec_word(word), expected);
-            assert_eq!(Language { code: "en" }.spec_word(word), word);
-        }
-        let departures = [
-            "name",
-            "access",
-            "added",
-            "category",
-            "count",
-            "meaning",
-            "special",
-            "writable-when",
-            "bit-errors",
-        ];
-        for word in od_spec::model::ErratumKind::WORDS.iter().chain(&departures) {
-            assert!(SPEC_WORDS.iter().any(|(known, _)| known == word), "{word}");
-        }
-    }
-
-    #[test]
-    fn numbers_and_dates_follow_the_language() {
-        let date = od_spec::model::Date { year: 2009, month: 5, day: 27 };
-        let (german, english) = (Language { code: "de" }, Language { code: "en" });
-        assert_eq!((german.number("50.0"), english.number("50.0")), ("50,0".to_owned(), "50.0".to_owned()));
         assert_eq!(
-            (german.date(date), english.date(date)),
-            ("27.05.2009".to_owned(), "2009-05-27".to_owned())
+            (german.table_kind("overview"), german.table_kind("ladder")),
+            ("Übersicht", "Stufenfolge")
         );
+        assert_eq!(Language { code: "en" }.table_kind("ladder"), "ladder");
         assert_eq!((german.word(Word::Value), Language { code: "fr" }.word(Word::Value)), ("Wert", "Value"));
     }
 }

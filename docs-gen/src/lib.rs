@@ -7,34 +7,26 @@
 mod appendix;
 mod cell;
 mod chapters;
+mod conditions;
 mod device;
 mod language;
 mod markdown;
+mod options;
+mod outline;
 mod printed;
 mod source;
 mod tables;
 mod templates;
+mod uses;
 pub mod view;
 
-use std::collections::BTreeMap;
-
-use od_spec::model::{EntryId, System};
+use od_spec::model::System;
 
 pub use language::LANGUAGES;
+pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
 pub use templates::{Format, Page, TemplateError, Templates};
 pub use view::Context;
-
-/// What a document shows.
-#[derive(Debug, Clone, Default)]
-pub struct Options {
-    /// Keys of the devices; empty for all.
-    pub devices: Vec<String>,
-    /// Language; that of the specification unless given.
-    pub language: Option<String>,
-    /// Calls of the accessors in generated Rust, by key of the device and entry.
-    pub accessors: BTreeMap<(String, EntryId), String>,
-}
 
 /// Everything that templates see.
 pub fn context(system: &System, options: &Options) -> Context {
@@ -51,7 +43,7 @@ pub fn context(system: &System, options: &Options) -> Context {
             source: document.source.clone().unwrap_or_default(),
             about: source.text(&document.about),
             revision: issue.map_or_else(String::new, |issue| issue.number.clone()),
-            date: issue.map_or_else(String::new, |issue| source.language.date(issue.date)),
+            date: issue.map_or_else(String::new, |issue| source.wording.language.date(issue.date)),
         },
         devices: source.devices.iter().map(|device| source.only(device).device(device)).collect(),
         chapters: source.chapter_views(),

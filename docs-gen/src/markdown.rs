@@ -33,8 +33,8 @@ pub(crate) fn escape(text: &str) -> String {
 }
 
 /// A cell as a paragraph of its own: what would begin a heading, a list or a quotation is escaped.
-pub(crate) fn paragraph(one: &Value, page: &str) -> Result<String, Error> {
-    let text = cell(one, page)?.replace("<br>", "\\\n");
+pub(crate) fn paragraph(contents: &Value, page: &str) -> Result<String, Error> {
+    let text = cell(contents, page)?.replace("<br>", "\\\n");
     let digits = text.bytes().take_while(u8::is_ascii_digit).count();
     if digits > 0 && text[digits..].starts_with(['.', ')']) {
         return Ok(format!("{}\\{}", &text[..digits], &text[digits..]));
@@ -48,26 +48,26 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
     // The word of a standard is in italics; a line break ends them.
     let italics = if cell.get_attr("standard")?.is_true() { "*" } else { "" };
     for part in cell.get_attr("parts")?.try_iter()? {
-        let own = part.get_attr("text")?.to_string();
+        let words = part.get_attr("text")?.to_string();
         match part.get_attr("kind")?.as_str() {
             Some("break") => text.push_str("<br>"),
             Some("code") => {
-                let _ = write!(text, "`{own}`");
+                let _ = write!(text, "`{words}`");
             }
             Some("link") => {
                 let target = part.get_attr("page")?.to_string();
                 let file =
                     if target == page || target.is_empty() { String::new() } else { format!("{target}.md") };
                 let anchor = part.get_attr("anchor")?.to_string();
-                let _ = write!(text, "[{}]({file}#{})", escape(&own).replace('\n', " "), heading(&anchor));
+                let _ = write!(text, "[{}]({file}#{})", escape(&words).replace('\n', " "), heading(&anchor));
             }
             _ => {
-                let own = escape(&own).replace('\n', " ");
-                let inner = own.trim();
+                let words = escape(&words).replace('\n', " ");
+                let inner = words.trim();
                 if italics.is_empty() || inner.is_empty() {
-                    text.push_str(&own);
+                    text.push_str(&words);
                 } else {
-                    text.push_str(&own.replace(inner, &format!("{italics}{inner}{italics}")));
+                    text.push_str(&words.replace(inner, &format!("{italics}{inner}{italics}")));
                 }
                 let language = part.get_attr("language")?.to_string();
                 if !language.is_empty() {
@@ -98,8 +98,11 @@ pub(crate) fn table(grid: &Value, page: &str) -> Result<String, Error> {
     }
     let mut rows: Vec<Vec<String>> = vec![titles];
     for row in grid.get_attr("rows")?.try_iter()? {
-        let mut cells: Vec<String> =
-            row.get_attr("cells")?.try_iter()?.map(|one| cell(&one, page)).collect::<Result<_, _>>()?;
+        let mut cells: Vec<String> = row
+            .get_attr("cells")?
+            .try_iter()?
+            .map(|contents| cell(&contents, page))
+            .collect::<Result<_, _>>()?;
         let anchor = row.get_attr("anchor")?.to_string();
         // Anchors of entries stand above the table; others, such as `erratum-17`, lead to their row.
         if let Some(first) = cells.first_mut()

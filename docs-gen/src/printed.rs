@@ -3,7 +3,8 @@
 use od_spec::model::{ErratumKind, ErratumPlace, TableContent, TableId};
 use serde::Serialize;
 
-use crate::source::{Source, kind_of};
+use crate::outline::kind_of;
+use crate::source::Source;
 use crate::view::Cell;
 
 /// Index of the manual's tables, for programs.
@@ -88,11 +89,11 @@ impl Source<'_> {
     /// Every table that the document lists and the devices shown have.
     pub(crate) fn printed(&self) -> Vec<PrintedTable> {
         let mut list = Vec::new();
-        for (page, sections) in self.chapters() {
-            for (at, _) in sections {
-                let section = &self.document().sections[at];
-                for (place, printed) in section.tables.iter().enumerate() {
-                    let id = TableId { section: at, table: place };
+        for chapter in self.outline.chapters() {
+            for plan in &chapter.sections {
+                let section = &self.document().sections[plan.position];
+                for (position, printed) in section.tables.iter().enumerate() {
+                    let id = TableId { section: plan.position, table: position };
                     let Some(table) = self.table(id) else { continue };
                     list.push(PrintedTable {
                         number: printed.number,
@@ -100,7 +101,7 @@ impl Source<'_> {
                         section: section.number.clone(),
                         kind: kind_of(&printed.content),
                         anchor: table.anchor.clone(),
-                        page: page.clone(),
+                        page: chapter.page.clone(),
                         rows: table.grids.iter().map(|grid| grid.rows.len()).sum(),
                         differs: table
                             .errata
@@ -130,14 +131,10 @@ impl Source<'_> {
             TableContent::Overview(list) | TableContent::Objects(list) => list.contains(&place.index()),
             _ => true,
         });
-        let entries = entries.map(|place| match place {
-            ErratumPlace::Object(index) => index.to_string(),
-            ErratumPlace::Entry(id) => format!("{}.{}", id.index, id.sub),
-        });
         Difference {
             erratum: number,
             kind: erratum.kind.word(),
-            entries: entries.collect(),
+            entries: entries.map(ErratumPlace::to_string).collect(),
             column: column(erratum.kind, content),
             prints: self.text(&erratum.prints).text,
             reads: self.text(&erratum.reads).text,

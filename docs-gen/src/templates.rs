@@ -86,6 +86,13 @@ pub struct TemplateError {
     pub message: String,
 }
 
+impl TemplateError {
+    /// A mistake of the set, not of a single template.
+    fn without_place(message: impl Into<String>) -> Self {
+        Self { template: String::new(), source: String::new(), range: 0..0, message: message.into() }
+    }
+}
+
 impl fmt::Display for TemplateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.template.is_empty() {
@@ -106,13 +113,18 @@ pub struct Templates {
 }
 
 impl Templates {
-    /// The templates of a format, if any, with a user's own over them: a file of the same name replaces that of the format.
-    pub fn new(format: Option<Format>, own: &[(String, String)]) -> Result<Self, TemplateError> {
+    /// The templates of a format, if any, with a user's own over them, each a name and a text: a file of the same name
+    /// replaces that of the format.
+    ///
+    /// # Errors
+    ///
+    /// The first template that is not well formed, with the place in it.
+    pub fn new(format: Option<Format>, replacements: &[(String, String)]) -> Result<Self, TemplateError> {
         let mut files: BTreeMap<String, String> = BTreeMap::new();
         for (name, text) in format.map_or(&[][..], Format::files) {
             files.insert((*name).to_owned(), (*text).to_owned());
         }
-        files.extend(own.iter().cloned());
+        files.extend(replacements.iter().cloned());
         let mut templates = Self { environment: environment(), files };
         for (name, text) in &templates.files {
             if let Err(error) = templates.environment.add_template_owned(name.clone(), text.clone()) {
@@ -123,6 +135,11 @@ impl Templates {
     }
 
     /// All pages, in the order of the templates' names.
+    ///
+    /// # Errors
+    ///
+    /// The first template that cannot be printed, such as one that names what the context does not have; a set that prints
+    /// nothing; two pages of one name.
     pub fn print(&self, context: &Context) -> Result<Vec<Page>, TemplateError> {
         let all = Value::from(Serde(context));
         let list = |key: &str| -> Vec<Value> {
@@ -130,12 +147,9 @@ impl Templates {
         };
         let mut pages = Vec::new();
         if self.files.keys().all(|name| name.starts_with('_')) {
-            return Err(TemplateError {
-                template: String::new(),
-                source: String::new(),
-                range: 0..0,
-                message: "no template is printed: the names of all begin with `_`".to_owned(),
-            });
+            return Err(TemplateError::without_place(
+                "no template is printed: the names of all begin with `_`",
+            ));
         }
         for name in self.files.keys().filter(|name| !name.starts_with('_')) {
             let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
@@ -150,9 +164,9 @@ impl Templates {
                 }
             };
             for item in many {
-                let own = item.get_attr(key).map(|own| own.to_string()).unwrap_or_default();
-                let path = format!("{own}.{extension}");
-                let page = context! { name => own, path => path.clone(), kind => stem };
+                let name_of_page = item.get_attr(key).map(|name| name.to_string()).unwrap_or_default();
+                let path = format!("{name_of_page}.{extension}");
+                let page = context! { name => name_of_page, path => path.clone(), kind => stem };
                 let variables = context! { page, ..all.clone() };
                 let item = BTreeMap::from([(stem, item)]);
                 pages.push(self.page(name, path, context! { ..Value::from(item), ..variables })?);
@@ -160,15 +174,10 @@ impl Templates {
         }
         let mut seen = BTreeSet::new();
         if let Some(twice) = pages.iter().find(|page| !seen.insert(page.path.to_lowercase())) {
-            return Err(TemplateError {
-                template: String::new(),
-                source: String::new(),
-                range: 0..0,
-                message: format!(
-                    "two pages would be {}: a device has the name of another page as its key",
-                    twice.path
-                ),
-            });
+            return Err(TemplateError::without_place(format!(
+                "two pages would be {}: a device has the name of another page as its key",
+                twice.path
+            )));
         }
         Ok(pages)
     }

@@ -130,8 +130,20 @@ pub struct Column {
     pub key: &'static str,
     /// Its title.
     pub title: String,
-    /// `left`, `right` or `center`.
-    pub align: &'static str,
+    /// How its cells stand.
+    pub align: Align,
+}
+
+/// How the cells of a column stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Align {
+    /// Texts.
+    Left,
+    /// Numbers.
+    Right,
+    /// Marks.
+    Center,
 }
 
 /// A row.
@@ -161,8 +173,8 @@ pub struct Cell {
 /// A part of a [`Cell`].
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Part {
-    /// `text`, `code`, `link` or `break`.
-    pub kind: &'static str,
+    /// What it is.
+    pub kind: PartKind,
     /// The text; empty for a break.
     pub text: String,
     /// Anchor that a link leads to.
@@ -171,6 +183,20 @@ pub struct Part {
     pub page: String,
     /// Language of the text, where it is not that of the document.
     pub language: String,
+}
+
+/// What a [`Part`] is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PartKind {
+    /// Running text.
+    Text,
+    /// To be typed or read as it stands.
+    Code,
+    /// A link.
+    Link,
+    /// A new line.
+    Break,
 }
 
 /// A device.
@@ -296,9 +322,9 @@ pub struct EntryView {
     pub pdo: &'static str,
     /// Raw default: a number, or a text; empty where there is none.
     pub default: String,
-    /// Raw limits; empty where there are none.
+    /// Raw lower limit; empty where there is none.
     pub low: String,
-    /// The other one.
+    /// Raw upper limit; empty where there is none.
     pub high: String,
     /// One raw step: `0.1 °C`; may be empty.
     pub unit: String,

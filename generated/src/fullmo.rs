@@ -816,7 +816,7 @@ impl Fullmo {
 
     /// `6067h` Position window: Fenster um die Zielposition. Bleibt die Istposition für die Zeit 6068h darin, wird Bit 10 (target reached) des Zustandsworts gesetzt.
     ///
-    /// UNSIGNED32, rw, RPDO, in PU, 4294967295: monitoring off.
+    /// UNSIGNED32, rw, RPDO, in PU, 0xFFFFFFFF: monitoring off.
     #[inline]
     pub fn position_window(
         &self,
@@ -2006,7 +2006,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> IdentityObject<D> {
         /// `1018h.1` Vendor-ID: Number of the manufacturer, assigned by CiA.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 312)
@@ -2014,7 +2014,7 @@ pub mod records {
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn product_code(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 316)
@@ -3970,7 +3970,7 @@ pub mod records {
 /// PDOs with their default mappings.
 #[allow(dead_code, unreachable_pub)]
 pub mod pdos {
-    /// RPDO 1: COB-ID 200h + node-ID, transmission type 255; parameters `1400h` and `1600h`.
+    /// RPDO 1: CAN-ID $NODEID+0x200, transmission type 255; parameters `1400h` and `1600h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo1 {
@@ -4020,7 +4020,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo1::MAPPING).div_ceil(8) == Rpdo1::LENGTH
     );
 
-    /// RPDO 2: COB-ID 300h + node-ID, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
+    /// RPDO 2: CAN-ID $NODEID+0x300, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo2 {
@@ -4077,7 +4077,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo2::MAPPING).div_ceil(8) == Rpdo2::LENGTH
     );
 
-    /// RPDO 3: COB-ID 400h + node-ID, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
+    /// RPDO 3: CAN-ID $NODEID+0x400, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo3 {
@@ -4134,7 +4134,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo3::MAPPING).div_ceil(8) == Rpdo3::LENGTH
     );
 
-    /// RPDO 4: COB-ID 500h + node-ID, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
+    /// RPDO 4: CAN-ID $NODEID+0x500, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo4 {
@@ -4191,7 +4191,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo4::MAPPING).div_ceil(8) == Rpdo4::LENGTH
     );
 
-    /// TPDO 1: COB-ID 180h + node-ID, transmission type 255; parameters `1800h` and `1A00h`.
+    /// TPDO 1: CAN-ID $NODEID+0x180, transmission type 255; parameters `1800h` and `1A00h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo1 {
@@ -4249,7 +4249,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo1::MAPPING).div_ceil(8) == Tpdo1::LENGTH
     );
 
-    /// TPDO 2: COB-ID 280h + node-ID, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
+    /// TPDO 2: CAN-ID $NODEID+0x280, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo2 {
@@ -4319,7 +4319,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo2::MAPPING).div_ceil(8) == Tpdo2::LENGTH
     );
 
-    /// TPDO 3: COB-ID 380h + node-ID, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
+    /// TPDO 3: CAN-ID $NODEID+0x380, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo3 {
@@ -4389,7 +4389,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo3::MAPPING).div_ceil(8) == Tpdo3::LENGTH
     );
 
-    /// TPDO 4: COB-ID 480h + node-ID, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
+    /// TPDO 4: CAN-ID $NODEID+0x480, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo4 {
@@ -5867,10 +5867,10 @@ pub mod specials {
 
     super::glue::defmt_text!(HeartbeatOff);
 
-    /// monitoring off (4294967295).
+    /// monitoring off (0xFFFFFFFF).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum MonitoringOff {
-        /// monitoring off: raw value 4294967295.
+        /// monitoring off: raw value 0xFFFFFFFF.
         MonitoringOff,
     }
 

@@ -1110,7 +1110,7 @@ impl Pmc {
 
     /// `6065h` following error window: Largest following error in position control. Staying above it for longer than the following error timeout (6066h) is the error 8611h; the reaction is chosen in 605Eh.
     ///
-    /// UNSIGNED32, rw, in PU, 4294967295: monitoring off, default 100 PU, stored with the application parameters.
+    /// UNSIGNED32, rw, in PU, 0xFFFFFFFF: monitoring off, default 100 PU, stored with the application parameters.
     #[inline]
     pub fn following_error_window(
         &self,
@@ -1213,7 +1213,7 @@ impl Pmc {
 
     /// `6073h` max current: Limit of the motor current, relative to the rated current (6076h). Twice the rated current is usual and the most allowed.
     ///
-    /// UNSIGNED16, rw, in 0.1 %, up to 200.0 %, default 200.0 %, stored with the application parameters.
+    /// UNSIGNED16, rw, in 0.1 %, ≤ 200.0 %, default 200.0 %, stored with the application parameters.
     #[inline]
     pub fn max_current(&self) -> units::Permille<u16> {
         units::Permille(glue::get_u16(&self.0, 438))
@@ -2439,7 +2439,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> StoreParameters<D> {
         /// `1010h.1` Save all parameters: Saves everything that can be saved.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_all_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 528))
@@ -2447,7 +2447,7 @@ pub mod records {
 
         /// `1010h.2` Save communication parameters: Saves 1000h to 1FFFh and the manufacturer's communication parameters.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_communication_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 532))
@@ -2455,7 +2455,7 @@ pub mod records {
 
         /// `1010h.3` Save application parameters: Saves 6000h to 9FFFh and the manufacturer's application parameters.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_application_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 536))
@@ -2463,7 +2463,7 @@ pub mod records {
 
         /// `1010h.4` Save manufacturer defined parameters: Saves a group of parameters that the manufacturer chose.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_manufacturer_defined_parameters(
             &self,
@@ -2514,7 +2514,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> RestoreDefaultParameters<D> {
         /// `1011h.1` Restore all default parameters: Restores everything; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_all_default_parameters(&self) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
@@ -2524,7 +2524,7 @@ pub mod records {
 
         /// `1011h.2` Restore communication default parameters: Restores 1000h to 1FFFh and the manufacturer's communication parameters; takes effect with the next reset of the communication.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_communication_default_parameters(
             &self,
@@ -2536,7 +2536,7 @@ pub mod records {
 
         /// `1011h.3` Restore application default parameters: Restores 6000h to 9FFFh and the manufacturer's application parameters; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_application_default_parameters(
             &self,
@@ -2548,7 +2548,7 @@ pub mod records {
 
         /// `1011h.4` Restore manufacturer defined default parameters: Restores a group of parameters that the manufacturer chose; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_manufacturer_defined_default_parameters(
             &self,
@@ -2604,7 +2604,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> IdentityObject<D> {
         /// `1018h.1` Vendor-ID: Number of the manufacturer, assigned by CiA.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 564)
@@ -2612,7 +2612,7 @@ pub mod records {
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn product_code(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 568)
@@ -3073,7 +3073,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> GearRatio<D> {
         /// `6091h.1` motor revolutions: Revolutions of the motor.
         ///
-        /// UNSIGNED32, rw, up to 32767, default 1, stored with the application parameters.
+        /// UNSIGNED32, rw, ≤ 32767, default 1, stored with the application parameters.
         #[inline]
         pub fn motor_revolutions(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 368)
@@ -3081,7 +3081,7 @@ pub mod records {
 
         /// `6091h.2` shaft revolutions: Revolutions of the gear shaft.
         ///
-        /// UNSIGNED32, rw, up to 32767, default 1, stored with the application parameters.
+        /// UNSIGNED32, rw, ≤ 32767, default 1, stored with the application parameters.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 372)
@@ -3117,7 +3117,7 @@ pub mod records {
 
         /// `6092h.2` shaft revolutions: Revolutions of the gear shaft.
         ///
-        /// UNSIGNED32, rw, up to 32767, default 1, stored with the application parameters.
+        /// UNSIGNED32, rw, ≤ 32767, default 1, stored with the application parameters.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 380)
@@ -3940,7 +3940,7 @@ pub mod records {
 /// PDOs with their default mappings.
 #[allow(dead_code, unreachable_pub)]
 pub mod pdos {
-    /// RPDO 1: COB-ID 200h + node-ID, transmission type 255; parameters `1400h` and `1600h`.
+    /// RPDO 1: CAN-ID $NODEID+0x200, transmission type 255; parameters `1400h` and `1600h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo1 {
@@ -3988,7 +3988,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo1::MAPPING).div_ceil(8) == Rpdo1::LENGTH
     );
 
-    /// RPDO 2: COB-ID 300h + node-ID, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
+    /// RPDO 2: CAN-ID $NODEID+0x300, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo2 {
@@ -4043,7 +4043,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo2::MAPPING).div_ceil(8) == Rpdo2::LENGTH
     );
 
-    /// RPDO 3: COB-ID 400h + node-ID, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
+    /// RPDO 3: CAN-ID $NODEID+0x400, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo3 {
@@ -4098,7 +4098,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo3::MAPPING).div_ceil(8) == Rpdo3::LENGTH
     );
 
-    /// RPDO 4: COB-ID 500h + node-ID, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
+    /// RPDO 4: CAN-ID $NODEID+0x500, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo4 {
@@ -4155,7 +4155,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo4::MAPPING).div_ceil(8) == Rpdo4::LENGTH
     );
 
-    /// TPDO 1: COB-ID 180h + node-ID, transmission type 255; parameters `1800h` and `1A00h`.
+    /// TPDO 1: CAN-ID $NODEID+0x180, transmission type 255; parameters `1800h` and `1A00h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo1 {
@@ -4213,7 +4213,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo1::MAPPING).div_ceil(8) == Tpdo1::LENGTH
     );
 
-    /// TPDO 2: COB-ID 280h + node-ID, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
+    /// TPDO 2: CAN-ID $NODEID+0x280, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo2 {
@@ -4281,7 +4281,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo2::MAPPING).div_ceil(8) == Tpdo2::LENGTH
     );
 
-    /// TPDO 3: COB-ID 380h + node-ID, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
+    /// TPDO 3: CAN-ID $NODEID+0x380, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo3 {
@@ -4349,7 +4349,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo3::MAPPING).div_ceil(8) == Tpdo3::LENGTH
     );
 
-    /// TPDO 4: COB-ID 480h + node-ID, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
+    /// TPDO 4: CAN-ID $NODEID+0x480, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo4 {
@@ -6474,10 +6474,10 @@ pub mod specials {
 
     super::glue::defmt_text!(AsAcceleration);
 
-    /// monitoring off (4294967295).
+    /// monitoring off (0xFFFFFFFF).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum MonitoringOff {
-        /// monitoring off: raw value 4294967295.
+        /// monitoring off: raw value 0xFFFFFFFF.
         MonitoringOff,
     }
 
@@ -6809,8 +6809,8 @@ pub mod units {
     }
 
     super::glue::unit! {
-        #[doc = " reciprocal second: one raw step is 1/s."] pub struct ReciprocalSecond =
-        "1/s", scale 1 / 1, step 1 / 1 of Base1Pers;
+        #[doc = " reciprocal second: one raw step is 1 1/s."] pub struct ReciprocalSecond
+        = "1/s", scale 1 / 1, step 1 / 1 of Base1Pers;
     }
 
     super::glue::unit! {

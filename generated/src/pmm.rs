@@ -1322,7 +1322,7 @@ impl Pmm {
 
     /// `30E3h` selftest time: Cycle time of the automatic battery test, at least 60 minutes. The result is in test status (3005h) and 3068h.
     ///
-    /// UNSIGNED16, rw, in min, from 60 min, 0: automatic test off, default 0 (automatic test off), stored with the application parameters.
+    /// UNSIGNED16, rw, in min, ≥ 60 min, 0: automatic test off, default 0 (automatic test off), stored with the application parameters.
     #[inline]
     pub fn selftest_time(
         &self,
@@ -2313,7 +2313,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> StoreParameters<D> {
         /// `1010h.1` Save all parameters: Saves everything that can be saved.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_all_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 504))
@@ -2321,7 +2321,7 @@ pub mod records {
 
         /// `1010h.2` Save communication parameters: Saves 1000h to 1FFFh and the manufacturer's communication parameters.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_communication_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 508))
@@ -2329,7 +2329,7 @@ pub mod records {
 
         /// `1010h.3` Save application parameters: Saves 6000h to 9FFFh and the manufacturer's application parameters.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_application_parameters(&self) -> super::types::StoreCapability {
             super::types::StoreCapability(super::glue::get_u32(&self.0.borrow().0, 512))
@@ -2337,7 +2337,7 @@ pub mod records {
 
         /// `1010h.4` Save manufacturer defined parameters: Saves a group of parameters that the manufacturer chose.
         ///
-        /// UNSIGNED32, rw, 1702257011: save.
+        /// UNSIGNED32, rw, 0x65766173: save.
         #[inline]
         pub fn save_manufacturer_defined_parameters(
             &self,
@@ -2388,7 +2388,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> RestoreDefaultParameters<D> {
         /// `1011h.1` Restore all default parameters: Restores everything; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_all_default_parameters(&self) -> super::types::RestoreCapability {
             super::types::RestoreCapability(
@@ -2398,7 +2398,7 @@ pub mod records {
 
         /// `1011h.2` Restore communication default parameters: Restores 1000h to 1FFFh and the manufacturer's communication parameters; takes effect with the next reset of the communication.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_communication_default_parameters(
             &self,
@@ -2410,7 +2410,7 @@ pub mod records {
 
         /// `1011h.3` Restore application default parameters: Restores 6000h to 9FFFh and the manufacturer's application parameters; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_application_default_parameters(
             &self,
@@ -2422,7 +2422,7 @@ pub mod records {
 
         /// `1011h.4` Restore manufacturer defined default parameters: Restores a group of parameters that the manufacturer chose; takes effect with the next reset of the node.
         ///
-        /// UNSIGNED32, rw, 1684107116: load.
+        /// UNSIGNED32, rw, 0x64616F6C: load.
         #[inline]
         pub fn restore_manufacturer_defined_default_parameters(
             &self,
@@ -2478,7 +2478,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> IdentityObject<D> {
         /// `1018h.1` Vendor-ID: Number of the manufacturer, assigned by CiA.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 540)
@@ -2486,7 +2486,7 @@ pub mod records {
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
         ///
-        /// UNSIGNED32, ro, default 0.
+        /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn product_code(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, 544)
@@ -4164,7 +4164,7 @@ pub mod records {
 /// PDOs with their default mappings.
 #[allow(dead_code, unreachable_pub)]
 pub mod pdos {
-    /// RPDO 1: COB-ID 200h + node-ID, transmission type 255, off after a factory reset; parameters `1400h` and `1600h`.
+    /// RPDO 1: CAN-ID $NODEID+0x200, transmission type 255, off after a factory reset; parameters `1400h` and `1600h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo1 {}
@@ -4204,7 +4204,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo1::MAPPING).div_ceil(8) == Rpdo1::LENGTH
     );
 
-    /// RPDO 2: COB-ID 300h + node-ID, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
+    /// RPDO 2: CAN-ID $NODEID+0x300, transmission type 255, off after a factory reset; parameters `1401h` and `1601h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo2 {}
@@ -4244,7 +4244,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo2::MAPPING).div_ceil(8) == Rpdo2::LENGTH
     );
 
-    /// RPDO 3: COB-ID 400h + node-ID, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
+    /// RPDO 3: CAN-ID $NODEID+0x400, transmission type 255, off after a factory reset; parameters `1402h` and `1602h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo3 {}
@@ -4284,7 +4284,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo3::MAPPING).div_ceil(8) == Rpdo3::LENGTH
     );
 
-    /// RPDO 4: COB-ID 500h + node-ID, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
+    /// RPDO 4: CAN-ID $NODEID+0x500, transmission type 255, off after a factory reset; parameters `1403h` and `1603h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Rpdo4 {}
@@ -4324,7 +4324,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Rpdo4::MAPPING).div_ceil(8) == Rpdo4::LENGTH
     );
 
-    /// TPDO 1: COB-ID 180h + node-ID, transmission type 255, off after a factory reset; parameters `1800h` and `1A00h`.
+    /// TPDO 1: CAN-ID $NODEID+0x180, transmission type 255, off after a factory reset; parameters `1800h` and `1A00h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo1 {}
@@ -4370,7 +4370,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo1::MAPPING).div_ceil(8) == Tpdo1::LENGTH
     );
 
-    /// TPDO 2: COB-ID 280h + node-ID, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
+    /// TPDO 2: CAN-ID $NODEID+0x280, transmission type 255, off after a factory reset; parameters `1801h` and `1A01h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo2 {}
@@ -4416,7 +4416,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo2::MAPPING).div_ceil(8) == Tpdo2::LENGTH
     );
 
-    /// TPDO 3: COB-ID 380h + node-ID, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
+    /// TPDO 3: CAN-ID $NODEID+0x380, transmission type 255, off after a factory reset; parameters `1802h` and `1A02h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo3 {}
@@ -4462,7 +4462,7 @@ pub mod pdos {
         super::glue::pdo::mapped_bits(Tpdo3::MAPPING).div_ceil(8) == Tpdo3::LENGTH
     );
 
-    /// TPDO 4: COB-ID 480h + node-ID, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
+    /// TPDO 4: CAN-ID $NODEID+0x480, transmission type 255, off after a factory reset; parameters `1803h` and `1A03h`.
     ///
     #[derive(Debug, Clone, Copy, PartialEq)]
     pub struct Tpdo4 {}

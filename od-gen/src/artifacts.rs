@@ -1,7 +1,7 @@
 //! The files that a specification becomes for PLC tools and programs.
 
 use od_spec::Commissioning;
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Devices, Dictionary, System};
 
 use crate::{Artifact, eds, json};
 
@@ -16,8 +16,8 @@ pub struct Selection<'a> {
 
 /// The files of one specification: an EDS per device, perhaps a DCF, and the JSON dump under the name `stem`.
 pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
-    let wanted =
-        |device: &&Dictionary| selection.devices.is_empty() || selection.devices.contains(&device.key);
+    let devices = Devices::listed(selection.devices);
+    let wanted = |device: &&Dictionary| devices.includes(&device.key);
     // The dump is half of the work, and independent of the rest.
     std::thread::scope(|scope| {
         let files = scope.spawn(|| {

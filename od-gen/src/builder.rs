@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use od_spec::Compiled;
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
-use od_spec::model::Dictionary;
+use od_spec::model::Devices;
 use od_spec::source::SourceMap;
 
 use crate::expand::unknown_device;
@@ -163,8 +163,8 @@ impl Builder {
             for key in self.devices.iter().filter(|key| system.device(key).is_none()) {
                 diagnostics.push(unknown_device(key, &system.devices));
             }
-            let wanted = |device: &&Dictionary| self.devices.is_empty() || self.devices.contains(&device.key);
-            let devices = system.devices.iter().filter(wanted);
+            let wanted = Devices::listed(&self.devices);
+            let devices = system.devices.iter().filter(|device| wanted.includes(&device.key));
             let provenance = Provenance::of(&sources);
             let layout = if self.unformatted { rust::plain_file } else { rust::file };
             let mut files = rust::modules(&system, devices, &provenance, layout, &mut diagnostics);

@@ -2,19 +2,19 @@
 
 pub use docs_gen::{Format, Options, TemplateError, Templates};
 
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Devices, System};
 use serde::Serialize;
 
 use crate::{Artifact, rust};
 
 /// What documents of these devices show; no key means all devices.
 pub fn options(system: &System, devices: &[String], language: Option<&str>) -> Options {
-    let chosen = |device: &&Dictionary| devices.is_empty() || devices.contains(&device.key);
+    let devices = Devices::listed(devices);
+    let chosen = system.devices.iter().filter(|device| devices.includes(&device.key));
     let mut options =
-        Options { devices: devices.to_vec(), language: language.map(str::to_owned), ..Options::default() };
-    for device in system.devices.iter().filter(chosen) {
-        let accessors = rust::accessors(system, device).into_iter();
-        options.accessors.extend(accessors.map(|(id, call)| ((device.key.clone(), id), call)));
+        Options { devices: devices.clone(), language: language.map(str::to_owned), ..Options::default() };
+    for device in chosen {
+        options.accessors.insert(device.key.clone(), rust::accessors(system, device).into_iter().collect());
     }
     options
 }

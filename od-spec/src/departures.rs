@@ -2,10 +2,12 @@
 
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::System;
+use crate::wording::{Notation, Wording};
 
 /// A note for each object that says something else than the library it is taken from. Objects that devices share are noted
 /// once.
 pub fn departures(system: &System) -> Diagnostics {
+    let words = Wording::english(Notation::Diagnostic);
     let mut notes = Diagnostics::new();
     let mut seen = std::collections::BTreeSet::new();
     for object in system.devices.iter().flat_map(|device| device.objects.values()) {
@@ -13,7 +15,8 @@ pub fn departures(system: &System) -> Diagnostics {
             continue;
         };
         if seen.insert((object.index, object.span.start)) {
-            let departures: Vec<String> = object.departures.iter().map(ToString::to_string).collect();
+            let departures: Vec<String> =
+                object.departures.iter().map(|departure| words.departure(*departure)).collect();
             notes.push(Diagnostic::new(
                 codes::DEPARTURE,
                 object.span,

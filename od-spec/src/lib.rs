@@ -44,6 +44,7 @@ mod reference;
 mod resolve;
 pub mod scalar;
 pub mod source;
+pub mod wording;
 pub mod yaml;
 
 pub use check::codes as rule_codes;

@@ -116,8 +116,10 @@ for (const device of dump.devices) {
         // A raw number, or hexadecimal digits of it, or a physical value with the raw one behind it.
         const shown = cell(say.default), raw = entry.default.raw;
         const numbers = [shown, shown.split(/[ :]/)[0], shown.match(/\((-?\d+)\)$/)?.[1]].map(numberIn);
-        const digits = /^[0-9A-F ]+h$/.test(shown) ? Number(`0x${shown.replace(/[ h]/g, "")}`) : NaN;
-        check(numbers.includes(raw) || digits === raw || digits - 2 ** (4 * shown.replace(/[ h]/g, "").length) === raw,
+        // The name of a special value follows in brackets.
+        const pattern = shown.split(" (")[0], hexadecimal = pattern.replace(/[ h]/g, "");
+        const digits = /^[0-9A-F ]+h$/.test(pattern) ? Number(`0x${hexadecimal}`) : NaN;
+        check(numbers.includes(raw) || digits === raw || digits - 2 ** (4 * hexadecimal.length) === raw,
           `${place} default ${shown}, raw ${raw}`);
       }
     }

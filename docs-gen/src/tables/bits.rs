@@ -1,14 +1,14 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
 use od_spec::model::{
-    BitErrors, BitField, BitUsage, DataType, Dictionary, Edge, Entry, EnumValue, NamedType, Object,
+    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EnumValue, NamedType, Object,
 };
 
 use super::Columns;
-use super::objects::keys;
+use super::variants::device_keys;
 use crate::cell::entry_anchor;
 use crate::language::Word;
-use crate::source::{Source, enum_number, hex};
+use crate::source::Source;
 use crate::view::{BitBox, BitPicture, BitPictureRow, Cell, Grid, Row};
 
 impl Source<'_> {
@@ -80,35 +80,39 @@ impl Source<'_> {
     /// Error codes of a bit: those of the type, then those of each entry that has the type. Where devices differ, they are
     /// named.
     fn codes(&self, named: &NamedType, field: &BitField) -> Cell {
-        let mut cell = Cell::plain(list(&field.error_codes().collect::<Vec<_>>()));
-        let of = |entry: &Entry| -> Vec<u16> {
-            let own =
+        let mut cell = Cell::plain(self.error_codes(&field.error_codes().collect::<Vec<_>>()));
+        let codes_of = |entry: &Entry| -> Vec<u16> {
+            let of_field =
                 entry.bit_errors.iter().filter(|errors| (field.first..=field.last).contains(&errors.bit));
-            own.flat_map(BitErrors::error_codes).collect()
+            of_field.flat_map(BitErrors::error_codes).collect()
         };
         for id in self.with_bit_errors(&named.name).iter().copied() {
-            let entry = |device: &Dictionary| {
+            let codes_on = |device: &Dictionary| {
                 let entry = device.entry(id)?;
-                let shares = entry.named_type.as_ref().is_some_and(|other| other.name == named.name);
-                shares.then(|| of(entry))
+                let has_type = entry.named_type.as_ref().is_some_and(|its_type| its_type.name == named.name);
+                has_type.then(|| codes_of(entry))
             };
-            let mut variants = self.variants(id.index, |device, _| entry(device));
+            let mut variants = self.variants(id.index, |device, _| codes_on(device));
             let several = variants.len() > 1;
             variants.retain(|devices| {
-                devices.first().and_then(|device| entry(device)).is_some_and(|own| !own.is_empty())
+                devices.first().and_then(|device| codes_on(device)).is_some_and(|codes| !codes.is_empty())
             });
             for devices in variants {
                 let Some(device) = devices.first() else { continue };
-                let place = if several { format!("{} {id}", keys(&devices)) } else { id.to_string() };
-                let key = std::slice::from_ref(&device.key);
-                let codes = list(&entry(device).unwrap_or_default());
+                let place = if several { format!("{} {id}", device_keys(&devices)) } else { id.to_string() };
+                let codes = self.error_codes(&codes_on(device).unwrap_or_default());
                 cell = cell
                     .line()
-                    .and(self.link_on(key, id.index, place, entry_anchor(id)))
+                    .and(self.link_on(&Devices::one(&device.key), id.index, place, entry_anchor(id)))
                     .text(format!(": {codes}"));
             }
         }
         cell
+    }
+
+    /// Error codes, separated by commas.
+    fn error_codes(&self, codes: &[u16]) -> String {
+        codes.iter().map(|code| self.error_code(*code)).collect::<Vec<_>>().join(", ")
     }
 
     /// The values of an enum.
@@ -117,7 +121,7 @@ impl Source<'_> {
             .iter()
             .map(|value| {
                 Row::of(vec![
-                    Cell::plain(enum_number(base, value.value)),
+                    Cell::plain(self.wording.enum_number(base, value.value)),
                     Cell::plain(&value.name),
                     self.text(&value.about),
                     if value.supported { Cell::default() } else { Cell::plain(self.word(Word::No)) },
@@ -142,11 +146,6 @@ pub(crate) fn types_of(object: &Object) -> Vec<&NamedType> {
         }
     }
     types
-}
-
-/// Error codes, separated by commas.
-pub(crate) fn list(codes: &[u16]) -> String {
-    codes.iter().map(|code| hex(u128::from(*code), 4)).collect::<Vec<_>>().join(", ")
 }
 
 /// A register in rows of 16 bits, the highest first.

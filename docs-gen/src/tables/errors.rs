@@ -1,13 +1,13 @@
 //! Error codes and what the devices do about them.
 
-use od_spec::model::{Dictionary, ErrorCode};
+use od_spec::model::{Devices, Dictionary, ErrorCode};
 
 use super::Columns;
-use super::objects::keys;
+use super::variants::device_keys;
 use crate::cell::entry_anchor;
 use crate::language::Word;
-use crate::source::{Source, hex};
-use crate::view::{Cell, Grid, Row};
+use crate::source::Source;
+use crate::view::{Align, Cell, Grid, Row};
 
 /// Where links to an error code lead.
 pub(crate) fn anchor(code: u16) -> String {
@@ -15,16 +15,18 @@ pub(crate) fn anchor(code: u16) -> String {
 }
 
 impl Source<'_> {
+    /// An error code as people know it: `8611h`.
+    pub(crate) fn error_code(&self, code: u16) -> String {
+        self.wording.hexadecimal(code.into(), 4)
+    }
+
     /// The wanted codes of the devices shown; none means all.
     fn wanted(&self, codes: &[u16]) -> impl Iterator<Item = &ErrorCode> {
-        let shown = |error: &&ErrorCode| {
-            error.devices.is_empty() || self.devices.iter().any(|device| error.devices.contains(&device.key))
-        };
         self.system
             .errors
             .iter()
             .filter(move |error| codes.is_empty() || codes.contains(&error.code))
-            .filter(shown)
+            .filter(|error| self.shows_any(&error.devices))
     }
 
     /// One row per code, with a column for each device.
@@ -33,7 +35,7 @@ impl Source<'_> {
             Columns::new().left(self, "code", Word::AlarmCode).left(self, "name", Word::Meaning);
         if self.devices.len() > 1 {
             for device in &self.devices {
-                columns = columns.with("device", device.key.to_uppercase(), "center");
+                columns = columns.with("device", device.key.to_uppercase(), Align::Center);
             }
         }
         let columns =
@@ -41,11 +43,10 @@ impl Source<'_> {
         let rows = self
             .wanted(codes)
             .map(|error| {
-                let mut cells = vec![code(error.code), Cell::plain(&error.name)];
+                let mut cells = vec![Cell::plain(self.error_code(error.code)), Cell::plain(&error.name)];
                 if self.devices.len() > 1 {
                     cells.extend(self.devices.iter().map(|device| {
-                        let has = error.devices.is_empty() || error.devices.contains(&device.key);
-                        Cell::plain(if has { "X" } else { "" })
+                        Cell::plain(if error.devices.includes(&device.key) { "X" } else { "" })
                     }));
                 }
                 cells.push(error.priority.as_ref().map_or_else(Cell::default, Cell::plain));
@@ -63,7 +64,7 @@ impl Source<'_> {
             .map(|error| {
                 Row::of(vec![
                     Cell::plain(&error.name),
-                    Cell::default().link(hex(u128::from(error.code), 4), anchor(error.code), "errors"),
+                    Cell::default().link(self.error_code(error.code), anchor(error.code), "errors"),
                     self.text(&error.reaction),
                 ])
             })
@@ -80,18 +81,15 @@ impl Source<'_> {
         let rows = self
             .wanted(&[])
             .map(|error| {
-                let devices: Vec<String> = self
-                    .devices
-                    .iter()
-                    .filter(|device| error.devices.is_empty() || error.devices.contains(&device.key))
-                    .map(|device| device.key.to_uppercase())
-                    .collect();
+                let devices = self.devices.iter().copied();
+                let devices: Vec<&Dictionary> =
+                    devices.filter(|device| error.devices.includes(&device.key)).collect();
                 Row {
                     anchor: anchor(error.code),
                     ..Row::of(vec![
-                        code(error.code),
+                        Cell::plain(self.error_code(error.code)),
                         Cell::plain(&error.name),
-                        Cell::plain(devices.join(", ")),
+                        Cell::plain(device_keys(&devices)),
                         error.priority.as_ref().map_or_else(Cell::default, Cell::plain),
                         self.text(&error.reaction),
                         self.reported_by(error.code),
@@ -122,18 +120,17 @@ impl Source<'_> {
             for devices in &variants {
                 let Some(device) = devices.first() else { continue };
                 for bit in bits(device) {
-                    let place =
-                        if variants.len() > 1 { format!("{} {id}", keys(devices)) } else { id.to_string() };
-                    let key = std::slice::from_ref(&device.key);
-                    cell = cell.line().and(self.link_on(key, id.index, place, entry_anchor(id)));
+                    let place = if variants.len() > 1 {
+                        format!("{} {id}", device_keys(devices))
+                    } else {
+                        id.to_string()
+                    };
+                    let of_device = Devices::one(&device.key);
+                    cell = cell.line().and(self.link_on(&of_device, id.index, place, entry_anchor(id)));
                     cell = cell.text(format!(" {} {bit}", self.word(Word::Bit)));
                 }
             }
         }
         cell
     }
-}
-
-fn code(code: u16) -> Cell {
-    Cell::plain(hex(u128::from(code), 4))
 }

@@ -4,8 +4,8 @@ use od_spec::model::{BitPattern, Dictionary, Entry, EntryId, PatternBit, StateMa
 
 use super::Columns;
 use crate::language::Word;
-use crate::source::{Source, bit_pattern};
-use crate::view::{Cell, Grid, Row};
+use crate::source::Source;
+use crate::view::{Align, Cell, Grid, Row};
 
 /// A pattern in groups of four bits, most significant first: `xxxx xxxx x01x 0001`.
 fn pattern(pattern: &BitPattern) -> String {
@@ -50,7 +50,7 @@ impl Source<'_> {
         let title =
             self.name_of(machine, machine.status).unwrap_or_else(|| self.word(Word::Pattern).to_owned());
         Columns::new()
-            .with("pattern", title, "left")
+            .with("pattern", title, Align::Left)
             .left(self, "state", Word::State)
             .left(self, "meaning", Word::Meaning)
             .grid(rows, &["pattern", "state"])
@@ -95,8 +95,11 @@ impl Source<'_> {
         let mut columns = Columns::new().left(self, "command", Word::Command);
         for bit in &bits {
             let name = self.bit_name(machine, *bit).unwrap_or_default();
-            columns =
-                columns.with("bit", format!("{} {bit} {name}", self.word(Word::Bit)).trim_end(), "center");
+            columns = columns.with(
+                "bit",
+                format!("{} {bit} {name}", self.word(Word::Bit)).trim_end(),
+                Align::Center,
+            );
         }
         let columns = columns
             .left(self, "send", Word::Send)
@@ -111,7 +114,7 @@ impl Source<'_> {
                 cells.extend(bits.iter().map(|bit| Cell::plain(level(bit_of(&command.pattern, *bit)))));
                 let send = command.send.zip(data_type);
                 cells.push(send.map_or_else(Cell::default, |(value, data_type)| {
-                    Cell::plain(bit_pattern(data_type, i128::from(value)))
+                    Cell::plain(self.wording.pattern(data_type, i128::from(value)))
                 }));
                 let transitions: Vec<String> = command.transitions.iter().map(u8::to_string).collect();
                 cells.push(Cell::plain(transitions.join(", ")));
@@ -124,8 +127,7 @@ impl Source<'_> {
 
     /// The devices shown that have the machine.
     fn having<'b>(&'b self, machine: &'b StateMachine) -> impl Iterator<Item = &'b Dictionary> {
-        let has = |device: &&Dictionary| machine.devices.is_empty() || machine.devices.contains(&device.key);
-        self.devices.iter().copied().filter(has)
+        self.devices.iter().copied().filter(|device| machine.devices.includes(&device.key))
     }
 
     fn name_of(&self, machine: &StateMachine, id: EntryId) -> Option<String> {

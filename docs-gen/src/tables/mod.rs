@@ -7,36 +7,43 @@ pub(crate) mod objects;
 pub(crate) mod overview;
 pub(crate) mod pdos;
 pub(crate) mod texts;
+pub(crate) mod variants;
 
 use od_spec::model::{Constraint, Dictionary, Index, TableContent, TableId, TypeKind};
 
 use crate::language::Word;
-use crate::source::{Source, kind_of};
-use crate::view::{Cell, Column, Grid, Row, Table};
+use crate::outline::{kind_of, table_anchor};
+use crate::source::Source;
+use crate::view::{Align, Cell, Column, Grid, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.
 pub(crate) struct Columns(Vec<Column>);
 
 impl Columns {
+    /// No columns yet.
     pub(crate) const fn new() -> Self {
         Self(Vec::new())
     }
 
-    pub(crate) fn with(mut self, key: &'static str, title: impl Into<String>, align: &'static str) -> Self {
+    /// With a column of its own title behind the others.
+    pub(crate) fn with(mut self, key: &'static str, title: impl Into<String>, align: Align) -> Self {
         self.0.push(Column { key, title: title.into(), align });
         self
     }
 
+    /// With a column of texts.
     pub(crate) fn left(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
-        self.with(key, source.word(word), "left")
+        self.with(key, source.word(word), Align::Left)
     }
 
+    /// With a column of numbers.
     pub(crate) fn right(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
-        self.with(key, source.word(word), "right")
+        self.with(key, source.word(word), Align::Right)
     }
 
+    /// With a column of marks.
     pub(crate) fn center(self, source: &Source<'_>, key: &'static str, word: Word) -> Self {
-        self.with(key, source.word(word), "center")
+        self.with(key, source.word(word), Align::Center)
     }
 
     /// A grid of these columns without those that nothing fills, apart from those that always stand.
@@ -134,7 +141,7 @@ impl Source<'_> {
             return None;
         }
         Some(Table {
-            anchor: self.table_anchor(id),
+            anchor: table_anchor(self.document(), id),
             number: table.number,
             title: self.text(&table.title),
             about,
@@ -157,10 +164,7 @@ impl Source<'_> {
 
     /// The constraints that name a device shown.
     pub(crate) fn shown_constraints(&self) -> impl Iterator<Item = &Constraint> {
-        self.system.constraints.iter().filter(|constraint| {
-            constraint.devices.is_empty()
-                || self.devices.iter().any(|device| constraint.devices.contains(&device.key))
-        })
+        self.system.constraints.iter().filter(|constraint| self.shows_any(&constraint.devices))
     }
 
     /// Numbers of the errata whose place names the table.
@@ -180,10 +184,8 @@ impl Source<'_> {
         tables.next().is_some_and(|(first, ..)| first == id)
     }
 
+    /// A state machine, if a device shown has it.
     pub(crate) fn machine(&self, name: &str) -> Option<&od_spec::model::StateMachine> {
-        let machine = self.system.machines.get(name)?;
-        let shown = machine.devices.is_empty()
-            || self.devices.iter().any(|device| machine.devices.contains(&device.key));
-        shown.then_some(machine)
+        self.system.machines.get(name).filter(|machine| self.shows_any(&machine.devices))
     }
 }

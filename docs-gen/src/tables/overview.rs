@@ -2,33 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use od_spec::model::{Access, Entry, Index, Object, PdoMapping};
+use od_spec::model::{Entry, Index, Object};
 
 use super::Columns;
-use super::objects::keys;
+use super::variants::device_keys;
 use crate::cell::object_anchor;
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::{Cell, Grid, Row};
-
-/// Access in the words of a manual: `r(w)` for an entry that is writable only when unlocked.
-pub(crate) fn access(entry: &Entry) -> String {
-    match (entry.locked, entry.access) {
-        (true, Access::Wo) => "(w)".to_owned(),
-        (true, _) => "r(w)".to_owned(),
-        (false, access) => access.word().to_owned(),
-    }
-}
-
-/// Whether an entry can be mapped, and into which PDOs.
-pub(crate) const fn mapping(pdo: PdoMapping) -> &'static str {
-    match pdo {
-        PdoMapping::None => "N",
-        PdoMapping::Receive => "Y (R)",
-        PdoMapping::Transmit => "Y (T)",
-        PdoMapping::Both => "Y (RT)",
-    }
-}
 
 /// What differs among the entries of an object, each once and in order; the count at sub-index 0 does not matter.
 pub(crate) fn among<T: Ord>(object: &Object, fact: impl Fn(&Entry) -> T) -> Vec<T> {
@@ -58,7 +39,7 @@ impl Source<'_> {
                 };
                 let mut row = self.overview_row(object);
                 if let Some(cell) = row.cells.last_mut().filter(|_| variants.len() > 1) {
-                    *cell = Cell::plain(keys(devices));
+                    *cell = Cell::plain(device_keys(devices));
                 }
                 rows.push(row);
             }
@@ -91,7 +72,7 @@ impl Source<'_> {
                 Cell::plain(object.kind.name()),
                 Cell::plain(&object.name),
                 Cell::plain(among(object, |entry| entry.data_type.name()).join(", ")),
-                Cell::plain(among(object, access).join(", ")),
+                Cell::plain(among(object, |entry| self.wording.access(entry)).join(", ")),
                 Cell::plain(if stored { "Y" } else { "N" }),
                 Cell::default(),
             ],

@@ -1,11 +1,11 @@
 //! Factory PDOs in the form of a manual: a row for the number of mapped entries, then a row for each of them.
 
-use od_spec::model::{DataType, Dictionary, Direction, Pdo, PdoTarget, Ratio, Value};
+use od_spec::model::{DataType, Dictionary, Direction, Index, Pdo, PdoTarget, Ratio};
 
 use super::Columns;
 use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
-use crate::source::{Source, hex};
+use crate::source::Source;
 use crate::view::{Cell, Grid, PdoField, PdoView, Row, Table};
 
 /// `rpdo-1`
@@ -13,12 +13,8 @@ pub(crate) fn anchor(pdo: &Pdo) -> String {
     format!("{}-{}", pdo.direction.pdo().to_lowercase(), pdo.number)
 }
 
-/// A mapping parameter as its parts: `6040 00 10h`.
-pub(crate) fn parameter(raw: u32) -> String {
-    format!("{:04X} {:02X} {:02X}h", raw >> 16, raw >> 8 & 0xFF, raw & 0xFF)
-}
-
 impl Source<'_> {
+    /// A row for each PDO of a direction, followed by one for each of its fields.
     pub(crate) fn pdo_rows(&self, device: &Dictionary, direction: Direction) -> Grid {
         let mut rows = Vec::new();
         for pdo in device.pdos_of(direction) {
@@ -26,9 +22,9 @@ impl Source<'_> {
                 anchor: String::new(),
                 ..Row::of(vec![
                     Cell::plain(format!("{} {}", direction.pdo(), pdo.number)),
-                    Cell::plain(self.cob_id_entry(pdo)),
+                    Cell::plain(self.wording.cob_id_entry(&pdo.cob_id)),
                     Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No })),
-                    Cell::plain(hex(u128::from(pdo.mapping_index()), 4)),
+                    Cell::plain(Index(pdo.mapping_index()).to_string()),
                     Cell::plain("0"),
                     Cell::plain(pdo.map.len().to_string()),
                     Cell::default(),
@@ -37,7 +33,7 @@ impl Source<'_> {
             for (at, mapped) in pdo.map.iter().enumerate() {
                 let mut cells = vec![Cell::default(); 4];
                 cells.push(Cell::plain((at + 1).to_string()));
-                cells.push(Cell::plain(parameter(mapped.parameter())));
+                cells.push(Cell::plain(self.wording.mapping_parameter(mapped.parameter())));
                 cells.push(match mapped.target {
                     PdoTarget::Entry(id) => Cell::default().link(
                         device.entry_name(id).unwrap_or_default(),
@@ -60,54 +56,35 @@ impl Source<'_> {
             .full(rows)
     }
 
-    /// The COB-ID entry with its flag bits: `80000300h + node-ID`.
-    fn cob_id_entry(&self, pdo: &Pdo) -> String {
-        let digits = |raw: u128| if raw > 0xFFFF { 8 } else { 3 };
-        match &pdo.cob_id {
-            Value::NodeId(offset) => {
-                let raw = u128::from(*offset);
-                format!("{} + {}", hex(raw, digits(raw)), self.word(Word::NodeId))
-            }
-            other => other
-                .integer()
-                .map_or_else(String::new, |raw| hex(raw.unsigned_abs(), digits(raw.unsigned_abs()))),
-        }
-    }
-
-    /// The CAN-ID alone.
-    fn can_id(&self, pdo: &Pdo) -> String {
-        match &pdo.cob_id {
-            Value::NodeId(offset) => {
-                format!("{} + {}", hex(u128::from(*offset & 0x1FFF_FFFF), 3), self.word(Word::NodeId))
-            }
-            other => other.integer().map_or_else(String::new, |raw| hex(raw.unsigned_abs() & 0x1FFF_FFFF, 3)),
-        }
-    }
-
     /// A PDO with what is needed to draw it.
     pub(crate) fn pdo(&self, device: &Dictionary, pdo: &Pdo) -> PdoView {
-        let mut start = 0;
-        let fields = pdo.map.iter().map(|mapped| {
-            let width = u32::from(mapped.bits);
-            let (entry, anchor, name) = match mapped.target {
-                PdoTarget::Entry(id) => {
-                    (id.to_string(), entry_anchor(id), device.entry_name(id).unwrap_or_default())
-                }
-                PdoTarget::Dummy(data_type) => (String::new(), String::new(), dummy(data_type)),
-            };
-            let field = PdoField { start, width, entry, anchor, name };
-            start += width;
-            field
+        let fields = pdo.fields().map(|field| {
+            let (start, width) = (field.first_bit, u32::from(field.mapped.bits));
+            match field.mapped.target {
+                PdoTarget::Entry(id) => PdoField {
+                    start,
+                    width,
+                    entry: id.to_string(),
+                    anchor: entry_anchor(id),
+                    name: device.entry_name(id).unwrap_or_default(),
+                },
+                PdoTarget::Dummy(data_type) => PdoField {
+                    start,
+                    width,
+                    entry: String::new(),
+                    anchor: String::new(),
+                    name: dummy(data_type),
+                },
+            }
         });
-        let fields = fields.collect();
         PdoView {
             name: format!("{} {}", pdo.direction.pdo(), pdo.number),
             anchor: anchor(pdo),
             direction: pdo.direction.word(),
-            cob_id: self.can_id(pdo),
+            cob_id: self.wording.can_id(&pdo.cob_id),
             valid: pdo.valid,
             facts: self.pdo_facts(pdo),
-            fields,
+            fields: fields.collect(),
             bits: pdo.bits(),
             about: self.text(&pdo.about),
         }
@@ -115,17 +92,17 @@ impl Source<'_> {
 
     fn pdo_facts(&self, pdo: &Pdo) -> Table {
         let index = |index: u16| {
-            let index = od_spec::model::Index(index);
+            let index = Index(index);
             Cell::default().link(index.to_string(), object_anchor(index), self.home(index))
         };
         let mut rows = vec![
-            (Word::CobId, Cell::plain(self.cob_id_entry(pdo))),
+            (Word::CobId, Cell::plain(self.wording.cob_id_entry(&pdo.cob_id))),
             (Word::Enabled, Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No }))),
             (Word::Transmission, Cell::plain(pdo.transmission.to_string())),
         ];
         if let Some(time) = pdo.inhibit_time {
             let tenths = Ratio::new(i128::from(time), 10).and_then(|ms| ms.to_decimal(1)).unwrap_or_default();
-            rows.push((Word::InhibitTime, Cell::plain(format!("{} ms", self.language.number(&tenths)))));
+            rows.push((Word::InhibitTime, Cell::plain(format!("{} ms", self.wording.decimal(&tenths)))));
         }
         if let Some(timer) = pdo.event_timer {
             rows.push((Word::EventTimer, Cell::plain(format!("{timer} ms"))));

@@ -1,20 +1,21 @@
 //! Tables of text, abbreviations, issues; constraints as ladders.
 
 use od_spec::expr::{Comparison, EntryRef, Term};
-use od_spec::model::{Constraint, Dictionary, EntryId, Ratio, Text};
+use od_spec::model::{Constraint, Devices, Dictionary, EntryId, Ratio, Text};
 
 use super::Columns;
-use super::objects::keys;
+use super::variants::device_keys;
 use crate::cell::entry_anchor;
+use crate::conditions::relation;
 use crate::language::Word;
-use crate::source::{Source, relation};
-use crate::view::{Cell, Grid, Ladder, Row, Rung};
+use crate::source::Source;
+use crate::view::{Align, Cell, Grid, Ladder, Row, Rung};
 
 impl Source<'_> {
     pub(crate) fn rows(&self, columns: &[Text], rows: &[Vec<Text>]) -> Grid {
         let mut titles = Columns::new();
         for title in columns {
-            titles = titles.with("text", self.text(title).text, "left");
+            titles = titles.with("text", self.text(title).text, Align::Left);
         }
         titles
             .full(rows.iter().map(|row| Row::of(row.iter().map(|text| self.text(text)).collect())).collect())
@@ -33,7 +34,7 @@ impl Source<'_> {
         let rows = self.document().history.iter().map(|issue| {
             Row::of(vec![
                 Cell::plain(&issue.number),
-                Cell::plain(self.language.date(issue.date)),
+                Cell::plain(self.wording.language.date(issue.date)),
                 self.text(&issue.about),
             ])
         });
@@ -55,18 +56,18 @@ impl Source<'_> {
                     let name = devices.first().and_then(|device| device.entry_name(entry.id));
                     cells.push(Cell::plain(self.defaults(&devices, entry.id)));
                     cells.push(Cell::plain(name.unwrap_or_default()));
-                    let meant: Vec<String> = devices.iter().map(|device| device.key.clone()).collect();
+                    let linked = Devices::Only(devices.iter().map(|device| device.key.clone()).collect());
                     cells.push(self.link_on(
-                        &meant,
+                        &linked,
                         entry.id.index,
                         entry.id.to_string(),
                         entry_anchor(entry.id),
                     ));
                     let several = self.system.devices.len() > 1;
-                    cells.push(Cell::plain(if several { keys(&devices) } else { String::new() }));
+                    cells.push(Cell::plain(if several { device_keys(&devices) } else { String::new() }));
                 } else {
                     let symbol = self.symbol_of(constraint, comparison);
-                    cells.push(self.term(Cell::default(), term, &constraint.devices, 0, &symbol));
+                    cells.push(self.term(term, &constraint.devices, &symbol));
                     cells.extend(vec![Cell::default(); 3]);
                 }
                 rows.push(Row::of(cells));
@@ -83,12 +84,12 @@ impl Source<'_> {
 
     /// The devices whose entry a constraint means: those that are shown, or else any.
     fn devices_of(&self, constraint: &Constraint, entry: &EntryRef) -> Vec<&Dictionary> {
-        let meant = |device: &&Dictionary| match &entry.device {
+        let is_named = |device: &&Dictionary| match &entry.device {
             Some(key) => device.key == *key,
-            None => constraint.devices.is_empty() || constraint.devices.contains(&device.key),
+            None => constraint.devices.includes(&device.key),
         };
         let has = |device: &&Dictionary| device.entry(entry.id).is_some();
-        let shown: Vec<&Dictionary> = self.devices.iter().copied().filter(meant).filter(has).collect();
+        let shown: Vec<&Dictionary> = self.devices.iter().copied().filter(is_named).filter(has).collect();
         if shown.is_empty() {
             self.device_of(&constraint.devices, entry).into_iter().collect()
         } else {
@@ -98,18 +99,20 @@ impl Source<'_> {
 
     /// The default of an entry; of each device where they differ.
     fn defaults(&self, devices: &[&Dictionary], id: EntryId) -> String {
-        let one = |device: &Dictionary| {
+        let default_on = |device: &Dictionary| {
             device
                 .entry(id)
-                .and_then(|entry| Some(self.value(entry, entry.default.as_ref()?)))
+                .and_then(|entry| Some(self.wording.value(Some(id.index), entry, entry.default.as_ref()?)))
                 .unwrap_or_default()
         };
-        let all: Vec<String> = devices.iter().map(|device| one(device)).collect();
+        let all: Vec<String> = devices.iter().map(|device| default_on(device)).collect();
         match all.as_slice() {
-            [first, rest @ ..] if rest.iter().all(|other| other == first) => first.clone(),
+            [first, rest @ ..] if rest.iter().all(|value| value == first) => first.clone(),
             _ => {
-                let pairs =
-                    all.iter().zip(devices).map(|(value, device)| format!("{value} ({})", keys(&[*device])));
+                let pairs = all
+                    .iter()
+                    .zip(devices)
+                    .map(|(value, device)| format!("{value} ({})", device_keys(&[*device])));
                 pairs.collect::<Vec<_>>().join(", ")
             }
         }
@@ -133,22 +136,22 @@ impl Source<'_> {
             let Term::Entry(entry) = term else { return None };
             let devices = self.devices_of(constraint, entry);
             let (device, others) = devices.split_first()?;
-            let one = device.entry(entry.id)?;
-            // Devices with other defaults would have other ladders.
-            if others
-                .iter()
-                .any(|other| other.entry(entry.id).is_none_or(|entry| entry.default != one.default))
-            {
+            let rung = device.entry(entry.id)?;
+            // Devices with different defaults would have different ladders.
+            let has_same = |device: &&Dictionary| {
+                device.entry(entry.id).is_some_and(|entry| entry.default == rung.default)
+            };
+            if !others.iter().all(has_same) {
                 return None;
             }
-            let raw = one.default.as_ref()?.integer()?;
-            let unit = one.unit.as_ref()?;
+            let raw = rung.default.as_ref()?.integer()?;
+            let unit = rung.unit.as_ref()?;
             if *symbol.get_or_insert_with(|| unit.base_symbol().to_owned()) != unit.base_symbol() {
                 return None;
             }
             values.push(Ratio::whole(raw).checked_mul(unit.step()?)?);
             rungs.push(Rung {
-                value: self.physical(unit, raw),
+                value: self.wording.physical(unit, raw),
                 position: 0,
                 relation,
                 entry: entry.id.to_string(),

@@ -1,9 +1,14 @@
-//! What EDS keys cannot say: units, meanings, bits, storage, locks.
+//! What EDS keys cannot say: units, meanings, bits, storage, locks. Facts are worded by [`od_spec::wording`].
 
-use od_spec::model::{BitField, BitUsage, Dictionary, Entry, Fact, Object, Storage, TypeKind, format_value};
+use od_spec::model::{
+    BitField, BitUsage, Dictionary, Entry, EntryId, Fact, Index, Object, Storage, TypeKind,
+};
+use od_spec::wording::{Notation, Wording};
 
 /// Enums and bit fields up to this many members are listed.
 const MOST_MEMBERS: usize = 40;
+
+const WORDING: Wording = Wording::english(Notation::Eds);
 
 /// Comments above an object's section.
 pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
@@ -11,59 +16,60 @@ pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
 }
 
 /// Comments above an entry's section.
-pub(super) fn entry(device: &Dictionary, entry: &Entry, language: &str) -> Vec<String> {
+pub(super) fn entry(device: &Dictionary, index: Index, entry: &Entry, language: &str) -> Vec<String> {
     let mut lines: Vec<String> = entry.about.get(language).map(ToOwned::to_owned).into_iter().collect();
-    lines.extend(facts(device, entry));
-    let is_bits = matches!(entry.named_type.as_ref().map(|named| &named.kind), Some(TypeKind::Bits(_)));
-    for special in &entry.special {
-        let value = if is_bits { format!("{:X}h", special.value) } else { special.value.to_string() };
-        lines.push(format!("{value}: {}", special.name));
-    }
+    lines.extend(facts(device, index, entry));
+    lines.extend(entry.special.iter().map(|special| WORDING.special(entry, special)));
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) if values.len() <= MOST_MEMBERS => {
             lines.extend(values.iter().map(|value| {
                 let support = if value.supported { "" } else { " (not supported)" };
-                format!("{}: {}{support}", value.value, value.name)
+                format!("{}: {}{support}", WORDING.enum_number(entry.data_type, value.value), value.name)
             }));
         }
         Some(TypeKind::Bits(fields)) if fields.len() <= MOST_MEMBERS => {
             lines.extend(fields.iter().filter_map(bits));
         }
-        _ => {}
+        Some(TypeKind::Enum(_) | TypeKind::Bits(_)) | None => {}
     }
     lines
 }
 
 /// Unit, alias, storage and the like, in one line.
-fn facts(device: &Dictionary, entry: &Entry) -> Option<String> {
+fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
     let mut facts = Vec::new();
     if let Some(unit) = &entry.unit {
-        facts.push(format!("unit {}", unit.step_text()));
+        facts.push(format!("unit {}", WORDING.step(unit)));
     }
     if let Some(alias) = &entry.alias {
-        facts.push(format!(
-            "view of {}",
-            device.entry_name(alias.target).unwrap_or_else(|| alias.target.to_string())
-        ));
+        facts.push(format!("view of {}", target(device, alias.target)));
     }
     if entry.locked {
         facts.push("writable only when unlocked for service".to_owned());
     }
-    match entry.stored {
-        Storage::No => {}
-        Storage::Remanent => facts.push("kept over power-off".to_owned()),
-        stored => facts.push(format!("stored with the {} parameters", stored.word())),
+    if entry.stored != Storage::No {
+        facts.push(WORDING.storage(entry.stored).to_owned());
     }
     if let Some(condition) = &entry.writable_when {
         facts.push(format!("writable only while {}", condition.text));
     }
+    // The keys hold limits that are widened to take in the special values.
+    if entry.hull() != (entry.low, entry.high)
+        && let Some(range) = WORDING.range(index, entry)
+    {
+        facts.push(format!("range {range}, or a special value"));
+    }
     if let (Some(default), false) = (&entry.default, entry.eds.default) {
         let whose =
             if entry.is_only_standard(Fact::Default) { "default of the standard" } else { "factory default" };
-        let shown = format_value(entry, default);
-        facts.push(format!("{whose} {}", if shown.is_empty() { "an empty text" } else { &shown }));
+        facts.push(format!("{whose} {}", WORDING.value(Some(index), entry, default)));
     }
     (!facts.is_empty()).then(|| facts.join("; "))
+}
+
+/// The name of the entry that an alias shows.
+fn target(device: &Dictionary, id: EntryId) -> String {
+    device.entry_name(id).unwrap_or_else(|| id.to_string())
 }
 
 fn bits(field: &BitField) -> Option<String> {

@@ -69,8 +69,10 @@ fn write_object(
     let index = object.index.0;
     if !object.is_structured() {
         for var in &object.entries {
-            let mut section =
-                SectionWriter::new(format!("{index:X}"), &comments::entry(device, var, language));
+            let mut section = SectionWriter::new(
+                format!("{index:X}"),
+                &comments::entry(device, object.index, var, language),
+            );
             entry::write(&mut section, object, var, &object.name, node);
             section.finish(document);
         }
@@ -83,7 +85,7 @@ fn write_object(
     section.finish(document);
     for member in &object.entries {
         let name = format!("{index:X}sub{:X}", member.sub.0);
-        let mut section = SectionWriter::new(name, &comments::entry(device, member, language));
+        let mut section = SectionWriter::new(name, &comments::entry(device, object.index, member, language));
         entry::write(&mut section, object, member, &member.name, node);
         section.finish(document);
     }

@@ -1,6 +1,6 @@
 //! Values in EDS notation (CiA 306 4.3).
 
-use od_spec::model::{DataType, Entry, Object, Origin, TypeKind, Value, format_value};
+use od_spec::model::{DataType, Entry, Object, TypeKind, Value, format_value};
 
 /// How the values of an entry are written.
 pub(super) struct Notation<'a> {
@@ -34,7 +34,7 @@ impl Notation<'_> {
     fn is_hexadecimal(&self) -> bool {
         let data_type = self.entry.data_type;
         let named = self.entry.named_type.as_ref().map(|named| &named.kind);
-        let is_pdo_parameter = self.object.origin == Origin::Pdo && data_type == DataType::Unsigned32;
+        let is_pdo_parameter = self.object.role().is_pdo_parameter() && data_type == DataType::Unsigned32;
         data_type.is_unsigned() && (matches!(named, Some(TypeKind::Bits(_))) || is_pdo_parameter)
     }
 }

@@ -1,12 +1,13 @@
 //! Devices: objects, entries, PDOs.
 
-use od_spec::model::{
-    self, Author, Dictionary, Entry, Fact, Mapped, Object, Pdo, PdoTarget, Value, format_value,
-};
+use od_spec::model::{self, Author, Dictionary, Entry, Index, Mapped, Object, Pdo, PdoTarget, Value};
+use od_spec::wording::{Notation, Wording};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::{Words, date_time, entry_id, index, integer, ratio, words};
+
+const WORDING: Wording = Wording::english(Notation::Json);
 
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -97,11 +98,11 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         kind: object.kind.name().to_lowercase(),
         origin: object.origin.word(),
         profile: object.profile.as_deref(),
-        differs: object.departures.iter().map(ToString::to_string).collect(),
+        differs: object.departures.iter().map(|departure| WORDING.departure(*departure)).collect(),
         category: object.category.map(model::Category::word),
         since: object.since.as_deref(),
         about: words(&object.about),
-        entries: object.entries.iter().map(entry_view).collect(),
+        entries: object.entries.iter().map(|entry| entry_view(object.index, entry)).collect(),
     }
 }
 
@@ -156,7 +157,7 @@ struct EntryView<'a> {
     about: Words<'a>,
 }
 
-fn entry_view(entry: &Entry) -> EntryView<'_> {
+fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
     let (low, high) = entry.hull();
     EntryView {
         sub: entry.sub.0,
@@ -166,8 +167,8 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
         named_type: entry.named_type.as_ref().map(|named| named.name.as_str()),
         access: entry.access.word(),
         locked: entry.locked,
-        pdo: entry.pdo.word(),
-        default: entry.default.as_ref().map(|default| value(entry, default)),
+        pdo: WORDING.mapping(entry.pdo),
+        default: entry.default.as_ref().map(|default| value(place, entry, default)),
         low: low.map(integer),
         high: high.map(integer),
         min: entry.low.filter(|min| low != Some(*min)).map(integer),
@@ -178,7 +179,7 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
             .iter()
             .map(|special| json!({"value": integer(special.value), "name": special.name, "about": words(&special.about)}))
             .collect(),
-        stored: entry.stored.word(),
+        stored: WORDING.storage(entry.stored),
         alias: entry.alias.as_ref().map(|alias| {
             json!({
                 "of": entry_id(alias.target),
@@ -205,18 +206,19 @@ fn entry_view(entry: &Entry) -> EntryView<'_> {
             "default": if entry.eds.default { "written" } else { "withheld" },
             "flags": entry.eds.flags(),
         }),
-        standard: entry.facts.said_by(Author::Library).map(Fact::word).collect(),
+        standard: entry.facts.said_by(Author::Library).map(|fact| WORDING.fact(fact)).collect(),
         about: words(&entry.about),
     }
 }
 
-/// A value: `raw` for numbers, `formula` for node-ID formulas, `text` as the manual writes it.
-fn value(entry: &Entry, value: &Value) -> Json {
+/// A value: `raw` for numbers, `formula` for node-ID formulas, `text` for people.
+fn value(place: Index, entry: &Entry, value: &Value) -> Json {
+    let text = WORDING.value(Some(place), entry, value);
     match value {
-        Value::Integer(raw) => json!({"raw": integer(*raw), "text": format_value(entry, value)}),
-        Value::NodeId(offset) => json!({"formula": format_value(entry, value), "raw": offset}),
-        Value::Real(number) => json!({"raw": number, "text": format_value(entry, value)}),
-        Value::Text(_) | Value::Bytes(_) => json!({"text": format_value(entry, value)}),
+        Value::Integer(raw) => json!({"raw": integer(*raw), "text": text}),
+        Value::NodeId(offset) => json!({"formula": text, "raw": offset}),
+        Value::Real(number) => json!({"raw": number, "text": text}),
+        Value::Text(_) | Value::Bytes(_) => json!({"text": text}),
     }
 }
 
@@ -230,7 +232,7 @@ fn pdo_view(pdo: &Pdo) -> Json {
         })
         .collect();
     let cob_id = match &pdo.cob_id {
-        Value::NodeId(offset) => json!({"formula": format!("$NODEID+0x{offset:X}"), "raw": offset}),
+        Value::NodeId(offset) => json!({"formula": WORDING.node_id_formula(*offset), "raw": offset}),
         fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
             json!({"raw": fixed.integer().map(integer)})
         }

@@ -5,7 +5,7 @@ mod document;
 mod rules;
 mod types;
 
-use od_spec::model::{self, Date, DateTime, Dictionary, EntryId, System, Text};
+use od_spec::model::{self, Date, DateTime, Devices, Dictionary, EntryId, System, Text};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
@@ -17,9 +17,10 @@ use types::{TypeView, UnitView};
 /// Version of the format; raised when a consumer would have to change.
 const FORMAT: u32 = 1;
 
-/// The dump of a system, or of some of its devices; ends with a line break.
+/// The dump of a system, or of the devices with these keys (none means all); ends with a line break.
 pub fn dump(system: &System, devices: &[String]) -> Vec<u8> {
-    let wanted = |device: &&Dictionary| devices.is_empty() || devices.contains(&device.key);
+    let devices = Devices::listed(devices);
+    let wanted = |device: &&Dictionary| devices.includes(&device.key);
     let dump = SystemView {
         od_json: FORMAT,
         title: &system.title,

@@ -22,7 +22,7 @@ pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
     ErrorView {
         code: format!("0x{:04X}", error.code),
         name: &error.name,
-        on: &error.devices,
+        on: error.devices.keys(),
         priority: error.priority.as_deref(),
         reaction: words(&error.reaction),
         about: words(&error.about),
@@ -55,7 +55,7 @@ fn pattern(bits: &[PatternBit]) -> String {
 pub(super) fn machine(machine: &StateMachine) -> MachineView<'_> {
     MachineView {
         name: &machine.name,
-        on: &machine.devices,
+        on: machine.devices.keys(),
         status: entry_id(machine.status),
         command: entry_id(machine.command),
         states: machine
@@ -104,7 +104,7 @@ pub(super) struct ConstraintView<'a> {
 pub(super) fn constraint(constraint: &Constraint) -> ConstraintView<'_> {
     ConstraintView {
         name: &constraint.name,
-        devices: &constraint.devices,
+        devices: constraint.devices.keys(),
         require: &constraint.require.text,
         when: constraint.when.as_ref().map(|when| when.text.as_str()),
         about: words(&constraint.about),
@@ -137,7 +137,7 @@ pub(super) fn erratum<'a>(erratum: &'a Erratum, document: &Document) -> ErratumV
                 ErratumPlace::Entry(id) => format!("{}.{}", index(id.index), id.sub),
             })
             .collect(),
-        on: &erratum.devices,
+        on: erratum.devices.keys(),
         kind: erratum.kind.word(),
         place: words(&erratum.place),
         prints: words(&erratum.prints),

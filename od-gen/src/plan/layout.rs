@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
-    Access, DataType, Dictionary, Entry, EntryId, Family, Object, Origin, Storage, SubIndex, Value,
+    Access, DataType, Dictionary, Entry, EntryId, Family, Object, Storage, SubIndex, Value,
 };
 
 /// The image is made for the node 0; a node adds its node-ID when it starts.
@@ -151,7 +151,7 @@ impl Layout {
 /// The value of an entry that never changes: a constant, or what follows from the shape of the dictionary.
 fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
     let counts = object.is_structured() && entry.sub == SubIndex(0);
-    let derived = !entry.access.is_writable() && (counts || object.origin == Origin::Pdo);
+    let derived = !entry.access.is_writable() && (counts || object.role().is_pdo_parameter());
     let plain = !matches!(entry.default, Some(Value::NodeId(_)));
     if plain && (entry.access == Access::Const || derived) {
         return entry.default.as_ref()?.bytes_for(entry.data_type, NO_NODE);

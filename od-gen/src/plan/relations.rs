@@ -12,27 +12,26 @@ impl Plan<'_> {
     pub(super) fn pdos(&mut self, diagnostics: &mut Diagnostics) {
         for pdo in &self.device.pdos {
             let name = self.identifier(Role::Type, &format!("{}{}", pdo.direction.pdo(), pdo.number));
-            let (mut fields, mut first_bit) = (Vec::new(), 0);
+            let mut fields = Vec::new();
             let mut scope = self.scope(ScopeKind::PdoFields);
-            for mapped in &pdo.map {
-                if let PdoTarget::Entry(id) = mapped.target
+            for field in pdo.fields() {
+                if let PdoTarget::Entry(id) = field.mapped.target
                     && let Some(row) = self.row(id)
                     && let Some(entry) = self.entry(row)
                 {
                     scope.claim(&entry.name, &format!("{id} in {name}"), pdo.span, diagnostics);
-                    fields.push(PlannedField { name: entry.name.clone(), row, first_bit, bits: mapped.bits });
+                    let (first_bit, bits) = (field.first_bit, field.mapped.bits);
+                    fields.push(PlannedField { name: entry.name.clone(), row, first_bit, bits });
                 }
-                first_bit += u32::from(mapped.bits);
             }
-            self.pdos.push(PlannedPdo { pdo, name, fields, bits: first_bit });
+            self.pdos.push(PlannedPdo { pdo, name, fields, bits: pdo.bits() });
         }
     }
 
     pub(super) fn machines(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let has = |devices: &[String]| devices.is_empty() || devices.contains(&device.key);
         let mut scope = self.scope(ScopeKind::Machines);
-        for machine in system.machines.values().filter(|machine| has(&machine.devices)) {
+        for machine in system.machines.values().filter(|machine| machine.devices.includes(&device.key)) {
             let (Some(status), Some(command)) = (self.row(machine.status), self.row(machine.command)) else {
                 continue;
             };
@@ -68,7 +67,7 @@ impl Plan<'_> {
         let (system, device) = (self.system, self.device);
         let mut scope = self.scope(ScopeKind::Errors);
         for error in &system.errors {
-            if error.devices.is_empty() || error.devices.contains(&device.key) {
+            if error.devices.includes(&device.key) {
                 let name = self.identifier(Role::Constant, &error.name);
                 scope.claim(&name, &format!("error {:04X}h", error.code), device.span, diagnostics);
                 self.errors.push(PlannedError { name, error });
@@ -80,7 +79,7 @@ impl Plan<'_> {
         let (system, device) = (self.system, self.device);
         let mut scope = self.scope(ScopeKind::Constraints);
         for constraint in
-            system.constraints.iter().filter(|constraint| constraint.devices.contains(&device.key))
+            system.constraints.iter().filter(|constraint| constraint.devices.includes(&device.key))
         {
             let planned = |expr| condition::plan(expr, device);
             let foreign = |expr: &Expr| {

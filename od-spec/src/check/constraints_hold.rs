@@ -24,11 +24,11 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let key = &subject.device.key;
-    for constraint in subject.system.constraints.iter().filter(|constraint| constraint.devices.contains(key))
+    for constraint in subject.system.constraints.iter().filter(|constraint| constraint.devices.includes(key))
     {
         // A condition that names the device of every entry says the same on each of them.
         let prefixed = constraint.require.entries().iter().all(|entry| entry.device.is_some());
-        if prefixed && subject.node.is_none() && constraint.devices.first() != Some(key) {
+        if prefixed && subject.node.is_none() && constraint.devices.keys().first() != Some(key) {
             continue;
         }
         // A value outside its limits is said by itself.

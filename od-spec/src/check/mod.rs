@@ -9,7 +9,6 @@ mod examples;
 mod findings;
 mod pdo;
 mod subject;
-mod words;
 
 mod arrays_have_one_type;
 mod bit_rates_are_standard;

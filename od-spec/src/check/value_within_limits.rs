@@ -1,9 +1,9 @@
 //! A value lies inside the limits of its entry, for every node-ID, or is a special one.
 
-use super::words::allowed;
 use super::{Check, Findings, Needs, Rule, Subject};
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Entry, EntryId, Fact, Value, format_value};
+use crate::wording::allowed;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 

@@ -1,8 +1,9 @@
 //! The printed manual: its revision, its chapters and tables, and what it says otherwise.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
-use super::{Date, Direction, EntryId, Index, Text};
+use super::{Date, Devices, Direction, EntryId, Index, Text};
 
 /// The printed manual that a specification stands for.
 #[derive(Debug, Clone, Default)]
@@ -135,8 +136,8 @@ pub struct PdoTable {
 pub struct Erratum {
     /// Objects or entries it is about; empty for none in particular.
     pub at: Vec<ErratumPlace>,
-    /// Devices it is about; empty for all.
-    pub devices: Vec<String>,
+    /// Devices it is about.
+    pub devices: Devices,
     /// What kind of fact.
     pub kind: ErratumKind,
     /// Where the manual prints it.
@@ -166,6 +167,16 @@ impl ErratumPlace {
         match self {
             ErratumPlace::Object(index) => index,
             ErratumPlace::Entry(id) => id.index,
+        }
+    }
+}
+
+/// `6040h` for an object, `3020h.5` for an entry, also at sub-index 0.
+impl fmt::Display for ErratumPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ErratumPlace::Object(index) => index.fmt(f),
+            ErratumPlace::Entry(id) => write!(f, "{}.{}", id.index, id.sub),
         }
     }
 }

@@ -3,8 +3,6 @@
 //! A message points at a fact, a departure from a standard is one, a column of the documents shows one, a key of the
 //! specification states one.
 
-use std::fmt;
-
 use crate::source::{FileId, Span};
 
 macro_rules! facts {
@@ -191,19 +189,6 @@ pub enum Part {
         /// The last.
         last: super::SubIndex,
     },
-}
-
-/// `name`, `elements: unit`, `sub-index 3: type`, `sub-indices 4 to 9: added`.
-impl fmt::Display for Departure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let fact = self.fact.word();
-        match self.part {
-            Part::Object => f.write_str(fact),
-            Part::Elements => write!(f, "elements: {fact}"),
-            Part::Entry(sub) => write!(f, "sub-index {sub}: {fact}"),
-            Part::Entries { first, last } => write!(f, "sub-indices {first} to {last}: {fact}"),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,14 +1,14 @@
 //! State machines and command codings.
 
-use super::{EntryId, Text};
+use super::{Devices, EntryId, Text};
 
 /// A state machine that a command entry drives and a status entry shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StateMachine {
     /// Name.
     pub name: String,
-    /// Devices that have it; empty means all.
-    pub devices: Vec<String>,
+    /// Devices that have it.
+    pub devices: Devices,
     /// Entry that shows the state.
     pub status: EntryId,
     /// Entry that takes the commands.

@@ -18,6 +18,7 @@ mod text;
 mod types;
 mod unit;
 mod value;
+mod views;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -41,7 +42,10 @@ pub use types::{
     Rounding, Storage, SubIndex,
 };
 pub use unit::{Base, Unit};
-pub use value::{Value, convert, format_value};
+pub use value::{Value, convert};
+pub use views::{Carrier, Devices, PdoField, View};
+
+pub use crate::wording::format_value;
 
 use crate::source::Span;
 
@@ -102,8 +106,8 @@ pub struct ErrorCode {
     pub code: u16,
     /// Name.
     pub name: String,
-    /// Devices that report it; empty means all.
-    pub devices: Vec<String>,
+    /// Devices that report it.
+    pub devices: Devices,
     /// Priority, as the manual classes it.
     pub priority: Option<String>,
     /// What the device does.
@@ -123,8 +127,8 @@ pub struct Constraint {
     pub require: Expr,
     /// The condition counts only while this one holds.
     pub when: Option<Expr>,
-    /// Devices whose entries it names.
-    pub devices: Vec<String>,
+    /// Devices whose entries it names; a list even where it names those of every device.
+    pub devices: Devices,
     /// Where the condition is written.
     pub span: Span,
     /// Where it names entries, in the order of [`Expr::entries`].

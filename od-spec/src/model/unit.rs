@@ -52,18 +52,16 @@ impl Unit {
         }
     }
 
-    /// A raw value as the manual writes it: `50.0 °C`.
-    pub fn show(&self, raw: i128) -> String {
+    /// A raw value in [`symbol`](Self::symbol), with as many decimal places as a step has: `50.0`. Where no decimal writes a
+    /// step exactly, such as a third, the product: `7 × 1/3`.
+    pub fn amount(&self, raw: i128) -> String {
         let value = Ratio::whole(raw).checked_mul(self.scale);
         let places = self.scale.decimal_places();
-        match value.and_then(|value| value.to_decimal(places?)) {
-            Some(number) => format!("{number} {}", self.symbol),
-            None => format!("{raw} × {} {}", self.scale, self.symbol),
-        }
+        value.and_then(|value| value.to_decimal(places?)).unwrap_or_else(|| format!("{raw} × {}", self.scale))
     }
 
-    /// What one raw step is, for a column heading: `mV`, `0.1 °C`.
-    pub fn step_text(&self) -> String {
-        if self.scale == Ratio::ONE { self.symbol.clone() } else { format!("{} {}", self.scale, self.symbol) }
+    /// The same with its symbol, as a specification writes it: `50.0 °C`.
+    pub fn show(&self, raw: i128) -> String {
+        format!("{} {}", self.amount(raw), self.symbol)
     }
 }

@@ -1,8 +1,6 @@
 //! Values of entries, and conversion between an alias and its target.
 
-use std::fmt::Write as _;
-
-use super::{DataType, Entry, Family, Outside, Ratio, Rounding, TypeKind};
+use super::{DataType, Family, Outside, Ratio, Rounding};
 
 /// A default or parameter value.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,45 +86,6 @@ fn real_bytes(number: f64, data_type: DataType) -> Vec<u8> {
     } else {
         number.to_le_bytes().to_vec()
     }
-}
-
-/// A value the way the manual writes it: with its unit, its enum name or in hexadecimal.
-pub fn format_value(entry: &Entry, value: &Value) -> String {
-    match value {
-        Value::Integer(raw) => format_integer(entry, *raw),
-        Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
-        Value::Real(number) => format!("{number:?}"),
-        Value::Text(text) => text.clone(),
-        Value::Bytes(bytes) => bytes.iter().fold(String::new(), |mut digits, byte| {
-            let _ = write!(digits, "{byte:02X}");
-            digits
-        }),
-    }
-}
-
-fn format_integer(entry: &Entry, raw: i128) -> String {
-    if let Some(special) = entry.special.iter().find(|special| special.value == raw) {
-        return format!("{raw} ({})", special.name);
-    }
-    if let Some(named) = &entry.named_type {
-        match &named.kind {
-            TypeKind::Enum(values) => {
-                if let Some(value) = values.iter().find(|value| value.value == raw) {
-                    return value.name.clone();
-                }
-            }
-            TypeKind::Bits(_) => return hex(entry.data_type, raw),
-        }
-    }
-    entry.unit.as_ref().map_or_else(|| raw.to_string(), |unit| unit.show(raw))
-}
-
-/// `0x` and as many digits as the type has; a negative value in its two's complement.
-fn hex(data_type: DataType, raw: i128) -> String {
-    let bits = data_type.bits().unwrap_or(64);
-    let width = usize::from(bits.div_ceil(4));
-    let modulus = 1i128 << bits;
-    format!("0x{:0width$X}", raw.rem_euclid(modulus))
 }
 
 /// The raw value that an alias shows for a raw value of its target; `None` stands for an SDO abort.

@@ -4,7 +4,7 @@ use crate::ast::{ConstraintDecl, Name, Spec};
 use crate::decode::{inside, nearest};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::{Comparison, EntryRef, Expr, Term};
-use crate::model::{Constraint, Dictionary};
+use crate::model::{Constraint, Devices, Dictionary};
 use crate::source::{Span, Spanned};
 
 use super::refs::Broken;
@@ -203,7 +203,7 @@ fn constraint(
         about: words(&decl.about),
         require: require.value.clone(),
         when: decl.when.as_ref().map(|when| when.value.clone()),
-        devices: keys,
+        devices: Devices::Only(keys),
         span: require.span,
         places: places(require),
     })

@@ -13,7 +13,7 @@ use crate::decode::lexical;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
+    Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
     TableContent, TypeKind,
 };
 use crate::source::{Span, Spanned};
@@ -93,9 +93,9 @@ pub(super) fn errata(
 ) -> Vec<Erratum> {
     let mut errata = Vec::new();
     for decl in &root.errata {
-        let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
+        let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
         let about: Vec<&Dictionary> =
-            system.devices.iter().filter(|d| on.is_empty() || on.contains(&d.key)).collect();
+            system.devices.iter().filter(|device| on.includes(&device.key)).collect();
         let mut at = Vec::new();
         for reference in &decl.at {
             if let Some(place) = place(reference, &about, broken, diagnostics) {

@@ -6,7 +6,7 @@ use super::libraries;
 use super::types::words;
 use crate::ast::{ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{ErrorCode, Text};
+use crate::model::{Devices, ErrorCode, Text};
 use crate::source::Span;
 
 pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Vec<ErrorCode> {
@@ -74,7 +74,7 @@ fn error(
     Some(ErrorCode {
         code,
         name,
-        devices: decl.on.iter().flatten().map(|key| key.value.clone()).collect(),
+        devices: Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str())),
         priority: decl
             .priority
             .as_ref()

@@ -10,9 +10,8 @@ use super::types::words;
 use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::check::codes as rule_codes;
-use crate::diag::shorten;
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{BitPattern, Command, Dictionary, EntryId, State, StateMachine, Transition};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
+use crate::model::{BitPattern, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition};
 use crate::source::{Span, Spanned};
 
 pub(super) fn resolve(
@@ -118,10 +117,9 @@ fn machine(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<StateMachine> {
-    let on: Vec<String> = decl.on.iter().flatten().map(|key| key.value.clone()).collect();
-    let meant = |device: &&Dictionary| on.is_empty() || on.contains(&device.key);
+    let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
     let mut found: Option<(&Dictionary, EntryId, EntryId)> = None;
-    for device in devices.iter().filter(meant) {
+    for device in devices.iter().filter(|device| on.includes(&device.key)) {
         let names = Names::new(device.objects.values());
         let mut find = |name: &Option<Name>| {
             names.find(name.as_ref()?, |id| device.entry(id).is_some(), broken, diagnostics)

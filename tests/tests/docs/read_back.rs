@@ -32,21 +32,8 @@ fn default(entry: &Entry, cell: &str) -> Option<Value> {
     })
 }
 
-/// The raw value that a cell gives: behind a physical value in brackets, before the name of an enum's value, or alone.
+/// The raw value that a cell gives: behind a physical value in brackets, before the name of an enum's or special value, or alone.
 fn number(entry: &Entry, cell: &str) -> i128 {
-    if let Some(TypeKind::Bits(_)) = entry.named_type.as_ref().map(|named| &named.kind)
-        && let Some(digits) = cell.strip_suffix('h')
-    {
-        let raw = i128::from_str_radix(digits, 16).unwrap();
-        let bits = entry.data_type.bits().unwrap();
-        assert_eq!(digits.len(), usize::from(bits.div_ceil(4)), "as many digits as the type has");
-        return if entry.data_type.is_signed() && raw >= 1 << (bits - 1) { raw - (1 << bits) } else { raw };
-    }
-    if let Some(digits) =
-        cell.strip_suffix('h').filter(|digits| digits.len() == 8 && entry.data_type == DataType::Unsigned32)
-    {
-        return i128::from_str_radix(digits, 16).unwrap();
-    }
     // A mapping parameter in its parts: 6040 00 10h.
     if let [index, sub, bits] = cell.split(' ').collect::<Vec<_>>()[..]
         && (index.len(), sub.len(), bits.len()) == (4, 2, 3)
@@ -54,12 +41,24 @@ fn number(entry: &Entry, cell: &str) -> i128 {
         return i128::from_str_radix(&cell.replace([' ', 'h'], ""), 16).unwrap();
     }
     let first = cell.split([' ', ':']).next().unwrap();
+    if let Some(raw) = pattern(entry, first) {
+        return raw;
+    }
     match &entry.unit {
         Some(unit) if !entry.special.iter().any(|special| special.value.to_string() == first) => {
             physical(unit, cell)
         }
         _ => first.parse().unwrap_or_else(|_| panic!("{cell} of {}", entry.name)),
     }
+}
+
+/// The raw value of hexadecimal digits, which are as many as the type has: `00FFh`.
+fn pattern(entry: &Entry, text: &str) -> Option<i128> {
+    let digits = text.strip_suffix('h')?;
+    let raw = i128::from_str_radix(digits, 16).ok()?;
+    let bits = entry.data_type.bits().unwrap();
+    assert_eq!(digits.len(), usize::from(bits.div_ceil(4)), "{text}: as many digits as the type has");
+    Some(if entry.data_type.is_signed() && raw >= 1 << (bits - 1) { raw - (1 << bits) } else { raw })
 }
 
 /// The raw value of `50.0 °C (500)` or `3000 mAh`, with a look at both numbers.
@@ -90,14 +89,14 @@ fn decimal(text: &str) -> Ratio {
 
 /// The limits that a Range cell gives.
 fn range(entry: &Entry, cell: &str) -> (Option<i128>, Option<i128>) {
-    let one = |text: &str| match &entry.unit {
+    let end = |text: &str| match &entry.unit {
         Some(unit) => physical(unit, text),
-        None => text.parse().unwrap(),
+        None => pattern(entry, text).unwrap_or_else(|| text.parse().unwrap()),
     };
     if let Some((low, high)) = cell.split_once(" to ") {
-        return (Some(one(low)), Some(one(high)));
+        return (Some(end(low)), Some(end(high)));
     }
-    (cell.strip_prefix("≥ ").map(one), cell.strip_prefix("≤ ").map(one))
+    (cell.strip_prefix("≥ ").map(end), cell.strip_prefix("≤ ").map(end))
 }
 
 fn access(cell: &str) -> (Access, bool) {
@@ -146,10 +145,13 @@ fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {
     let description = table.cell(row, "Description");
     assert!(description.starts_with(&flat(entry.about.get("en").unwrap_or_default())), "{at}: {description}");
     for special in &entry.special {
-        let bits = |width: u16| format!(" ({:0digits$X}h)", special.value, digits = usize::from(width / 4));
-        let hex = if special.value < 65536 { String::new() } else { bits(entry.data_type.bits().unwrap()) };
-        let line = format!("{}{hex}: {}", special.value, special.name);
-        assert!(description.lines().any(|one| one.starts_with(&line)), "{at}: {description}");
+        let says_it = |line: &str| {
+            let rest = line.split_once(": ").filter(|(_, rest)| rest.starts_with(&special.name));
+            rest.is_some_and(|(shown, _)| {
+                pattern(entry, shown).or_else(|| shown.parse().ok()) == Some(special.value)
+            })
+        };
+        assert!(description.lines().any(says_it), "{at}: {}: {description}", special.name);
     }
     if let Some(alias) = &entry.alias {
         assert!(description.contains(&format!("View of {}", alias.target)), "{at}: {description}");
@@ -395,7 +397,7 @@ fn check_errors(system: &System, table: &Table, codes: &[u16], reactions: bool) 
             assert_eq!(table.cell(row, "Prio."), error.priority.as_deref().unwrap_or_default());
         }
         for device in system.devices.iter().filter(|_| system.devices.len() > 1) {
-            let has = error.devices.is_empty() || error.devices.contains(&device.key);
+            let has = error.devices.includes(&device.key);
             let shown = table.cell(row, &device.key.to_uppercase());
             assert_eq!(shown, if has { "X" } else { "" }, "{:04X}h on {}", error.code, device.key);
         }

@@ -8,7 +8,7 @@ use od_gen::files::{Outcome, write_all};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::{Dictionary, Origin, PdoMapping, System};
+use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile, rule_codes};
 
@@ -121,7 +121,7 @@ fn modules(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Repo
 }
 
 fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {
-    args.device.is_empty() || args.device.contains(&device.key)
+    Devices::listed(&args.device).includes(&device.key)
 }
 
 pub(crate) fn shipped(name: &str, text: &str, report: &Report) -> Option<(System, SourceMap)> {

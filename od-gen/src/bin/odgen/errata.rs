@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use od_spec::diag::{Diagnostic, codes};
-use od_spec::model::{Erratum, ErratumKind, ErratumPlace, Index, System};
+use od_spec::model::{Devices, Erratum, ErratumKind, ErratumPlace, Index, System};
 
 use super::ERRORS;
 use super::args::ErrataArgs;
@@ -47,14 +47,10 @@ fn index(text: &str) -> Option<Index> {
 
 /// The entries, and the devices where it is not about all of them.
 fn places(erratum: &Erratum) -> String {
-    let places = erratum.at.iter().map(|place| match place {
-        ErratumPlace::Object(index) => index.to_string(),
-        ErratumPlace::Entry(id) => format!("{}.{}", id.index, id.sub),
-    });
-    let places = places.collect::<Vec<_>>().join(", ");
-    match erratum.devices.as_slice() {
-        [] => places,
-        devices => format!("{places} on {}", devices.join(", ")).trim_start().to_owned(),
+    let places = erratum.at.iter().map(ErratumPlace::to_string).collect::<Vec<_>>().join(", ");
+    match &erratum.devices {
+        Devices::All => places,
+        Devices::Only(keys) => format!("{places} on {}", keys.join(", ")).trim_start().to_owned(),
     }
 }
 

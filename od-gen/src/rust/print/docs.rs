@@ -2,11 +2,15 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Entry, EntryId, Object, Outside, Rounding, Storage, Text, Value, format_value};
+use od_spec::model::{Entry, Object, Outside, Pdo, Text};
+use od_spec::wording::{Notation, Wording};
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use crate::plan::{Place, Plan, PlannedEntry, Shape};
+
+/// How the documentation words facts.
+pub(super) const WORDING: Wording = Wording::english(Notation::Rust);
 
 /// `#[doc]` attributes, one for each line.
 pub(super) fn doc(text: &str) -> TokenStream {
@@ -64,14 +68,9 @@ impl Plan<'_> {
             let target = self.entry(alias.target)?;
             let mut text = format!("A view of {} (`{}`)", self.link(alias.target, root)?, target.id);
             if alias.numerator != 1 || alias.denominator != 1 {
-                let rounding = match alias.rounding {
-                    Rounding::Down => "down",
-                    Rounding::Up => "up",
-                    Rounding::Nearest => "to the nearest step",
-                    Rounding::Zero => "towards zero",
-                };
+                let rounding = WORDING.rounding(alias.rounding);
                 let (numerator, denominator) = (alias.numerator, alias.denominator);
-                let _ = write!(text, ", times {numerator}/{denominator}, rounded {rounding}");
+                let _ = write!(text, ", times {numerator}/{denominator}, {rounding}");
             }
             let (low, high) = alias.data_type.range()?;
             let _ = match alias.outside {
@@ -106,8 +105,9 @@ impl Plan<'_> {
 
     /// The PDOs that carry the entry by default.
     fn pdos_of(&self, planned: &PlannedEntry<'_>, root: &str) -> Option<String> {
-        let row = self.row(planned.id)?;
-        let carriers = self.pdos.iter().filter(|pdo| pdo.fields.iter().any(|field| field.row == row));
+        let carries =
+            |pdo: &Pdo| self.device.pdos_with(planned.id).any(|carrier| std::ptr::eq(carrier.pdo, pdo));
+        let carriers = self.pdos.iter().filter(|pdo| carries(pdo.pdo));
         let names: Vec<String> = carriers
             .map(|pdo| {
                 let off = if pdo.pdo.valid { "" } else { ", off by default" };
@@ -124,50 +124,22 @@ fn condition(entry: &Entry) -> Option<String> {
     Some(format!("Writable while `{}`.", condition.text))
 }
 
-/// Type, access, mapping, unit, range, default, storage.
+/// Type, access, mapping, unit, range, special values, default, storage.
 fn facts(planned: &PlannedEntry<'_>) -> Vec<String> {
-    let entry = planned.entry;
-    let mut facts = vec![entry.data_type.to_string()];
-    facts.push(if entry.locked {
-        format!("{} locked", entry.access.word())
-    } else {
-        entry.access.word().to_owned()
-    });
-    facts.extend(match entry.pdo {
-        od_spec::model::PdoMapping::None => None,
-        od_spec::model::PdoMapping::Receive => Some("RPDO".to_owned()),
-        od_spec::model::PdoMapping::Transmit => Some("TPDO".to_owned()),
-        od_spec::model::PdoMapping::Both => Some("RPDO and TPDO".to_owned()),
-    });
-    facts.extend(entry.unit.as_ref().map(|unit| format!("in {}", escape(&unit.step_text()))));
-    let show = |raw: i128| {
-        escape(&format_value(&Entry { special: Vec::new(), ..entry.clone() }, &Value::Integer(raw)))
-    };
-    facts.extend(match (entry.low, entry.high) {
-        (Some(low), Some(high)) => Some(format!("{} to {}", show(low), show(high))),
-        (Some(low), None) => Some(format!("from {}", show(low))),
-        (None, Some(high)) => Some(format!("up to {}", show(high))),
-        (None, None) => None,
-    });
-    facts.extend(entry.special.iter().map(|special| format!("{}: {}", special.value, escape(&special.name))));
+    let (index, entry) = (planned.id.index, planned.entry);
+    let mut facts = vec![entry.data_type.to_string(), WORDING.access(entry)];
+    facts.extend(stated(WORDING.mapping(entry.pdo)));
+    facts.extend(entry.unit.as_ref().map(|unit| format!("in {}", escape(&WORDING.step(unit)))));
+    facts.extend(WORDING.range(index, entry).map(|range| escape(&range)));
+    facts.extend(entry.special.iter().map(|special| escape(&WORDING.special(entry, special))));
     if planned.place != Place::Alias {
-        facts.extend(
-            entry.default.as_ref().map(|value| format!("default {}", default_text(planned.id, entry, value))),
-        );
+        let default = |value| format!("default {}", escape(&WORDING.value(Some(index), entry, value)));
+        facts.extend(entry.default.as_ref().map(default));
     }
-    facts.extend(match entry.stored {
-        Storage::No => None,
-        Storage::Remanent => Some("kept over power-off".to_owned()),
-        stored => Some(format!("stored with the {} parameters", stored.word())),
-    });
+    facts.extend(stated(WORDING.storage(entry.stored)));
     facts
 }
 
-/// A default as the manual writes it; a mapping parameter, which nobody reads in decimal, in hexadecimal.
-fn default_text(id: EntryId, entry: &Entry, value: &Value) -> String {
-    let mapping = matches!(id.index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && id.sub.0 > 0;
-    match value.integer().filter(|_| mapping) {
-        Some(parameter) => format!("0x{parameter:08X}"),
-        None => escape(&format_value(entry, value)),
-    }
+fn stated(words: &str) -> Option<String> {
+    (!words.is_empty()).then(|| words.to_owned())
 }

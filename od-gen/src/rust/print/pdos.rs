@@ -4,7 +4,7 @@ use od_spec::model::{Direction, Outside, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::docs::doc;
+use super::docs::{WORDING, doc};
 use super::literal::hex;
 use super::value::{At, Get, Store, Values};
 use crate::plan::{Plan, PlannedField, PlannedPdo};
@@ -93,15 +93,10 @@ impl Plan<'_> {
     fn pdo_doc(&self, planned: &PlannedPdo<'_>) -> TokenStream {
         let pdo = planned.pdo;
         let about = self.words(&pdo.about);
-        let cob_id = match &pdo.cob_id {
-            Value::NodeId(offset) => format!("COB-ID {:X}h + node-ID", offset & 0x7FF),
-            fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
-                format!("COB-ID {:X}h", fixed.integer().unwrap_or_default() & 0x7FF)
-            }
-        };
+        let can_id = WORDING.can_id(&pdo.cob_id);
         let valid = if pdo.valid { "" } else { ", off after a factory reset" };
         doc(&format!(
-            "{} {}: {cob_id}, transmission type {}{valid}; parameters `{:04X}h` and `{:04X}h`.\n\n{about}",
+            "{} {}: CAN-ID {can_id}, transmission type {}{valid}; parameters `{:04X}h` and `{:04X}h`.\n\n{about}",
             pdo.direction.pdo(),
             pdo.number,
             pdo.transmission,

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use od_spec::model::Edge;
+use od_spec::model::{Edge, Entry};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::language;
-use super::docs::{doc, escape};
+use super::docs::{WORDING, doc, escape};
 use super::literal::{decimal, hex};
 use crate::plan::{
     Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
@@ -44,7 +44,8 @@ impl Plan<'_> {
     fn unit(&self, planned: &PlannedUnit<'_>) -> TokenStream {
         let PlannedUnit { unit, name, scale, step } = planned;
         let about = self.words(&unit.about);
-        let text = format!("{}: one raw step is {}.", escape(&unit.name), escape(&step_text(unit)));
+        let text =
+            format!("{}: one raw step is {}.", escape(&unit.name), escape(&WORDING.counted_step(unit)));
         let about = doc(format!("{text} {about}").trim());
         let (name, base, symbol) =
             (format_ident!("{name}"), format_ident!("{}", base_name(planned)), &unit.symbol);
@@ -201,7 +202,11 @@ impl Plan<'_> {
         if self.specials.is_empty() {
             return quote!();
         }
-        let specials = self.specials.iter().map(special);
+        let specials = (0..).zip(&self.specials).filter_map(|(set, planned)| {
+            // Entries that share a set show it in one type, as wide as that of the first.
+            let entry = self.entries.iter().find(|entry| entry.kind.special == Some(set))?.entry;
+            Some(special(planned, entry))
+        });
         quote! {
             /// Raw values with a meaning of their own, beside the ordinary ones.
             #[allow(dead_code, unreachable_pub)]
@@ -274,17 +279,18 @@ fn with(bits: &PlannedBits<'_>) -> Ident {
     format_ident!("{}", language::with(&bits.name))
 }
 
-fn special(planned: &PlannedSpecial) -> TokenStream {
+fn special(planned: &PlannedSpecial, entry: &Entry) -> TokenStream {
     let name = format_ident!("{}", planned.name);
+    let number = |raw: i128| WORDING.special_number(entry, raw);
     let texts: Vec<String> = planned
         .values
         .iter()
-        .map(|PlannedSpecialValue { text, value, .. }| format!("{} ({value})", escape(text)))
+        .map(|PlannedSpecialValue { text, value, .. }| format!("{} ({})", escape(text), number(*value)))
         .collect();
     let about = doc(&format!("{}.", texts.join(" or ")));
     let variants = planned.values.iter().map(|PlannedSpecialValue { name, text, value }| {
-        let (about, variant): (_, Ident) =
-            (doc(&format!("{}: raw value {value}.", escape(text))), format_ident!("{name}"));
+        let about = doc(&format!("{}: raw value {}.", escape(text), number(*value)));
+        let variant = format_ident!("{name}");
         quote!(#about #variant,)
     });
     let names = planned.values.iter().map(|PlannedSpecialValue { name, text, .. }| {
@@ -332,11 +338,6 @@ fn base_name(planned: &PlannedUnit<'_>) -> String {
         }
         name
     })
-}
-
-fn step_text(unit: &od_spec::model::Unit) -> String {
-    let text = unit.step_text();
-    if text.starts_with(|first: char| first.is_ascii_digit()) { text } else { format!("1 {text}") }
 }
 
 /// The integer of a named type: a bit field is unsigned, whatever its base.

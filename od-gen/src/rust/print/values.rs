@@ -1,6 +1,6 @@
 //! Defaults and limits as constants.
 
-use od_spec::model::{Origin, SubIndex, Value};
+use od_spec::model::{SubIndex, Value};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -83,7 +83,8 @@ impl Plan<'_> {
         self.entries.iter().filter(|entry| {
             let object = self.objects.get(entry.object).map(|planned| planned.object);
             object.is_some_and(|object| {
-                object.origin != Origin::Pdo && !(object.is_structured() && entry.id.sub == SubIndex(0))
+                let is_count = object.is_structured() && entry.id.sub == SubIndex(0);
+                !object.role().is_pdo_parameter() && !is_count
             })
         })
     }

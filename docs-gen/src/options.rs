@@ -1,0 +1,16 @@
+//! What can be chosen about a document.
+
+use std::collections::BTreeMap;
+
+use od_spec::model::{Devices, EntryId};
+
+/// What a document shows.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// The devices.
+    pub devices: Devices,
+    /// Language; that of the specification unless given.
+    pub language: Option<String>,
+    /// Calls of the accessors in generated Rust, by key of the device, then by entry.
+    pub accessors: BTreeMap<String, BTreeMap<EntryId, String>>,
+}

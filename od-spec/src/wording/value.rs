@@ -1,0 +1,96 @@
+//! Values: defaults, special values, values of enums.
+
+use super::{Notation, Radix, Wording};
+use crate::model::{DataType, Entry, EnumValue, Index, Role, SpecialValue, TypeKind, Value};
+
+impl Wording {
+    /// A value of an entry. Without an index, what follows from the entry alone.
+    pub fn value(self, index: Option<Index>, entry: &Entry, value: &Value) -> String {
+        match value {
+            Value::Integer(raw) => self.integer(index, entry, *raw),
+            Value::NodeId(offset) => self.node_id_formula(*offset),
+            // With a decimal point even where the number is whole.
+            Value::Real(number) => self.decimal(&format!("{number:?}")),
+            Value::Text(text) => self.text(text),
+            Value::Bytes(bytes) => self.bytes(bytes),
+        }
+    }
+
+    fn integer(self, index: Option<Index>, entry: &Entry, raw: i128) -> String {
+        match entry.special.iter().find(|special| special.value == raw) {
+            Some(special) => format!("{} ({})", self.special_number(entry, raw), special.name),
+            None => self.ordinary(index, entry, raw),
+        }
+    }
+
+    /// A raw value that has no meaning of its own.
+    pub(super) fn ordinary(self, index: Option<Index>, entry: &Entry, raw: i128) -> String {
+        if entry.data_type == DataType::Boolean {
+            return raw.to_string();
+        }
+        if let Some(TypeKind::Enum(values)) = entry.named_type.as_ref().map(|named| &named.kind) {
+            return self.enum_value(entry.data_type, values, raw);
+        }
+        if let Some(unit) = &entry.unit
+            && Radix::of(index, entry) == Radix::Decimal
+        {
+            return self.physical_and_raw(unit, raw);
+        }
+        let is_mapping = index.is_some_and(|index| Role::of(index) == Role::PdoMapping) && entry.sub.0 > 0;
+        match u32::try_from(raw) {
+            Ok(parameter) if is_mapping => self.mapping_parameter(parameter),
+            _ => self.raw(Radix::of(index, entry), entry.data_type, raw),
+        }
+    }
+
+    fn enum_value(self, data_type: DataType, values: &[EnumValue], raw: i128) -> String {
+        let number = self.enum_number(data_type, raw);
+        let Some(value) = values.iter().find(|value| value.value == raw) else { return number };
+        match self.notation {
+            Notation::Eds | Notation::Manual => format!("{number}: {}", value.name),
+            Notation::Rust | Notation::Json | Notation::Diagnostic => value.name.clone(),
+        }
+    }
+
+    /// The number of a special value: `FFFFFFFFh`, `-32768`.
+    pub fn special_number(self, entry: &Entry, raw: i128) -> String {
+        self.raw(Radix::of_special(entry, raw), entry.data_type, raw)
+    }
+
+    /// A special value in a list: `FFFFFFFFh: monitoring off`.
+    pub fn special(self, entry: &Entry, special: &SpecialValue) -> String {
+        format!("{}: {}", self.special_number(entry, special.value), special.name)
+    }
+
+    /// An empty text is no value to a tool, and no default to a person.
+    fn text(self, text: &str) -> String {
+        match self.notation {
+            Notation::Eds | Notation::Manual | Notation::Rust if text.is_empty() => "\"\"".to_owned(),
+            Notation::Eds | Notation::Manual | Notation::Rust | Notation::Json | Notation::Diagnostic => {
+                text.to_owned()
+            }
+        }
+    }
+
+    fn bytes(self, bytes: &[u8]) -> String {
+        let between = match self.notation {
+            Notation::Manual | Notation::Rust => " ",
+            Notation::Eds | Notation::Json | Notation::Diagnostic => "",
+        };
+        bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(between)
+    }
+}
+
+/// A value as a message shows it, and as a specification may write it.
+pub fn format_value(entry: &Entry, value: &Value) -> String {
+    Wording::english(Notation::Diagnostic).value(None, entry, value)
+}
+
+/// The values that an entry allows beside its special ones, as a message shows them: the limits or, where there are none, the
+/// ends of the data type: `0.0 °C to 40.0 °C`.
+pub fn allowed(entry: &Entry) -> String {
+    let (lowest, highest) = entry.data_type.range().unwrap_or_default();
+    let wording = Wording::english(Notation::Diagnostic);
+    let end = |raw: i128| wording.ordinary(None, entry, raw);
+    format!("{} to {}", end(entry.low.unwrap_or(lowest)), end(entry.high.unwrap_or(highest)))
+}

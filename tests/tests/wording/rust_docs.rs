@@ -1,0 +1,75 @@
+//! What the documentation of generated Rust says.
+
+use std::collections::BTreeMap;
+
+use od_spec::model::{Access, Entry, PdoMapping, Storage};
+
+use super::Output;
+use super::facts::{Facts, Limits, Reach, Told};
+use super::read::{self, Range};
+
+/// Where the facts of an entry end and sentences begin.
+const SENTENCES: [&str; 5] =
+    [". In ", ". A view of ", ". 8-bit view: ", ". 16-bit view: ", ". Writable while "];
+
+/// Reads the module of one device.
+pub(crate) fn read(module: &str, output: &mut Output<'_>) {
+    let lines: Vec<&str> = module.lines().map(str::trim).collect();
+    for window in lines.windows(3) {
+        let [heading, "///", facts] = window else { continue };
+        let Some(id) = heading.strip_prefix("/// `").and_then(|rest| rest.split_once('`')) else { continue };
+        let (index, sub) = id.0.split_once("h.").unwrap_or((id.0.trim_end_matches('h'), "0"));
+        let index = u16::from_str_radix(index, 16).unwrap();
+        let facts = facts.strip_prefix("/// ").unwrap();
+        if facts == "The elements differ in their limits or defaults." {
+            continue;
+        }
+        // An accessor by sub-index is about all elements.
+        match heading.split_once("`sub` is the sub-index, 1 to ") {
+            Some((_, rest)) => {
+                let last: u8 = rest.split(';').next().unwrap().parse().unwrap();
+                (1..=last).for_each(|sub| output.tell(index, sub, |entry| read_facts(entry, facts)));
+            }
+            None => output.tell(index, sub.parse().unwrap(), |entry| read_facts(entry, facts)),
+        }
+    }
+}
+
+fn read_facts(entry: &Entry, text: &str) -> Facts {
+    let text = text.replace('\\', "");
+    let end = SENTENCES.iter().filter_map(|sentence| text.find(sentence)).min();
+    let text = end.map_or_else(|| text.strip_suffix('.').unwrap(), |end| &text[..end]);
+    let mut parts = text.split(", ");
+    assert_eq!(parts.next(), Some(entry.data_type.to_string().as_str()), "{text}");
+    let access = parts.next().unwrap();
+    let (word, is_locked) = access.strip_suffix(" locked").map_or((access, false), |word| (word, true));
+    let mut facts = Facts {
+        // A view has no value of its own.
+        default: if entry.alias.is_some() { Told::Elsewhere } else { Told::Said(None) },
+        limits: Limits::Narrowing { low: None, high: None },
+        step: None,
+        special: BTreeMap::new(),
+        reach: Reach::of(Access::from_word(word).unwrap(), is_locked),
+        storage: Storage::No,
+        mapping: PdoMapping::None,
+    };
+    for part in parts {
+        if let Some(default) = part.strip_prefix("default ") {
+            facts.default = Told::Said(Some(read::value(entry, default)));
+        } else if let Some(step) = part.strip_prefix("in ") {
+            facts.step = Some(read::step(step));
+        } else if let Some(mapping) = read::mapping(part) {
+            facts.mapping = mapping;
+        } else if let Some(storage) = read::storage(part) {
+            facts.storage = storage;
+        } else if let Some(listed) = read::listed(entry, part) {
+            facts.special.insert(listed.raw, listed.name);
+        } else {
+            let range = read::range(entry, part);
+            let Range { low, high } =
+                range.unwrap_or_else(|| panic!("{part:?} of {text:?} says nothing known"));
+            facts.limits = Limits::Narrowing { low, high };
+        }
+    }
+    facts
+}
