@@ -57,6 +57,13 @@ impl Report {
         let _ = std::io::stderr().write_all(text.as_bytes());
     }
 
+    /// Tells people what the command does unasked; programs that read JSON did not ask.
+    pub(crate) fn note(&self, text: &str) {
+        if self.format != Format::Json {
+            let _ = writeln!(std::io::stderr(), "note: {text}");
+        }
+    }
+
     /// Compiles a file and shows what there is to say; `None` when it has errors.
     pub(crate) fn compile(&self, path: &Path) -> Option<System> {
         self.compile_with_sources(path).map(|(system, _)| system)
