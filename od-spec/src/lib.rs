@@ -45,3 +45,8 @@ pub use departures::departures;
 pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign, eds_text_problem};
 pub use reference::reference;
+
+/// The README's examples compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
