@@ -10,14 +10,14 @@ use od_spec::{Compiled, departures};
 use super::args::CheckArgs;
 use super::report::Report;
 use super::specs;
-use super::{ERRORS, FINE};
+use super::{ERRORS, SUCCESS};
 
 pub(crate) fn run(args: &CheckArgs, directory: &Path, report: &Report) -> u8 {
     let specs = match specs::all(&args.specs, directory, report) {
         Ok(specs) => specs,
         Err(code) => return code,
     };
-    let mut code = FINE;
+    let mut code = SUCCESS;
     for path in &specs {
         let mut sources = SourceMap::new();
         let Compiled { system, mut diagnostics } =

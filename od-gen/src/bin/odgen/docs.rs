@@ -12,7 +12,7 @@ use super::output::{clash, write};
 use super::report::{Report, print_bytes};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
-use super::{ERRORS, FINE};
+use super::{ERRORS, SUCCESS};
 
 pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
     if let Some(target) = &args.export_templates {
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
         }
     }
     if args.dump_context {
-        return systems.iter().fold(FINE, |code, (_, system)| {
+        return systems.iter().fold(SUCCESS, |code, (_, system)| {
             let options = docs::options(system, &args.device, args.lang.as_deref());
             code.max(print_bytes(&docs::dump_context(system, &options)))
         });

@@ -20,8 +20,8 @@ use args::{Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
 use od_spec::diag::{Code, Diagnostic};
 
-/// Nothing to object to.
-const FINE: u8 = 0;
+/// The input is without errors, and what was to be written is.
+const SUCCESS: u8 = 0;
 /// Errors in the input, or output that could not be written.
 const ERRORS: u8 = 1;
 /// The command line cannot be understood.
@@ -47,7 +47,7 @@ fn main() -> ExitCode {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "odgen", &mut text);
             let _ = std::io::stdout().write_all(&text);
-            FINE
+            SUCCESS
         }
     };
     ExitCode::from(code)

@@ -12,7 +12,7 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
 use super::args::Color;
-use super::{ERRORS, FINE, USAGE};
+use super::{ERRORS, SUCCESS, USAGE};
 
 /// Writes diagnostics the way the user asked for.
 pub(crate) struct Report {
@@ -132,6 +132,6 @@ pub(crate) fn print_bytes(bytes: &[u8]) -> u8 {
             anstream::eprintln!("error: cannot write to standard output: {error}");
             ERRORS
         }
-        _ => FINE,
+        _ => SUCCESS,
     }
 }
