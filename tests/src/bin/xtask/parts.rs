@@ -152,7 +152,7 @@ impl Area {
     pub(crate) const fn title(self) -> &'static str {
         match self {
             Area::Rust => "the Rust tests",
-            Area::Readers => "the foreign EDS readers and the SDO client",
+            Area::Readers => "the foreign readers of EDS files",
             Area::Browser => "the documents in a browser",
             Area::Firmware => "the firmware for a Cortex-M",
         }

@@ -51,7 +51,7 @@ pub(crate) fn missing(parts: &[Part], found: &BTreeSet<Tool>) -> String {
             continue;
         }
         let areas: Vec<&str> = areas.into_iter().map(Area::title).collect();
-        let _ = writeln!(text, "  {}, for {}:", tool.name(), areas.join(" and "));
+        let _ = writeln!(text, "  {}, for {}:", tool.name(), areas.join(", "));
         let lines = tool.install().iter().map(|line| format!("      {line}\n"));
         text.push_str(&lines.collect::<Vec<_>>().join("    or\n"));
     }
@@ -149,9 +149,9 @@ mod tests {
         let Summary { text, verdict } = summary(&found, Gaps::Told);
         assert_eq!(verdict, Verdict::Passed);
         assert!(text.contains("in part   EDS readers: shipped devices      missing: Node.js"), "{text}");
-        assert!(text.contains(
-            "with npm, for the foreign EDS readers and the SDO client and the documents in a browser:"
-        ));
+        assert!(
+            text.contains("with npm, for the foreign readers of EDS files, the documents in a browser:\n")
+        );
         assert!(text.ends_with(": 6 left out or run in part\n4 passed, 0 failed\n"), "{text}");
     }
 
