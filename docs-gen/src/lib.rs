@@ -55,3 +55,8 @@ pub fn context(system: &System, options: &Options) -> Context {
 pub fn table_index(system: &System, options: &Options) -> TableIndex {
     source::Source::new(system, options).table_index()
 }
+
+/// The README's examples compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

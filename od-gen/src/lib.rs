@@ -35,3 +35,8 @@ pub struct Artifact {
     /// What the file is for, in a few words.
     pub purpose: String,
 }
+
+/// The README's examples compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,7 +1,7 @@
 //! Reading specifications from files.
 
-use std::fs::File;
-use std::io::Read as _;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -42,6 +42,26 @@ pub fn compile_file(path: &Path, sources: &mut SourceMap, loader: &mut FileLoade
     }
 }
 
+/// The files of a directory that are called like specifications, `*.od.yaml`, ordered by name; hidden files are left out.
+/// For the current directory, `.`, the paths are bare file names, as a user would type them.
+///
+/// # Errors
+///
+/// The directory cannot be read.
+pub fn specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(directory)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let bytes = name.as_encoded_bytes();
+        if bytes.ends_with(b".od.yaml") && !bytes.starts_with(b".") && entry.path().is_file() {
+            found.push(if directory == Path::new(".") { PathBuf::from(name) } else { entry.path() });
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
 fn open(path: &Path, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>> {
     let name = path.display().to_string();
     let bytes = read_bytes(path).map_err(|reason| {
@@ -54,10 +74,10 @@ fn open(path: &Path, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>>
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let describe = |error: std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound => "no such file".to_owned(),
-        std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        std::io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
+    let describe = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
         _ => error.to_string(),
     };
     let file = File::open(path).map_err(describe)?;

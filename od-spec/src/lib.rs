@@ -59,3 +59,8 @@ pub use json_schema::json_schema;
 pub use parameters::{Assignment, ParameterValues, assign};
 #[cfg(feature = "reference")]
 pub use reference::reference;
+
+/// The README's examples compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -4,7 +4,8 @@
     run.py DOCS...
 
 DOCS are directories with HTML pages, `dump.json` and `context.json`, or with `manual.adoc`. What npm brings is installed
-below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils.
+below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
+0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
 """
 
 from __future__ import annotations
@@ -23,11 +24,15 @@ SCRIPTS = ["check.mjs", "asciidoc.mjs"]
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
 
 
+class Missing(Exception):
+    """What has to be installed."""
+
+
 def program(names: list[str], package: str) -> str:
     for name in names:
         if found := shutil.which(name):
             return found
-    sys.exit(f"error: {' or '.join(names)} is missing; install {package}")
+    raise Missing(f"{' or '.join(names)} is missing; install {package}")
 
 
 def install() -> Path:
@@ -40,8 +45,9 @@ def install() -> Path:
         folder.mkdir(parents=True)
         for name in FILES:
             shutil.copy(HERE / name, folder)
-        npm = program(["npm"], "npm")
-        subprocess.run([npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"], cwd=folder, check=True)
+        command = [program(["npm"], "npm"), "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"]
+        if subprocess.run(command, cwd=folder, check=False).returncode != 0:
+            raise Missing("`npm ci` could not install the modules")
         stamp.write_text(digest)
     for name in SCRIPTS:
         shutil.copy(HERE / name, folder)
@@ -49,9 +55,13 @@ def install() -> Path:
 
 
 def main() -> int:
-    node, browser = program(["node"], "nodejs"), os.environ.get("CHROMIUM") or program(BROWSERS, "chromium")
-    program(["pdftotext"], "poppler-utils")
-    folder = install()
+    try:
+        node, browser = program(["node"], "nodejs"), os.environ.get("CHROMIUM") or program(BROWSERS, "chromium")
+        program(["pdftotext"], "poppler-utils")
+        folder = install()
+    except Missing as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 3
     failed = 0
     for argument in sys.argv[1:]:
         docs = Path(argument).resolve()

@@ -154,15 +154,17 @@ def main() -> int:
     parser.add_argument("--dump", type=Path, required=True)
     options = parser.parse_args()
     dump = json.loads(options.dump.read_text(encoding="utf-8"))
-    failed = False
+    failed = 0
     for device in dump["devices"]:
         check = check_device(options.server, options.eds_dir / f"{device['key']}.eds", device, dump["types"])
-        failed |= bool(check.failures) or check.done < 500
+        failed += bool(check.failures) or check.done < 500
         for failure in check.failures[:20]:
             print(f"  {failure}")
         verdict = "ok" if not check.failures else f"{len(check.failures)} differences"
         print(f"python-canopen as SDO client, {device['key']}: {check.done} accesses, {verdict}")
-    return int(failed)
+    devices = len(dump["devices"])
+    print(f"{devices - failed} passed, {failed} failed")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

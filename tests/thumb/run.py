@@ -25,12 +25,12 @@ The target's core library is taken from the first that there is of
 2. /usr/bin/rustc with the library's sources (Debian: rustc-web, cargo-web, rust-web-src), which
    builds core with the unstable `-Z build-std` and with this workspace's profile.
 
-The linker is the toolchain's rust-lld, or arm-none-eabi-ld where there is none. Sizes depend on
-these, so compare numbers of one toolchain only; `sizes` says which it was.
+The linker is rust-lld, which rustup brings with every toolchain, or arm-none-eabi-ld where there is
+none. Sizes depend on these, so compare numbers of one toolchain only; `sizes` says which it was.
 
 The exit code is 0 when all went well, 1 when a build or a program failed or did not end in time,
 when a measured program can panic, or when an entry takes more flash than its target, 3 when a tool
-is missing.
+is missing or the crates that the firmware uses cannot be fetched.
 """
 
 from __future__ import annotations
@@ -99,11 +99,12 @@ class Toolchain:
     sysroot: Path
     flags: list[str] = field(default_factory=list)
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
+    linker: str = LINKER
 
     def describe(self) -> str:
         version = output([self.rustc, "--version"], self.environment)
         core = "core built from source" if self.flags else "core as shipped"
-        return f"{version}, {core}, linked with {'rust-lld' if has_lld(self.sysroot) else LINKER}"
+        return f"{version}, {core}, linked with {Path(self.linker).stem}"
 
 
 def main() -> int:
@@ -132,7 +133,7 @@ def main() -> int:
                 print(f"error: {fault}", file=sys.stderr)
             return 1 if faults else 0
         failed = [name for name, program in programs.items() if not passes(name, program, options.timeout)]
-        print(f"{len(programs)} run, {len(failed)} failed")
+        print(f"{len(programs) - len(failed)} passed, {len(failed)} failed")
         return 1 if failed else 0
     except (Failed, Missing) as error:
         print(f"error: {error}", file=sys.stderr)
@@ -148,20 +149,34 @@ def find_toolchain() -> Toolchain:
     short = [f"--remap-path-prefix={ROOT}=.", f"--remap-path-prefix={home / 'registry' / 'src'}=registry"]
     found.environment["PYTHON"] = sys.executable  # for scaled/build.rs
     found.environment["CARGO_ENCODED_RUSTFLAGS"] = "\x1f".join(short)
-    if not has_lld(found.sysroot):
-        if not shutil.which(LINKER):
-            raise Missing(INSTALL_LINKER)
-        found.environment[f"CARGO_TARGET_{TARGET.upper().replace('-', '_')}_LINKER"] = LINKER
+    found.linker = find_linker(found)
+    found.environment[f"CARGO_TARGET_{TARGET.upper().replace('-', '_')}_LINKER"] = found.linker
     return found
 
 
-def default_toolchain() -> Toolchain | None:
-    """The one that the command line means, for rustup the one of `rust-toolchain.toml`."""
+def find_linker(toolchain: Toolchain) -> str:
+    """The toolchain's own rust-lld, or that of the default toolchain, or the GNU linker."""
+    sysroots = [toolchain.sysroot, default_sysroot()]
+    for lld in (lld for sysroot in sysroots if sysroot for lld in sorted(sysroot.glob("lib/rustlib/*/bin/rust-lld*"))):
+        return str(lld)
+    if not shutil.which(LINKER):
+        raise Missing(INSTALL_LINKER)
+    return LINKER
+
+
+def default_sysroot() -> Path | None:
+    """Of the toolchain that the command line means, for rustup the one of `rust-toolchain.toml`."""
     try:
-        found = Toolchain("cargo", "rustc", Path(output(["rustc", "--print", "sysroot"])))
+        return Path(output(["rustc", "--print", "sysroot"]))
     except Failed:
         return None
-    return found if (found.sysroot / "lib" / "rustlib" / TARGET).is_dir() else None
+
+
+def default_toolchain() -> Toolchain | None:
+    sysroot = default_sysroot()
+    if not sysroot or not (sysroot / "lib" / "rustlib" / TARGET).is_dir():
+        return None
+    return Toolchain("cargo", "rustc", sysroot)
 
 
 def system_toolchain() -> Toolchain | None:
@@ -179,10 +194,6 @@ def system_toolchain() -> Toolchain | None:
     return Toolchain(cargo, rustc, sysroot, ["-Zbuild-std=core"], environment)
 
 
-def has_lld(sysroot: Path) -> bool:
-    return any(sysroot.glob("lib/rustlib/*/bin/rust-lld*"))
-
-
 def output(command: list[str], environment: dict[str, str] | None = None) -> str:
     try:
         done = subprocess.run(command, check=False, cwd=HERE, env=environment, text=True, capture_output=True)
@@ -195,6 +206,9 @@ def output(command: list[str], environment: dict[str, str] | None = None) -> str
 
 def build(toolchain: Toolchain) -> dict[str, tuple[str, Path]]:
     """All programs: name to source folder and ELF file, in the order of their names."""
+    fetch = [toolchain.cargo, "fetch", "--locked", "--quiet"]
+    if subprocess.run(fetch, check=False, cwd=HERE, env=toolchain.environment).returncode != 0:
+        raise Missing("the crates that the firmware uses cannot be fetched")
     command = [toolchain.cargo, "build", "--release", "--locked", "--quiet", "--target", TARGET, *toolchain.flags]
     command.append("--message-format=json-render-diagnostics")
     done = subprocess.run(

@@ -21,6 +21,10 @@ pub(crate) struct Cli {
     #[arg(long, value_enum)]
     pub format: Option<Format>,
 
+    /// Directory whose `*.od.yaml` are taken when no SPEC is named
+    #[arg(long = "specs", global = true, default_value = ".", hide_default_value = true, value_name = "DIR")]
+    pub directory: PathBuf,
+
     /// Colours in messages
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
     pub color: Color,
@@ -131,7 +135,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// Specifications (`*.od.yaml`); without any, the specifications that come with odgen, with Rust and a DCF for node 1
+    /// Specifications (`*.od.yaml`) [default: those of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the files
@@ -150,7 +154,7 @@ pub(crate) struct BuildArgs {
     #[arg(long)]
     pub rust: bool,
 
-    /// Also the reference documentation in this format, `docs/`; without specifications, Markdown
+    /// Also the reference documentation in this format, `docs/`
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub docs: Vec<DocsFormat>,
 
@@ -160,8 +164,7 @@ pub(crate) struct BuildArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Specifications (`*.od.yaml`)
-    #[arg(required = true)]
+    /// Specifications (`*.od.yaml`) [default: those of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Treat warnings as errors
@@ -182,8 +185,8 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct DcfArgs {
-    /// The specification
-    pub spec: PathBuf,
+    /// The specification [default: the only `*.od.yaml` of the current directory]
+    pub spec: Option<PathBuf>,
 
     /// Key of the device
     #[arg(long, value_name = "KEY")]
@@ -223,7 +226,7 @@ pub(crate) struct DcfArgs {
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DocsArgs {
-    /// Specifications (`*.od.yaml`); without any, the specifications that come with odgen
+    /// Specifications (`*.od.yaml`) [default: those of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the documents; those of a specification go into a directory with its name
@@ -265,8 +268,8 @@ pub(crate) enum DocsFormat {
 
 #[derive(Debug, Args)]
 pub(crate) struct DumpArgs {
-    /// The specification
-    pub spec: PathBuf,
+    /// The specification [default: the only `*.od.yaml` of the current directory]
+    pub spec: Option<PathBuf>,
 
     /// As JSON, the only format there is
     #[arg(long)]
@@ -312,8 +315,8 @@ pub(crate) enum Profile {
 
 #[derive(Debug, Args)]
 pub(crate) struct ErrataArgs {
-    /// The specification
-    pub spec: PathBuf,
+    /// The specification [default: the only `*.od.yaml` of the current directory]
+    pub spec: Option<PathBuf>,
 
     /// Only this kind of fact, such as `access` or `gap`
     #[arg(long, value_name = "KIND")]

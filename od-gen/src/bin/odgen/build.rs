@@ -1,51 +1,44 @@
 //! `odgen build`.
 
-use std::collections::BTreeSet;
-use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use od_gen::files::{Outcome, write_all};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
-use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
+use od_spec::rule_codes;
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, compile, rule_codes};
 
 use super::ERRORS;
-use super::args::{BuildArgs, DocsFormat};
-use super::docs;
-use super::report::{Report, node_id, print};
+use super::args::BuildArgs;
+use super::output::{clash, write};
+use super::report::{Report, node_id};
+use super::specs::{self, stem};
+use super::templates::{Problem, templates};
 
-/// The specifications that come with odgen: name and text.
-pub(crate) const SHIPPED: [(&str, &str); 2] = [
-    ("fullmo-drive.od.yaml", include_str!("../../../../od-spec/devices/fullmo-drive.od.yaml")),
-    (
-        "pitch-control-system.od.yaml",
-        include_str!("../../../../od-spec/devices/pitch-control-system.od.yaml"),
-    ),
-];
-
-pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
+pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
     let node = match args.node.as_deref().map(node_id).transpose() {
         Ok(node) => node,
         Err(diagnostic) => return report.refuse(diagnostic),
     };
-    // The files that come with odgen include a DCF of node 1, and Rust.
-    let shipped = args.specs.is_empty();
-    let node = if shipped { node.or(Some(1)) } else { node };
-    let Some(mut systems) = compile_all(args, args.rust || shipped, report) else { return ERRORS };
+    let specs = match specs::all(&args.specs, directory, report) {
+        Ok(specs) => specs,
+        Err(code) => return code,
+    };
+    let Some(mut systems) = compile_all(&specs, args, report) else { return ERRORS };
     let mut set: Vec<Artifact> = Vec::new();
-    let mut text = String::new();
+    let mut summary = String::new();
     for key in &args.device {
         if !systems.iter().any(|built| built.system.device(key).is_some()) {
             return report.unknown_device(systems.iter().map(|built| &built.system), key);
         }
     }
-    let formats = if shipped && args.docs.is_empty() { &[DocsFormat::Md][..] } else { &args.docs };
-    let templates = match docs::templates(formats, None) {
-        Ok(templates) if !formats.is_empty() => templates,
-        Ok(_) => Vec::new(),
+    let templates = match args.docs.as_slice() {
+        [] => Ok(Vec::new()),
+        formats => templates(formats, None),
+    };
+    let templates = match templates {
+        Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
     for Built { stem, system, rust } in &mut systems {
@@ -53,14 +46,14 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
         if devices.is_empty() {
             continue;
         }
-        text.extend(devices.into_iter().map(describe));
+        summary.extend(devices.into_iter().map(describe));
         set.extend(artifacts(system, stem, &Selection { devices: &args.device, node }));
         set.append(rust);
         if !templates.is_empty() {
             let options = od_gen::docs::options(system, &args.device, None);
             match od_gen::docs::artifacts(system, "docs/", stem, &options, &templates) {
                 Ok(artifacts) => set.extend(artifacts),
-                Err(error) => return docs::Problem::Template(error, None).show(report),
+                Err(error) => return Problem::Template(error, None).show(report),
             }
         }
     }
@@ -73,19 +66,9 @@ pub(crate) fn run(args: &BuildArgs, report: &Report) -> u8 {
             .help("give the devices different keys, or build the specifications into different directories"),
         );
     }
-    let written = write_all(&args.out, &set);
     // The process ends next: taking the models apart piece by piece would only cost the user time.
     std::mem::forget(systems);
-    match written {
-        Ok(outcomes) => {
-            text.push_str(&list(&args.out, &set, &outcomes));
-            print(&text)
-        }
-        Err(error) => report.refuse(
-            Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
-                .help("nothing was changed; check the directory, its permissions and the free space"),
-        ),
-    }
+    write(&args.out, &set, &summary, report)
 }
 
 /// A specification that was compiled.
@@ -97,16 +80,11 @@ struct Built {
 }
 
 /// Compiles everything, so that all messages are shown; `None` if any has errors.
-fn compile_all(args: &BuildArgs, rust: bool, report: &Report) -> Option<Vec<Built>> {
-    let compiled: Vec<(String, Option<(System, SourceMap)>)> = if args.specs.is_empty() {
-        SHIPPED.iter().map(|(name, text)| (stem(Path::new(name)), shipped(name, text, report))).collect()
-    } else {
-        args.specs.iter().map(|path| (stem(path), report.compile_with_sources(path))).collect()
-    };
-    let built = compiled.into_iter().map(|(stem, compiled)| {
-        let (system, sources) = compiled?;
-        let rust = if rust { modules(args, &system, &sources, report)? } else { Vec::new() };
-        Some(Built { stem, system, rust })
+fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<Vec<Built>> {
+    let built = specs.iter().map(|path| {
+        let (system, sources) = report.compile_with_sources(path)?;
+        let rust = if args.rust { modules(args, &system, &sources, report)? } else { Vec::new() };
+        Some(Built { stem: stem(path), system, rust })
     });
     built.collect::<Vec<_>>().into_iter().collect()
 }
@@ -122,30 +100,6 @@ fn modules(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Repo
 
 fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {
     Devices::listed(&args.device).includes(&device.key)
-}
-
-pub(crate) fn shipped(name: &str, text: &str, report: &Report) -> Option<(System, SourceMap)> {
-    let mut sources = SourceMap::new();
-    let root = sources.add(name, text);
-    let compiled = compile(&mut sources, root, &mut NoFiles);
-    report.show(&compiled.diagnostics, &sources);
-    Some((compiled.system?, sources))
-}
-
-/// `pitch.od.yaml` → `pitch`.
-pub(crate) fn stem(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let name = name.strip_suffix(".yaml").or_else(|| name.strip_suffix(".yml")).unwrap_or(&name);
-    name.strip_suffix(".od").unwrap_or(name).to_owned()
-}
-
-/// The first path that two artifacts share.
-pub(crate) fn clash(set: &[Artifact]) -> Option<&str> {
-    let mut seen = BTreeSet::new();
-    // Some file systems do not tell capitals from small letters.
-    set.iter()
-        .find(|artifact| !seen.insert(artifact.path.to_lowercase()))
-        .map(|artifact| artifact.path.as_str())
 }
 
 fn describe(device: &Dictionary) -> String {
@@ -164,18 +118,4 @@ fn describe(device: &Dictionary) -> String {
         stored,
         device.objects.len() - described.len()
     )
-}
-
-pub(crate) fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
-    let mut text = String::new();
-    let paths: Vec<String> =
-        set.iter().map(|artifact| out.join(&artifact.path).display().to_string()).collect();
-    let width = paths.iter().map(|path| path.chars().count()).max().unwrap_or(0);
-    for (artifact, path) in set.iter().zip(&paths) {
-        let size = artifact.bytes.len().div_ceil(1024);
-        let _ = writeln!(text, "  {path:<width$}  {size:>4} kB  {}", artifact.purpose);
-    }
-    let changed = outcomes.iter().filter(|outcome| **outcome == Outcome::Changed).count();
-    let _ = writeln!(text, "  {changed} files changed, {} unchanged", outcomes.len() - changed);
-    text
 }

@@ -1,5 +1,7 @@
 //! `odgen check`.
 
+use std::path::Path;
+
 use od_gen::rust;
 use od_gen::source::{FileLoader, compile_file};
 use od_spec::source::SourceMap;
@@ -7,11 +9,16 @@ use od_spec::{Compiled, departures};
 
 use super::args::CheckArgs;
 use super::report::Report;
-use super::{ERRORS, FINE};
+use super::specs;
+use super::{ERRORS, SUCCESS};
 
-pub(crate) fn run(args: &CheckArgs, report: &Report) -> u8 {
-    let mut code = FINE;
-    for path in &args.specs {
+pub(crate) fn run(args: &CheckArgs, directory: &Path, report: &Report) -> u8 {
+    let specs = match specs::all(&args.specs, directory, report) {
+        Ok(specs) => specs,
+        Err(code) => return code,
+    };
+    let mut code = SUCCESS;
+    for path in &specs {
         let mut sources = SourceMap::new();
         let Compiled { system, mut diagnostics } =
             compile_file(path, &mut sources, &mut FileLoader::default());

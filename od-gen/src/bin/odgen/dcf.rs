@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_gen::eds::write_dcf;
-use od_gen::files::write_all;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
@@ -14,25 +13,28 @@ use od_spec::{Commissioning, assign, eds_text_problem, rule_codes};
 
 use super::ERRORS;
 use super::args::DcfArgs;
+use super::output::save;
 use super::report::{Report, node_id, print};
+use super::specs;
 
 /// Longest `NodeName` and `NetworkName`: a line has 255 characters.
 const LONGEST_NODE_NAME: usize = 246;
 const LONGEST_NET_NAME: usize = 243;
 
-pub(crate) fn run(args: &DcfArgs, report: &Report) -> u8 {
-    match dcf(args, report) {
+pub(crate) fn run(args: &DcfArgs, directory: &Path, report: &Report) -> u8 {
+    match dcf(args, directory, report) {
         Ok(text) => print(&text),
         Err(code) => code,
     }
 }
 
-fn dcf(args: &DcfArgs, report: &Report) -> Result<String, u8> {
+fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> {
     let refuse = |diagnostic| report.refuse(diagnostic);
     let node = node_id(&args.node).map_err(refuse)?;
+    let spec = specs::one(args.spec.as_deref(), directory, report)?;
     let mut sources = SourceMap::new();
     let mut loader = FileLoader::default();
-    let compiled = od_gen::source::compile_file(&args.spec, &mut sources, &mut loader);
+    let compiled = od_gen::source::compile_file(&spec, &mut sources, &mut loader);
     report.show(&compiled.diagnostics, &sources);
     let system = compiled.system.ok_or(ERRORS)?;
     let device = report.device(&system, &args.device)?;
@@ -57,12 +59,7 @@ fn dcf(args: &DcfArgs, report: &Report) -> Result<String, u8> {
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
     let artifact = Artifact { path: name, bytes, purpose: String::new() };
-    write_all(directory, std::slice::from_ref(&artifact)).map_err(|error| {
-        refuse(
-            Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
-                .help("nothing was changed; check the directory, its permissions and the free space"),
-        )
-    })?;
+    save(directory, std::slice::from_ref(&artifact)).map_err(refuse)?;
     let size = artifact.bytes.len().div_ceil(1024);
     let count = commissioning.values.len();
     Ok(format!("  {}  {size} kB  {} node {node}, {count} values set\n", path.display(), device.key))

@@ -1,6 +1,7 @@
 //! `odgen errata`.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Devices, Erratum, ErratumKind, ErratumPlace, Index, System};
@@ -8,8 +9,9 @@ use od_spec::model::{Devices, Erratum, ErratumKind, ErratumPlace, Index, System}
 use super::ERRORS;
 use super::args::ErrataArgs;
 use super::report::{Report, print};
+use super::specs;
 
-pub(crate) fn run(args: &ErrataArgs, report: &Report) -> u8 {
+pub(crate) fn run(args: &ErrataArgs, directory: &Path, report: &Report) -> u8 {
     let kind = match args.kind.as_deref().map(|word| (word, ErratumKind::from_word(word))) {
         Some((word, None)) => {
             return report.refuse(
@@ -30,7 +32,11 @@ pub(crate) fn run(args: &ErrataArgs, report: &Report) -> u8 {
         Some((_, index)) => index,
         None => None,
     };
-    let Some(system) = report.compile(&args.spec) else { return ERRORS };
+    let spec = match specs::one(args.spec.as_deref(), directory, report) {
+        Ok(spec) => spec,
+        Err(code) => return code,
+    };
+    let Some(system) = report.compile(&spec) else { return ERRORS };
     let wanted = |erratum: &&Erratum| {
         kind.is_none_or(|kind| kind == erratum.kind)
             && at.is_none_or(|index| erratum.at.iter().any(|place| place.index() == index))

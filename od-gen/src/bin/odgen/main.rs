@@ -7,17 +7,21 @@ mod dcf;
 mod docs;
 mod errata;
 mod new;
+mod output;
 mod report;
+mod specs;
+mod templates;
 
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
 use args::{Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
 use od_spec::diag::{Code, Diagnostic, codes};
 
-/// Nothing to object to.
-const FINE: u8 = 0;
+/// The input is without errors, and what was to be written is.
+const SUCCESS: u8 = 0;
 /// Errors in the input, or output that could not be written.
 const ERRORS: u8 = 1;
 /// The command line cannot be understood.
@@ -26,13 +30,14 @@ const USAGE: u8 = 2;
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let report = report::Report::new(cli.message_format().into(), cli.color);
+    let directory = cli.directory.as_path();
     let code = match cli.command {
-        Command::Build(args) => build::run(&args, &report),
-        Command::Check(args) => check::run(&args, &report),
-        Command::Dcf(args) => dcf::run(&args, &report),
-        Command::Docs(args) => docs::run(&args, &report),
-        Command::Dump(args) => dump(&args, &report),
-        Command::Errata(args) => errata::run(&args, &report),
+        Command::Build(args) => build::run(&args, directory, &report),
+        Command::Check(args) => check::run(&args, directory, &report),
+        Command::Dcf(args) => dcf::run(&args, directory, &report),
+        Command::Docs(args) => docs::run(&args, directory, &report),
+        Command::Dump(args) => dump(&args, directory, &report),
+        Command::Errata(args) => errata::run(&args, directory, &report),
         Command::New(args) => new::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
@@ -42,14 +47,18 @@ fn main() -> ExitCode {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "odgen", &mut text);
             let _ = std::io::stdout().write_all(&text);
-            FINE
+            SUCCESS
         }
     };
     ExitCode::from(code)
 }
 
-fn dump(args: &args::DumpArgs, report: &report::Report) -> u8 {
-    let Some(system) = report.compile(&args.spec) else { return ERRORS };
+fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 {
+    let spec = match specs::one(args.spec.as_deref(), directory, report) {
+        Ok(spec) => spec,
+        Err(code) => return code,
+    };
+    let Some(system) = report.compile(&spec) else { return ERRORS };
     match args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
         Ok(()) => report::print_bytes(&od_gen::json::dump(&system, &args.device)),
         Err(code) => code,

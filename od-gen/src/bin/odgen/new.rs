@@ -266,14 +266,14 @@ fn items<'a>(features: impl Iterator<Item = &'a str>) -> String {
     features.map(|feature| format!("      - {feature}")).collect::<Vec<_>>().join("\n")
 }
 
-fn without_repetition<'a>(all: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
-    let mut once = Vec::new();
-    for one in all {
-        if !once.contains(&one) {
-            once.push(one);
+fn without_repetition<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut distinct = Vec::new();
+    for name in names {
+        if !distinct.contains(&name) {
+            distinct.push(name);
         }
     }
-    once
+    distinct
 }
 
 /// The template with its marks replaced; `my-device` has the title `My device`.
@@ -313,8 +313,11 @@ mod tests {
         let mut sources = SourceMap::new();
         let root = sources.add(key, text);
         let compiled = compile(&mut sources, root, &mut NoFiles);
-        let messages: Vec<String> =
-            compiled.diagnostics.iter().map(|one| format!("{}: {}", one.code, one.message)).collect();
+        let messages: Vec<String> = compiled
+            .diagnostics
+            .iter()
+            .map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message))
+            .collect();
         assert_eq!(messages, Vec::<String>::new(), "{text}");
         compiled.system.expect("no errors")
     }
@@ -338,7 +341,7 @@ mod tests {
         let all: Vec<&Mode> = MODES.iter().collect();
         let system = compiled("drive", &drive("drive", &all));
         let mandatory =
-            system.devices[0].objects.values().filter(|one| one.category == Some(Category::Mandatory));
+            system.devices[0].objects.values().filter(|object| object.category == Some(Category::Mandatory));
         assert!(mandatory.count() > 5);
         compiled("plain", &device("plain"));
     }

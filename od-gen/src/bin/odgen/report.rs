@@ -12,7 +12,7 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
 use super::args::Color;
-use super::{ERRORS, FINE, USAGE};
+use super::{ERRORS, SUCCESS, USAGE};
 
 /// Writes diagnostics the way the user asked for.
 pub(crate) struct Report {
@@ -55,6 +55,13 @@ impl Report {
             (false, _) => String::new(),
         };
         let _ = std::io::stderr().write_all(text.as_bytes());
+    }
+
+    /// Tells people what the command does unasked; programs that read JSON did not ask.
+    pub(crate) fn note(&self, text: &str) {
+        if self.format != Format::Json {
+            let _ = writeln!(std::io::stderr(), "note: {text}");
+        }
     }
 
     /// Compiles a file and shows what there is to say; `None` when it has errors.
@@ -124,6 +131,6 @@ pub(crate) fn print_bytes(bytes: &[u8]) -> u8 {
             anstream::eprintln!("error: cannot write to standard output: {error}");
             ERRORS
         }
-        _ => FINE,
+        _ => SUCCESS,
     }
 }

@@ -1,0 +1,85 @@
+//! Which specifications a command reads: those that the command line names, or else those of a directory.
+
+use std::path::{Path, PathBuf};
+
+use od_gen::source::specifications_in;
+use od_spec::diag::{Diagnostic, codes};
+
+use super::USAGE;
+use super::report::Report;
+
+/// The specifications of a command line that may name several: those it names, or all of `directory`, by name. The exit
+/// code after a message when there are none.
+pub(crate) fn all(named: &[PathBuf], directory: &Path, report: &Report) -> Result<Vec<PathBuf>, u8> {
+    if !named.is_empty() {
+        return Ok(named.to_vec());
+    }
+    let found = find(directory, report)?;
+    report.note(&format!("no SPEC is named: taking {} of {}", list(&found), describe(directory)));
+    Ok(found)
+}
+
+/// The specification of a command line that may name one: the one it names, or the only one of `directory`. The exit code
+/// after a message when there is none, or more than one to choose from.
+pub(crate) fn one(named: Option<&Path>, directory: &Path, report: &Report) -> Result<PathBuf, u8> {
+    if let Some(path) = named {
+        return Ok(path.to_owned());
+    }
+    let found = find(directory, report)?;
+    match found.as_slice() {
+        [only] => {
+            report.note(&format!("no SPEC is named: taking {} of {}", list(&found), describe(directory)));
+            Ok(only.clone())
+        }
+        several => Err(refuse(
+            format!("no SPEC is named, and there are {} in {}", several.len(), describe(directory)),
+            format!("name one of them: {}", list(several)),
+            report,
+        )),
+    }
+}
+
+/// `pitch.od.yaml` → `pitch`.
+pub(crate) fn stem(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = name.strip_suffix(".yaml").or_else(|| name.strip_suffix(".yml")).unwrap_or(&name);
+    name.strip_suffix(".od").unwrap_or(name).to_owned()
+}
+
+/// At least one specification.
+fn find(directory: &Path, report: &Report) -> Result<Vec<PathBuf>, u8> {
+    const HELP: &str =
+        "name a specification, go to the directory where yours lie, or start one with `odgen new NAME`";
+    match specifications_in(directory) {
+        Ok(found) if found.is_empty() => Err(refuse(
+            format!("no SPEC is named, and there is no `*.od.yaml` in {}", describe(directory)),
+            HELP.to_owned(),
+            report,
+        )),
+        Ok(found) => Ok(found),
+        Err(error) => Err(refuse(
+            format!("no SPEC is named, and {} cannot be read: {error}", describe(directory)),
+            HELP.to_owned(),
+            report,
+        )),
+    }
+}
+
+fn refuse(message: String, help: String, report: &Report) -> u8 {
+    report.refuse(Diagnostic::without_place(codes::UNREADABLE, message).help(help));
+    USAGE
+}
+
+fn describe(directory: &Path) -> String {
+    if directory == Path::new(".") {
+        "the current directory".to_owned()
+    } else {
+        directory.display().to_string()
+    }
+}
+
+/// File names, as they lie in one directory.
+fn list(paths: &[PathBuf]) -> String {
+    let names = paths.iter().map(|path| path.file_name().unwrap_or_default().to_string_lossy().into_owned());
+    names.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,200 @@
+//! The command line of `cargo xtask`.
+
+use std::collections::BTreeSet;
+
+use crate::parts::Area;
+
+/// What there is to do.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Task {
+    /// Run the tests.
+    Test(TestOptions),
+    /// Run the part of the tests that reads the documents in a browser.
+    Browser,
+    /// Write everything that is generated and checked in.
+    Generate,
+    /// Tell what of that is not current.
+    CheckGenerated,
+    /// Package the crates that users depend on.
+    Package,
+    /// Measure beside other tools, with the arguments of tests/bench/run.py.
+    Bench(Vec<String>),
+    /// Print a text about a task, or about all.
+    Help(&'static str),
+}
+
+/// How the tests are run.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct TestOptions {
+    /// What happens with parts whose tools are missing.
+    pub(crate) gaps: Gaps,
+    /// Parts that the user does not want to run.
+    pub(crate) unwanted: BTreeSet<Area>,
+}
+
+/// What a part of the tests means that could not run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Gaps {
+    /// It is told at the end, and the tests pass if what ran has passed.
+    Told,
+    /// The tests fail.
+    Refused,
+}
+
+pub(crate) const HELP: &str = "\
+cargo xtask TASK
+
+  test [--all] [--without-browser] [--without-emulator]
+                      run the tests: every part that this machine has the tools for
+  browser             the part of `test` that reads the documents in Chromium
+  generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
+  package             package the crates that users depend on, and build each from its package
+  bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
+  help [TASK]         this text, or one about a task
+";
+
+const TEST: &str = "\
+cargo xtask test [--all] [--without-browser] [--without-emulator]
+
+Runs the Rust tests, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
+emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then it runs every part
+whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
+
+  --all               fail when anything is left out
+  --without-browser   do not read the documents in Chromium
+  --without-emulator  do not build the firmware, and do not run it in QEMU
+
+What the parts install for themselves goes into target/, from the registries of Python, npm and Rust; the target
+thumbv7em-none-eabi is added with rustup where rustup can fetch it.
+
+Exit codes: 0 all that ran has passed, 1 something failed (with --all, or was left out), 2 wrong command line.
+";
+
+const BROWSER: &str = "\
+cargo xtask browser
+
+Makes the documents of several specifications and reads them in Chromium; screenshots and PDFs go to target/browser/seen.
+Needs Python, Node.js with npm, Chromium (the variable CHROMIUM names another program) and pdftotext.
+";
+
+const GENERATE: &str = "\
+cargo xtask generate [--check]
+
+Rewrites everything that is generated and checked in. With --check it writes nothing, and fails with the first difference.
+";
+
+const PACKAGE: &str = "\
+cargo xtask package
+
+Packages the crates that users depend on, as `cargo publish` would, and builds each from its package. Fails when a package
+lacks its README, a licence text or a fact that a registry shows.
+";
+
+const BENCH: &str = "\
+cargo xtask bench [ARGUMENT…]
+
+Measures odgen beside other tools; the arguments are those of tests/bench/run.py, whose `--help` lists them.
+";
+
+/// The task that the arguments mean, or what is wrong with them.
+pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
+    match arguments {
+        [] => Err("no task is named".to_owned()),
+        ["help" | "--help" | "-h"] => Ok(Task::Help(HELP)),
+        ["help", task] => help(task),
+        // The script of the benchmarks answers `--help` itself.
+        ["bench", rest @ ..] => Ok(Task::Bench(rest.iter().map(|&argument| argument.to_owned()).collect())),
+        [task, options @ ..] if options.contains(&"--help") || options.contains(&"-h") => help(task),
+        ["test", options @ ..] => test(options).map(Task::Test),
+        ["browser"] => Ok(Task::Browser),
+        ["generate"] => Ok(Task::Generate),
+        ["generate", "--check"] => Ok(Task::CheckGenerated),
+        ["package"] => Ok(Task::Package),
+        [task, rest @ ..] => {
+            help(task)?;
+            Err(format!("`{task}` does not take `{}`", rest.join(" ")))
+        }
+    }
+}
+
+fn help(task: &str) -> Result<Task, String> {
+    match task {
+        "test" => Ok(Task::Help(TEST)),
+        "browser" => Ok(Task::Help(BROWSER)),
+        "generate" => Ok(Task::Help(GENERATE)),
+        "package" => Ok(Task::Help(PACKAGE)),
+        "bench" => Ok(Task::Help(BENCH)),
+        "help" => Ok(Task::Help(HELP)),
+        _ => Err(format!("there is no task `{task}`")),
+    }
+}
+
+fn test(options: &[&str]) -> Result<TestOptions, String> {
+    let mut chosen = TestOptions { gaps: Gaps::Told, unwanted: BTreeSet::new() };
+    for &option in options {
+        match option {
+            "--all" => chosen.gaps = Gaps::Refused,
+            "--without-browser" => drop(chosen.unwanted.insert(Area::Browser)),
+            "--without-emulator" => drop(chosen.unwanted.insert(Area::Firmware)),
+            _ => return Err(format!("`test` does not take `{option}`")),
+        }
+    }
+    if chosen.gaps == Gaps::Refused && !chosen.unwanted.is_empty() {
+        return Err("`--all` wants every part, `--without-…` leaves one out".to_owned());
+    }
+    Ok(chosen)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn test_with(gaps: Gaps, unwanted: &[Area]) -> Task {
+        Task::Test(TestOptions { gaps, unwanted: unwanted.iter().copied().collect() })
+    }
+
+    #[test]
+    fn tasks_and_their_options_are_understood() {
+        assert_eq!(parse(&["test"]), Ok(test_with(Gaps::Told, &[])));
+        assert_eq!(parse(&["test", "--all"]), Ok(test_with(Gaps::Refused, &[])));
+        assert_eq!(
+            parse(&["test", "--without-emulator", "--without-browser"]),
+            Ok(test_with(Gaps::Told, &[Area::Browser, Area::Firmware]))
+        );
+        assert_eq!(parse(&["browser"]), Ok(Task::Browser));
+        assert_eq!(parse(&["generate"]), Ok(Task::Generate));
+        assert_eq!(parse(&["generate", "--check"]), Ok(Task::CheckGenerated));
+        assert_eq!(parse(&["package"]), Ok(Task::Package));
+        assert_eq!(parse(&["bench", "--help"]), Ok(Task::Bench(vec!["--help".to_owned()])));
+    }
+
+    #[test]
+    fn every_task_has_a_help() {
+        let lines =
+            HELP.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
+        let tasks: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
+        assert_eq!(tasks, ["test", "browser", "generate", "package", "bench", "help"]);
+        for task in tasks {
+            assert!(matches!(parse(&["help", task]), Ok(Task::Help(_))), "{task}");
+        }
+        assert_eq!(parse(&["test", "--help"]), Ok(Task::Help(TEST)));
+        assert_eq!(parse(&["test", "--all", "-h"]), Ok(Task::Help(TEST)));
+        assert_eq!(parse(&["--help"]), Ok(Task::Help(HELP)));
+    }
+
+    #[test]
+    fn what_is_not_understood_is_said() {
+        let wrong = |arguments: &[&str]| parse(arguments).unwrap_err();
+        assert_eq!(wrong(&[]), "no task is named");
+        assert_eq!(wrong(&["tset"]), "there is no task `tset`");
+        assert_eq!(wrong(&["tset", "--help"]), "there is no task `tset`");
+        assert_eq!(wrong(&["tset", "--all"]), "there is no task `tset`");
+        assert_eq!(wrong(&["help", "tset"]), "there is no task `tset`");
+        assert_eq!(wrong(&["test", "--al"]), "`test` does not take `--al`");
+        assert_eq!(wrong(&["generate", "--chekc"]), "`generate` does not take `--chekc`");
+        assert_eq!(
+            wrong(&["test", "--all", "--without-browser"]),
+            "`--all` wants every part, `--without-…` leaves one out"
+        );
+    }
+}

@@ -1,0 +1,127 @@
+//! The project's own tasks: `cargo xtask help` lists them.
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
+
+mod arguments;
+mod browser;
+mod configured;
+mod package;
+mod parts;
+mod readers;
+mod runner;
+mod summary;
+mod tools;
+
+use std::collections::BTreeSet;
+use std::process::ExitCode;
+
+use arguments::{Gaps, Task, TestOptions, parse};
+use od_tests::{Failure, generate};
+use parts::{Area, Part, Readiness};
+use runner::Runner;
+use summary::{Outcome, Row, Verdict};
+use tools::Tool;
+
+/// The command line cannot be understood.
+const USAGE: u8 = 2;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let result = match parse(&arguments) {
+        Ok(Task::Test(options)) => return test(&Part::ALL, &options),
+        Ok(Task::Browser) => {
+            return test(&[Part::Browser], &TestOptions { gaps: Gaps::Refused, unwanted: BTreeSet::new() });
+        }
+        Ok(Task::Generate) => write(),
+        Ok(Task::CheckGenerated) => check(),
+        Ok(Task::Package) => package::package(),
+        Ok(Task::Bench(rest)) => {
+            let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+            Runner::default().python("tests/bench/run.py", &rest)
+        }
+        Ok(Task::Help(text)) => {
+            print!("{text}");
+            Ok(())
+        }
+        Err(problem) => {
+            eprint!("error: {problem}\n\n{}", arguments::HELP);
+            return ExitCode::from(USAGE);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Runs every part that can run, and tells what became of each.
+fn test(parts: &[Part], options: &TestOptions) -> ExitCode {
+    let parts: Vec<Part> =
+        parts.iter().copied().filter(|part| !options.unwanted.contains(&part.area())).collect();
+    let found = find_tools(&parts);
+    let missing = summary::missing(&parts, &found);
+    if !missing.is_empty() {
+        println!("missing on this machine; what needs it is left out, the rest runs:\n{missing}");
+    }
+    let mut rows: Vec<Row> = parts.iter().map(|&part| run(part, &found)).collect();
+    let unwanted = Part::ALL.into_iter().filter(|part| options.unwanted.contains(&part.area()));
+    rows.extend(unwanted.map(|part| Row { part, outcome: Outcome::Unwanted, counts: None }));
+    let summary = summary::summarize(&rows, &missing, options.gaps);
+    print!("{}", summary.text);
+    match summary.verdict {
+        Verdict::Passed => ExitCode::SUCCESS,
+        Verdict::Failed => ExitCode::FAILURE,
+    }
+}
+
+/// The tools of this machine; where only the firmware's target is missing for its tests, rustup is asked for it.
+fn find_tools(parts: &[Part]) -> BTreeSet<Tool> {
+    let mut found = tools::found();
+    let wanted = parts.iter().any(|part| part.area() == Area::Firmware);
+    if wanted && found.contains(&Tool::Python) && !found.contains(&Tool::ThumbTarget) {
+        println!("adding Rust's target for the firmware with rustup");
+        if tools::add_target() {
+            found.insert(Tool::ThumbTarget);
+        }
+    }
+    found
+}
+
+fn run(part: Part, found: &BTreeSet<Tool>) -> Row {
+    let readiness = part.readiness(found);
+    let reason = summary::reason(&readiness);
+    if matches!(readiness, Readiness::Lacks(_)) {
+        return Row { part, outcome: Outcome::LeftOut(reason.unwrap_or_default()), counts: None };
+    }
+    println!("\n== {}", part.title());
+    let mut runner = Runner::default();
+    let outcome = match part.run(&mut runner) {
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            Outcome::Failed(failure.to_string())
+        }
+        Ok(()) => match reason.or(runner.gap) {
+            None => Outcome::Passed,
+            Some(gap) => Outcome::Partly(gap),
+        },
+    };
+    Row { part, outcome, counts: runner.counts }
+}
+
+fn write() -> Result<(), Failure> {
+    for (path, changed) in generate::write_all()? {
+        println!("{} {path}", if changed { "wrote" } else { "     " });
+    }
+    Ok(())
+}
+
+fn check() -> Result<(), Failure> {
+    match generate::first_difference()? {
+        None => Ok(()),
+        Some(difference) => Err(difference.into()),
+    }
+}

@@ -1,0 +1,205 @@
+//! The parts of the tests, what each needs, and whether it can run on this machine.
+
+use std::collections::BTreeSet;
+
+use od_tests::Failure;
+
+use crate::runner::Runner;
+use crate::tools::Tool;
+use crate::{browser, readers};
+
+/// A part of the tests, in the order in which they run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Part {
+    Rust,
+    /// The foreign readers notice what is wrong.
+    ReadersSelfTest,
+    /// A device with every feature and data type, which the shipped devices do not have.
+    EveryFeature,
+    /// A DCF with settings in every data type.
+    Configured,
+    Shipped,
+    /// The README's drive, and what `odgen new` starts with.
+    Drives,
+    /// A client that others wrote, against the generated Rust.
+    SdoClient,
+    Browser,
+    FirmwareSizes,
+    FirmwareTests,
+}
+
+/// What parts have in common; what a tool is needed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Area {
+    Rust,
+    Readers,
+    Browser,
+    Firmware,
+}
+
+/// Whether a part can run.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Readiness {
+    /// Everything is there.
+    Whole,
+    /// It can run, but for what these tools would do.
+    Partly(Vec<Tool>),
+    /// It cannot run without these tools.
+    Lacks(Vec<Tool>),
+}
+
+impl Part {
+    pub(crate) const ALL: [Part; 10] = [
+        Part::Rust,
+        Part::ReadersSelfTest,
+        Part::EveryFeature,
+        Part::Configured,
+        Part::Shipped,
+        Part::Drives,
+        Part::SdoClient,
+        Part::Browser,
+        Part::FirmwareSizes,
+        Part::FirmwareTests,
+    ];
+
+    pub(crate) const fn title(self) -> &'static str {
+        match self {
+            Part::Rust => "Rust tests",
+            Part::ReadersSelfTest => "EDS readers notice mistakes",
+            Part::EveryFeature => "EDS readers: every feature",
+            Part::Configured => "EDS readers: a DCF with settings",
+            Part::Shipped => "EDS readers: shipped devices",
+            Part::Drives => "EDS readers: drives of odgen new",
+            Part::SdoClient => "SDO client",
+            Part::Browser => "documents in a browser",
+            Part::FirmwareSizes => "sizes of firmware",
+            Part::FirmwareTests => "firmware in an emulator",
+        }
+    }
+
+    pub(crate) const fn area(self) -> Area {
+        match self {
+            Part::Rust => Area::Rust,
+            Part::ReadersSelfTest
+            | Part::EveryFeature
+            | Part::Configured
+            | Part::Shipped
+            | Part::Drives
+            | Part::SdoClient => Area::Readers,
+            Part::Browser => Area::Browser,
+            Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
+        }
+    }
+
+    /// Tools without which it cannot run.
+    const fn needs(self) -> &'static [Tool] {
+        match self {
+            Part::Rust => &[],
+            Part::ReadersSelfTest
+            | Part::EveryFeature
+            | Part::Configured
+            | Part::Shipped
+            | Part::Drives
+            | Part::SdoClient => &[Tool::Python],
+            Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
+            Part::FirmwareSizes => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker],
+            Part::FirmwareTests => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu],
+        }
+    }
+
+    /// Tools without which it leaves something out: of the five readers, node-canopen.
+    const fn uses(self) -> &'static [Tool] {
+        match self {
+            Part::ReadersSelfTest | Part::EveryFeature | Part::Configured | Part::Shipped | Part::Drives => {
+                &[Tool::Node]
+            }
+            Part::Rust | Part::SdoClient | Part::Browser | Part::FirmwareSizes | Part::FirmwareTests => &[],
+        }
+    }
+
+    /// Whether it can run with these tools.
+    pub(crate) fn readiness(self, found: &BTreeSet<Tool>) -> Readiness {
+        let missing =
+            |tools: &[Tool]| tools.iter().copied().filter(|tool| !found.contains(tool)).collect::<Vec<_>>();
+        let (lacks, does_without) = (missing(self.needs()), missing(self.uses()));
+        if !lacks.is_empty() {
+            Readiness::Lacks(lacks)
+        } else if !does_without.is_empty() {
+            Readiness::Partly(does_without)
+        } else {
+            Readiness::Whole
+        }
+    }
+
+    /// Runs it. What it leaves out, because a registry cannot be reached, stands in the runner.
+    pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
+        match self {
+            Part::Rust => runner.cargo(&["test", "--workspace", "--no-fail-fast"]),
+            Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
+            Part::EveryFeature => readers::every_feature(runner),
+            Part::Configured => readers::configured(runner),
+            Part::Shipped => runner.python("tests/readers/run.py", &[]),
+            Part::Drives => readers::drives(runner),
+            Part::SdoClient => readers::sdo_client(runner),
+            Part::Browser => browser::read_documents(runner),
+            Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),
+            Part::FirmwareTests => runner.python("tests/thumb/run.py", &["test"]),
+        }
+    }
+}
+
+impl Area {
+    pub(crate) const fn title(self) -> &'static str {
+        match self {
+            Area::Rust => "the Rust tests",
+            Area::Readers => "the foreign readers of EDS files",
+            Area::Browser => "the documents in a browser",
+            Area::Firmware => "the firmware for a Cortex-M",
+        }
+    }
+}
+
+/// What a tool is needed for.
+pub(crate) fn needed_for(tool: Tool, parts: &[Part]) -> BTreeSet<Area> {
+    let needing = parts.iter().filter(|part| part.needs().contains(&tool) || part.uses().contains(&tool));
+    needing.map(|part| part.area()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readiness(part: Part, missing: &[Tool]) -> Readiness {
+        let found = Tool::ALL.into_iter().filter(|tool| !missing.contains(tool)).collect();
+        part.readiness(&found)
+    }
+
+    #[test]
+    fn all_parts_are_listed_in_the_order_in_which_they_are_declared() {
+        assert!(Part::ALL.is_sorted() && Part::ALL.last() == Some(&Part::FirmwareTests));
+        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Qemu));
+    }
+
+    #[test]
+    fn with_everything_every_part_runs_and_with_nothing_the_rust_tests() {
+        for part in Part::ALL {
+            assert_eq!(readiness(part, &[]), Readiness::Whole);
+            let alone = readiness(part, &Tool::ALL);
+            assert_eq!(alone == Readiness::Whole, part == Part::Rust, "{part:?}: {alone:?}");
+            assert!(!matches!(alone, Readiness::Partly(_)), "{part:?}");
+        }
+    }
+
+    #[test]
+    fn each_tool_is_missed_by_what_needs_it() {
+        assert_eq!(readiness(Part::Shipped, &[Tool::Node]), Readiness::Partly(vec![Tool::Node]));
+        assert_eq!(readiness(Part::SdoClient, &[Tool::Node]), Readiness::Whole);
+        assert_eq!(readiness(Part::Browser, &[Tool::Node]), Readiness::Lacks(vec![Tool::Node]));
+        assert_eq!(readiness(Part::FirmwareSizes, &[Tool::Qemu]), Readiness::Whole);
+        assert_eq!(readiness(Part::FirmwareTests, &[Tool::Qemu]), Readiness::Lacks(vec![Tool::Qemu]));
+        for tool in Tool::ALL {
+            assert!(Part::ALL.iter().any(|&part| readiness(part, &[tool]) != Readiness::Whole), "{tool:?}");
+            assert!(!needed_for(tool, &Part::ALL).is_empty(), "{tool:?}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! EDS and DCF files, read by tools that others wrote.
+
+use std::process::Command;
+
+use od_gen::files::write_all;
+use od_gen::{Selection, artifacts};
+use od_spec::model::System;
+use od_tests::generate::SPECS;
+use od_tests::{Failure, compile_clean, root};
+
+use crate::configured::{CONFIGURED, write_configured};
+use crate::runner::Runner;
+
+/// Where the readers are installed.
+const VENV: &str = "target/readers/venv";
+/// Where to find the files of `everything.od.yaml` and what they must say, for node 5.
+const EVERYTHING: [&str; 4] = ["--dump", "target/everything/everything.json", "--node", "5"];
+
+pub(crate) fn every_feature(runner: &mut Runner) -> Result<(), Failure> {
+    write_everything()?;
+    runner
+        .python("tests/readers/run.py", &[&["--eds-dir", "target/everything/eds"], &EVERYTHING[..]].concat())
+}
+
+pub(crate) fn configured(runner: &mut Runner) -> Result<(), Failure> {
+    write_configured(&write_everything()?)?;
+    let values = ["--eds-dir", CONFIGURED, "--values", "target/everything/configured/values.txt"];
+    runner.python("tests/readers/run.py", &[&values[..], &EVERYTHING].concat())
+}
+
+/// Writes the EDS, DCF and dump of `everything.od.yaml`.
+fn write_everything() -> Result<System, Failure> {
+    let system = compile_clean("tests/readers/everything.od.yaml")?;
+    let set = artifacts(&system, "everything", &Selection { devices: &[], node: Some(5) });
+    write_all(&root().join("target/everything"), &set)?;
+    Ok(system)
+}
+
+/// The drive of the README, and what `odgen new` starts with, read by every foreign reader.
+pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let folder = root().join("target/drives");
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder)?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let mut new = |name: &str, modes: &[&str]| {
+        runner.run(Command::new(&odgen).args(["new", name, "--out"]).arg(&folder).args(modes))
+    };
+    new("started", &[])?;
+    new("started-pp-hm", &["--profile", "cia402", "--modes", "profile position,homing"])?;
+    new("started-all", &["--profile", "cia402", "--modes", "pp,vl,pv,tq,hm,ip,csp,csv,cst"])?;
+    std::fs::copy(root().join("tests/readme/lift.od.yaml"), folder.join("lift.od.yaml"))?;
+    let mut dumps = Vec::new();
+    for stem in ["lift", "started", "started-all", "started-pp-hm"] {
+        let system = compile_clean(&format!("target/drives/{stem}.od.yaml"))?;
+        write_all(&folder, &artifacts(&system, stem, &Selection { devices: &[], node: Some(1) }))?;
+        dumps.push(format!("target/drives/{stem}.json"));
+    }
+    let mut arguments = vec!["--eds-dir", "target/drives/eds", "--dump"];
+    arguments.extend(dumps.iter().map(String::as_str));
+    runner.python("tests/readers/run.py", &arguments)
+}
+
+/// A client that others wrote, against the generated Rust.
+pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
+    let python = root().join(VENV).join("bin/python");
+    if !root().join(VENV).join("stamp").exists() {
+        runner.gap = Some("python-canopen could not be installed, see above".to_owned());
+        return Ok(());
+    }
+    let server = std::env::current_exe()?.with_file_name("sdo-server");
+    for stem in SPECS {
+        let dump = format!("generated/{stem}.json");
+        let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--server"];
+        runner.run(Command::new(&python).arg("tests/readers/sdo_client.py").args(arguments).arg(&server))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! Running programs: their output goes on to the user, and what they count is kept for the summary.
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Command, Stdio};
+
+use od_tests::{Failure, root};
+
+/// The exit code of the scripts below `tests` when they could not install or find something.
+const INCOMPLETE: i32 = 3;
+
+/// Runs the programs of one part.
+#[derive(Debug, Default)]
+pub(crate) struct Runner {
+    /// What the programs counted, where they did.
+    pub(crate) counts: Option<Counts>,
+    /// What could not be run.
+    pub(crate) gap: Option<String>,
+}
+
+/// What a test runner says in its last line.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Counts {
+    pub(crate) passed: u64,
+    pub(crate) failed: u64,
+}
+
+impl Counts {
+    /// From a line like `test result: ok. 3 passed; 0 failed; …` or `3 passed, 0 failed, …`.
+    fn of_line(line: &str) -> Option<Self> {
+        let line = line.trim();
+        if !line.starts_with("test result: ") && !line.starts_with(|first: char| first.is_ascii_digit()) {
+            return None;
+        }
+        let words: Vec<&str> = line.split([' ', ',', ';', '.']).filter(|word| !word.is_empty()).collect();
+        let before = |what: &str| {
+            words
+                .windows(2)
+                .find(|pair| pair.get(1) == Some(&what))
+                .and_then(|pair| pair.first()?.parse().ok())
+        };
+        Some(Self { passed: before("passed")?, failed: before("failed")? })
+    }
+}
+
+impl Runner {
+    pub(crate) fn cargo(&mut self, arguments: &[&str]) -> Result<(), Failure> {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        self.run(Command::new(cargo).args(arguments))
+    }
+
+    pub(crate) fn python(&mut self, script: &str, arguments: &[&str]) -> Result<(), Failure> {
+        self.run(Command::new("python3").arg(script).args(arguments))
+    }
+
+    /// Runs a program at the root of the workspace, without any input.
+    pub(crate) fn run(&mut self, command: &mut Command) -> Result<(), Failure> {
+        command.current_dir(root()).stdin(Stdio::null()).stdout(Stdio::piped()).env("PYTHONUNBUFFERED", "1");
+        let name = command.get_program().to_string_lossy().into_owned();
+        let mut child = command.spawn().map_err(|error| format!("cannot run {name}: {error}"))?;
+        if let Some(output) = child.stdout.take() {
+            self.pass_on(BufReader::new(output), std::io::stdout())?;
+        }
+        let status = child.wait()?;
+        let arguments = command.get_args().map(|argument| argument.to_string_lossy().into_owned());
+        let said = format!("{name} {}", arguments.collect::<Vec<_>>().join(" "));
+        match status.code() {
+            Some(0) => Ok(()),
+            Some(INCOMPLETE) => {
+                self.gap = Some("something could not be installed, see there".to_owned());
+                Ok(())
+            }
+            _ => Err(format!("`{said}` failed ({status})").into()),
+        }
+    }
+
+    fn pass_on(&mut self, mut from: impl BufRead, mut to: impl Write) -> Result<(), Failure> {
+        let mut line = Vec::new();
+        while from.read_until(b'\n', &mut line)? > 0 {
+            to.write_all(&line)?;
+            if let Some(counts) = Counts::of_line(&String::from_utf8_lossy(&line)) {
+                let sum = self.counts.get_or_insert_default();
+                sum.passed += counts.passed;
+                sum.failed += counts.failed;
+            }
+            line.clear();
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn last_lines_of_test_runners_are_counted_and_no_others() {
+        let lines = "\
+running 2 tests
+test result: ok. 2 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.01s
+ok   3 passed, 4 failed
+search: 7 passed, 8 failed
+12 passed, 1 failed, 3 skipped
+5 passed
+";
+        let mut runner = Runner::default();
+        let mut passed_on = Vec::new();
+        runner.pass_on(lines.as_bytes(), &mut passed_on).unwrap();
+        assert_eq!(passed_on, lines.as_bytes());
+        assert_eq!(runner.counts, Some(Counts { passed: 14, failed: 1 }));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn exit_codes_tell_a_failure_from_a_gap() {
+        let run = |text: &str| {
+            let mut runner = Runner::default();
+            (runner.run(Command::new("sh").args(["-c", text])).map_err(|error| error.to_string()), runner.gap)
+        };
+        assert_eq!(run("exit 0"), (Ok(()), None));
+        assert!(matches!(run("exit 3"), (Ok(()), Some(_))));
+        assert!(matches!(run("exit 1"), (Err(failure), None) if failure.contains("sh -c exit 1")));
+        assert!(Runner::default().run(&mut Command::new("no-program-has-this-name")).is_err());
+    }
+}

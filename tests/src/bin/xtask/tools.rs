@@ -1,0 +1,195 @@
+//! The tools of others that parts of the tests need.
+
+use std::collections::BTreeSet;
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use od_tests::root;
+
+/// The target of the firmware in tests/thumb.
+const TARGET: &str = "thumbv7em-none-eabi";
+/// How long rustup may take to fetch it: a few megabytes, or a network that never answers.
+const FETCH_LIMIT: Duration = Duration::from_secs(120);
+/// Names of Chromium; the variable `CHROMIUM` names another program.
+const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+
+/// What may be missing on a machine that has Rust.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Tool {
+    Python,
+    Node,
+    Chromium,
+    Pdftotext,
+    /// The core library of the firmware's target: rustup's, or its sources for Debian's Rust.
+    ThumbTarget,
+    ThumbLinker,
+    Qemu,
+}
+
+impl Tool {
+    pub(crate) const ALL: [Tool; 7] = [
+        Tool::Python,
+        Tool::Node,
+        Tool::Chromium,
+        Tool::Pdftotext,
+        Tool::ThumbTarget,
+        Tool::ThumbLinker,
+        Tool::Qemu,
+    ];
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Tool::Python => "Python 3.9 or newer with venv",
+            Tool::Node => "Node.js 18 or newer with npm",
+            Tool::Chromium => "Chromium",
+            Tool::Pdftotext => "pdftotext",
+            Tool::ThumbTarget => "Rust's target thumbv7em-none-eabi",
+            Tool::ThumbLinker => "a linker for it: rust-lld, which rustup's Rust has, or arm-none-eabi-ld",
+            Tool::Qemu => "qemu-system-arm",
+        }
+    }
+
+    /// The lines of which one installs it, on Debian where it is no matter of rustup.
+    pub(crate) const fn install(self) -> &'static [&'static str] {
+        match self {
+            Tool::Python => &["apt-get install python3 python3-venv"],
+            Tool::Node => &["apt-get install nodejs npm"],
+            Tool::Chromium => &["apt-get install chromium fonts-dejavu"],
+            Tool::Pdftotext => &["apt-get install poppler-utils"],
+            Tool::ThumbTarget => &[
+                "rustup target add thumbv7em-none-eabi",
+                "apt-get install rustc-web cargo-web rust-web-src    (without rustup)",
+            ],
+            Tool::ThumbLinker => &["apt-get install binutils-arm-none-eabi"],
+            Tool::Qemu => &["apt-get install qemu-system-arm"],
+        }
+    }
+
+    fn is_here(self) -> bool {
+        match self {
+            Tool::Python => {
+                let check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
+                succeeds(Command::new("python3").args(["-c", check]))
+            }
+            Tool::Node => {
+                let check = "process.exit(process.versions.node.split('.')[0] < 18 ? 1 : 0)";
+                succeeds(Command::new("node").args(["-e", check])) && is_in_path("npm")
+            }
+            Tool::Chromium => env::var_os("CHROMIUM").is_some() || BROWSERS.into_iter().any(is_in_path),
+            Tool::Pdftotext => is_in_path("pdftotext"),
+            Tool::ThumbTarget => has_target(),
+            Tool::ThumbLinker => has_linker(),
+            Tool::Qemu => is_in_path("qemu-system-arm"),
+        }
+    }
+}
+
+/// The tools that this machine has.
+pub(crate) fn found() -> BTreeSet<Tool> {
+    Tool::ALL.into_iter().filter(|tool| tool.is_here()).collect()
+}
+
+/// Tries to add the firmware's target with rustup, if there is one; whether it is there now.
+///
+/// `rust-toolchain.toml` does not list the target: rustup would fetch it before any other command of cargo, and without a
+/// network not even the tool could be built.
+pub(crate) fn add_target() -> bool {
+    if !is_in_path("rustup") {
+        return false;
+    }
+    let mut rustup = Command::new("rustup");
+    rustup.args(["target", "add", TARGET]).current_dir(root());
+    rustup.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    rustup.spawn().is_ok_and(|child| ends_well(child, FETCH_LIMIT)) && has_target()
+}
+
+/// Waits for a program, which is stopped when its time is over.
+fn ends_well(mut child: Child, limit: Duration) -> bool {
+    let end = Instant::now() + limit;
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return status.success(),
+            Ok(None) if Instant::now() < end => std::thread::sleep(Duration::from_millis(50)),
+            Ok(None) | Err(_) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return false;
+            }
+        }
+    }
+}
+
+/// The same two ways as in tests/thumb/run.py.
+fn has_target() -> bool {
+    let shipped = sysroot("rustc").is_some_and(|root| root.join("lib/rustlib").join(TARGET).is_dir());
+    shipped || debian_sysroot().is_some()
+}
+
+/// Debian's Rust, if it can build the core library: it has its own cargo and the sources.
+fn debian_sysroot() -> Option<PathBuf> {
+    let root = sysroot("/usr/bin/rustc")?;
+    let sources = root.join("lib/rustlib/src/rust/library/core");
+    (Path::new("/usr/bin/cargo").exists() && sources.is_dir()).then_some(root)
+}
+
+fn has_linker() -> bool {
+    let roots = [sysroot("rustc"), debian_sysroot()];
+    roots.into_iter().flatten().any(|root| has_lld(&root)) || is_in_path("arm-none-eabi-ld")
+}
+
+/// `lib/rustlib/HOST/bin/rust-lld` of a toolchain.
+fn has_lld(sysroot: &Path) -> bool {
+    let hosts = std::fs::read_dir(sysroot.join("lib/rustlib")).into_iter().flatten().flatten();
+    hosts.into_iter().any(|host| {
+        let programs = host.path().join("bin");
+        ["rust-lld", "rust-lld.exe"].iter().any(|name| programs.join(name).is_file())
+    })
+}
+
+fn sysroot(rustc: &str) -> Option<PathBuf> {
+    let output = output(Command::new(rustc).args(["--print", "sysroot"]))?;
+    Some(PathBuf::from(String::from_utf8(output.stdout).ok()?.trim()))
+}
+
+fn succeeds(command: &mut Command) -> bool {
+    output(command).is_some()
+}
+
+/// What a program that ended well has said.
+fn output(command: &mut Command) -> Option<Output> {
+    let output = command.current_dir(root()).stdin(Stdio::null()).output().ok()?;
+    output.status.success().then_some(output)
+}
+
+fn is_in_path(name: &str) -> bool {
+    let folders = env::var_os("PATH").unwrap_or_default();
+    let endings = if cfg!(windows) { &["exe", "cmd"][..] } else { &[""] };
+    env::split_paths(&folders)
+        .any(|folder| endings.iter().any(|ending| folder.join(name).with_extension(ending).is_file()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What every Unix has stands for programs that hang, fail and end well.
+    #[test]
+    #[cfg(unix)]
+    fn a_program_that_does_not_end_is_stopped() {
+        let start = |text: &str| Command::new("sh").args(["-c", text]).spawn().unwrap();
+        let begun = Instant::now();
+        assert!(!ends_well(start("sleep 60"), Duration::from_millis(100)));
+        assert!(begun.elapsed() < Duration::from_secs(30));
+        assert!(ends_well(start("exit 0"), Duration::from_secs(30)));
+        assert!(!ends_well(start("exit 1"), Duration::from_secs(30)));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn programs_are_found_in_the_path() {
+        assert!(is_in_path("sh"));
+        assert!(!is_in_path("no-program-has-this-name"));
+    }
+}
