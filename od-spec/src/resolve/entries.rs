@@ -53,7 +53,7 @@ pub(super) fn resolve(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Entry> {
-    let (data_type, named_type) = entry_type(decl, around.scope, diagnostics)?;
+    let EntryType { data_type, named_type } = entry_type(decl, around.scope, diagnostics)?;
     let Some(access) = &decl.access else {
         if decl.unsure {
             return None;
@@ -160,12 +160,18 @@ pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Opt
     None
 }
 
-/// The data type and the named type of an entry.
+/// The data type of an entry, and the enum or bit field that gives its values a meaning.
+pub(super) struct EntryType {
+    pub data_type: DataType,
+    pub named_type: Option<Arc<NamedType>>,
+}
+
+/// The type of an entry.
 pub(super) fn entry_type(
     decl: &EntryDecl,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
-) -> Option<(DataType, Option<Arc<NamedType>>)> {
+) -> Option<EntryType> {
     let Some(name) = &decl.type_name else {
         if decl.unsure {
             return None;
@@ -177,10 +183,10 @@ pub(super) fn entry_type(
         return None;
     };
     if let Some(data_type) = DataType::from_name(&name.value) {
-        return Some((data_type, None));
+        return Some(EntryType { data_type, named_type: None });
     }
     if let Some(named) = scope.types.get(&name.value) {
-        return Some((named.base, Some(Arc::clone(named))));
+        return Some(EntryType { data_type: named.base, named_type: Some(Arc::clone(named)) });
     }
     if !scope.is_broken(&name.value) {
         let named = scope.types.keys().map(String::as_str);

@@ -1,7 +1,9 @@
 //! From what is written to what is meant: names looked up, defaults filled in, arrays expanded, values typed.
 
+mod aliases;
 mod constraints;
 mod decls;
+mod device_info;
 mod devices;
 mod document;
 mod entries;
@@ -15,6 +17,7 @@ mod pdos;
 mod places;
 mod refs;
 mod scope;
+mod table_content;
 mod types;
 pub(crate) mod values;
 
