@@ -1,12 +1,13 @@
 //! The dictionary's type and its accessors.
 
-use od_spec::model::Outside;
+use od_spec::model::{Outside, Rounding};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::layout::Place;
 use super::super::names::{mutable, setter};
 use super::super::plan::{Plan, PlannedEntry, PlannedObject, Shape};
+use super::attributes::data_type_name;
 use super::docs::{doc, escape};
 use super::value::{At, Values, decimal, view_name};
 
@@ -16,6 +17,8 @@ impl Plan<'_> {
         let name = format_ident!("{}", self.name);
         let (size, align) = (self.layout.factory.len(), self.layout.align);
         let (size_literal, align) = (Literal::usize_unsuffixed(size), Literal::usize_unsuffixed(align));
+        let largest = self.attributes.iter().map(|attributes| attributes.size).max().unwrap_or_default();
+        let largest = Literal::usize_unsuffixed(largest);
         let about = self.words(&self.device.about);
         let facts = format!(
             "Object dictionary of the {}: {size} bytes of values, {} objects, {} entries.",
@@ -36,6 +39,10 @@ impl Plan<'_> {
             impl #name {
                 /// Bytes of all values.
                 pub const SIZE: usize = #size_literal;
+
+                /// Bytes of the largest value that SDO reads or writes as a whole, DOMAINs left out: what a server's buffer
+                /// has to hold.
+                pub const LARGEST_VALUE: usize = #largest;
 
                 /// The values after a factory reset, for a node-ID from 1 to 127.
                 pub const fn new(node_id: u8) -> Self {
@@ -321,7 +328,7 @@ impl Plan<'_> {
             let entry = self.entry(alias.row)?;
             let about = doc(&format!("How `{}` shows `{}`.", entry.id, self.entry(alias.target)?.id));
             let name = view_name(entry);
-            let data_type = format_ident!("{}", format!("{:?}", alias.data_type));
+            let data_type = data_type_name(alias.data_type);
             let outside = match alias.outside {
                 Outside::Saturate => quote!(glue::Outside::Saturate),
                 Outside::Wrap => quote!(glue::Outside::Wrap),
@@ -330,7 +337,12 @@ impl Plan<'_> {
             let view = if (alias.numerator, alias.denominator) == (1, 1) {
                 quote!(glue::View::plain(glue::DataType::#data_type, #outside))
             } else {
-                let rounding = format_ident!("{}", format!("{:?}", alias.rounding));
+                let rounding = match alias.rounding {
+                    Rounding::Down => quote!(Down),
+                    Rounding::Up => quote!(Up),
+                    Rounding::Nearest => quote!(Nearest),
+                    Rounding::Zero => quote!(Zero),
+                };
                 let (n, d) = (decimal(alias.numerator.into()), decimal(alias.denominator.into()));
                 quote!(glue::View::scaled(glue::DataType::#data_type, #outside, #n, #d, glue::Rounding::#rounding))
             };

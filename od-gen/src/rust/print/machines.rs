@@ -72,7 +72,7 @@ impl Plan<'_> {
                 }
             }
 
-            super::glue::defmt_text!(#name);
+            ::firmware_glue::defmt_text!(#name);
         }
     }
 
@@ -143,7 +143,7 @@ impl Plan<'_> {
                 }
             }
 
-            super::glue::defmt_text!(#name);
+            ::firmware_glue::defmt_text!(#name);
         }
     }
 

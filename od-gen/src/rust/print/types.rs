@@ -47,7 +47,7 @@ impl Plan<'_> {
         let (name, base, symbol) = (format_ident!("{name}"), format_ident!("{base}"), &unit.symbol);
         let [n, d, sn, sd] = [scale.0, scale.1, step.0, step.1].map(|number| decimal(number.into()));
         quote! {
-            super::glue::unit! {
+            ::firmware_glue::unit! {
                 #about
                 pub struct #name = #symbol, scale #n / #d, step #sn / #sd of #base;
             }
@@ -96,7 +96,7 @@ impl Plan<'_> {
                         #(#constants)*
                     }
 
-                    super::glue::enumeration! {
+                    ::firmware_glue::enumeration! {
                         #name(#raw) = #label { #(#names)* }
                     }
                 }
@@ -118,7 +118,7 @@ impl Plan<'_> {
                         #(#accessors)*
                     }
 
-                    super::glue::bit_field! {
+                    ::firmware_glue::bit_field! {
                         #name = #label { #(#fields)* }
                     }
                 }
@@ -289,7 +289,7 @@ fn special(planned: &PlannedSpecial) -> TokenStream {
             }
         }
 
-        super::glue::defmt_text!(#name);
+        ::firmware_glue::defmt_text!(#name);
     }
 }
 
