@@ -9,7 +9,8 @@
 //! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
 //! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`].
 //!
-//! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself. There is no hidden state: a dictionary is a plain
+//! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself.
+//! There is no hidden state: a dictionary is a plain
 //! value, and a program can have several.
 //!
 //! # Features

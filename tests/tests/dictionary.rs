@@ -301,8 +301,8 @@ fn a_mapping_is_changed_by_the_rules_of_cia_301() {
     assert_eq!(write(0x1A00, 0, 255, 1), Err(AbortCode::PDO_LENGTH));
     assert_eq!(write(0x1A00, 0, 2, 1), Ok(()));
     // Restricted, 29 bits; then a free identifier.
-    for bad in [0x000, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF, 1 << 29 | tpdo, 0x800] {
-        assert_eq!(write(0x1800, 1, bad, 4), Err(AbortCode::INVALID_VALUE), "{bad:X}");
+    for cob_id in [0x000, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF, 1 << 29 | tpdo, 0x800] {
+        assert_eq!(write(0x1800, 1, cob_id, 4), Err(AbortCode::INVALID_VALUE), "{cob_id:X}");
     }
     assert_eq!(write(0x1800, 1, 0x1FF, 4), Ok(()));
     od.set_position_actual_value(units::PositionUnit(-1));

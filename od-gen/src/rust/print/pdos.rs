@@ -39,9 +39,9 @@ impl Plan<'_> {
                 let offset = hex(*offset, 3);
                 quote!(#offset + node_id as u32)
             }
-            other => {
+            cob_id => {
                 let number =
-                    hex(other.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default(), 3);
+                    hex(cob_id.integer().and_then(|raw| u64::try_from(raw).ok()).unwrap_or_default(), 3);
                 quote!(#number)
             }
         };
@@ -110,7 +110,7 @@ impl Plan<'_> {
         let about = self.words(&pdo.about);
         let cob_id = match &pdo.cob_id {
             Value::NodeId(offset) => format!("COB-ID {:X}h + node-ID", offset & 0x7FF),
-            other => format!("COB-ID {:X}h", other.integer().unwrap_or_default() & 0x7FF),
+            cob_id => format!("COB-ID {:X}h", cob_id.integer().unwrap_or_default() & 0x7FF),
         };
         let valid = if pdo.valid { "" } else { ", off after a factory reset" };
         doc(&format!(
