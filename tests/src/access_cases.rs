@@ -258,8 +258,8 @@ fn inside(entry: &Entry<'_>, value: i128) -> bool {
 
 /// The limits without the special values.
 fn limits(json: &Json) -> (Option<i128>, Option<i128>) {
-    let end = |own: &str, wide: &str| {
-        json.get(own).or_else(|| json.get(wide)).filter(|value| !value.is_null()).map(number)
+    let end = |stated: &str, of_the_type: &str| {
+        json.get(stated).or_else(|| json.get(of_the_type)).filter(|value| !value.is_null()).map(number)
     };
     (end("min", "low"), end("max", "high"))
 }
