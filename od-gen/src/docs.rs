@@ -5,7 +5,8 @@ pub use docs_gen::{Format, Options, TemplateError, Templates};
 use od_spec::model::{Devices, System};
 use serde::Serialize;
 
-use crate::{Artifact, rust};
+use crate::artifact::Artifact;
+use crate::rust;
 
 /// What documents of these devices show; no key means all devices.
 pub fn options(system: &System, devices: &[String], language: Option<&str>) -> Options {

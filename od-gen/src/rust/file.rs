@@ -4,7 +4,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 
 use super::{Provenance, language, tokens};
-use crate::Artifact;
+use crate::artifact::Artifact;
 
 /// A way to write a module down: [`file()`] or [`plain_file`].
 pub type Layout = fn(&System, &Dictionary, &Provenance, &mut Diagnostics) -> Option<String>;

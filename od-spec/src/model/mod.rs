@@ -45,8 +45,6 @@ pub use unit::{Base, Unit};
 pub use value::{Value, convert};
 pub use views::{Carrier, Devices, PdoField, View};
 
-pub use crate::wording::format_value;
-
 use crate::source::Span;
 
 /// Everything that one specification describes.

@@ -1,7 +1,7 @@
 //! What a device says about itself: facts for `[DeviceInfo]` and `[FileInfo]` of its EDS.
 
+use super::numbers::{to_u8, to_u16, to_u32};
 use super::scope::unknown;
-use super::{to_u8, to_u16, to_u32};
 use crate::ast::{DeviceDecl, Name};
 use crate::diag::{Diagnostics, codes};
 use crate::model::{DataType, Date, DateTime, DeviceInfo, Fact, Facts, FileInfo, Statement, Vendor};

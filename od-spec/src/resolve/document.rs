@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::numbers::to_u16;
 use super::places;
 use super::refs::{Broken, Names};
 use super::table_content::Contents;
-use super::to_u16;
 use super::types::words;
 use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;

@@ -126,7 +126,7 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
         );
         return None;
     }
-    let bytes = super::to_u16(capacity.value);
+    let bytes = super::numbers::to_u16(capacity.value);
     if data_type == DataType::UnicodeString && bytes % 2 == 1 {
         diagnostics.push(
             Diagnostic::new(
@@ -294,7 +294,7 @@ fn bit_errors(
             );
             continue;
         }
-        let codes = decl.codes.iter().map(|code| code.map(super::to_u16)).collect();
+        let codes = decl.codes.iter().map(|code| code.map(super::numbers::to_u16)).collect();
         errors.push(BitErrors { bit: first, codes });
     }
     errors.sort_by_key(|errors: &BitErrors| errors.bit);

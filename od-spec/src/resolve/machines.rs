@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::libraries;
+use super::numbers::{to_u8, to_u32};
 use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::types::words;
-use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};

@@ -107,7 +107,7 @@ fn elements(
             );
             return None;
         }
-        (Some(count), _) => super::to_u8(count.value),
+        (Some(count), _) => super::numbers::to_u8(count.value),
         (None, Some(highest)) => highest,
         (None, None) => {
             if !array.entry.unsure {
