@@ -652,7 +652,10 @@ impl Pmc {
         )
     }
 
-    /// Sets the entry that [`target_position_16bit`](Self::target_position_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`target_position_16bit`](Self::target_position_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_target_position_16bit(
         &mut self,
@@ -674,7 +677,10 @@ impl Pmc {
         )
     }
 
-    /// Sets the entry that [`profile_velocity_16bit`](Self::profile_velocity_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`profile_velocity_16bit`](Self::profile_velocity_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_profile_velocity_16bit(
         &mut self,
@@ -698,7 +704,10 @@ impl Pmc {
         )
     }
 
-    /// Sets the entry that [`profile_acceleration_16bit`](Self::profile_acceleration_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`profile_acceleration_16bit`](Self::profile_acceleration_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_profile_acceleration_16bit(
         &mut self,
@@ -728,7 +737,10 @@ impl Pmc {
         }
     }
 
-    /// Sets the entry that [`profile_deceleration_16bit`](Self::profile_deceleration_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`profile_deceleration_16bit`](Self::profile_deceleration_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_profile_deceleration_16bit(
         &mut self,
@@ -778,7 +790,10 @@ impl Pmc {
         )
     }
 
-    /// Sets the entry that [`position_offset_16bit`](Self::position_offset_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`position_offset_16bit`](Self::position_offset_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_position_offset_16bit(
         &mut self,
@@ -800,7 +815,10 @@ impl Pmc {
         )
     }
 
-    /// Sets the entry that [`velocity_offset_16bit`](Self::velocity_offset_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`velocity_offset_16bit`](Self::velocity_offset_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_velocity_offset_16bit(
         &mut self,
@@ -832,7 +850,10 @@ impl Pmc {
         )
     }
 
-    /// Sets the entry that [`target_velocity_16bit`](Self::target_velocity_16bit) shows; an error if it has no such value.
+    /// Sets the entry that [`target_velocity_16bit`](Self::target_velocity_16bit) shows.
+    ///
+    /// # Errors
+    /// The entry has no such value.
     #[inline]
     pub fn set_target_velocity_16bit(
         &mut self,

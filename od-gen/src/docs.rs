@@ -21,6 +21,9 @@ pub fn options(system: &System, devices: &[String], language: Option<&str>) -> O
 }
 
 /// The documents of a specification by the name of `stem`, below `root`, and `tables.json` where it describes a manual.
+///
+/// # Errors
+/// A template has a mistake, or asks for something that the context does not have.
 pub fn artifacts(
     system: &System,
     root: &str,

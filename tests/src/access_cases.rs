@@ -26,6 +26,9 @@ const WRITE_UNLOCKED: u8 = 2;
 const ANYTHING: u8 = 0xFF;
 
 /// The cases of one device of a dump.
+///
+/// # Errors
+/// The dump has no such device, or lacks a fact.
 pub fn of_device<'a>(dump: &'a Json, key: &str) -> Result<Cases<'a>, Failure> {
     let devices = dump["devices"].as_array().ok_or("the dump has no devices")?;
     let device = devices.iter().find(|device| device["key"] == key).ok_or("no such device")?;

@@ -175,8 +175,8 @@ impl Diagnostics {
     }
 
     /// Takes the messages of another run.
-    pub fn append(&mut self, other: Diagnostics) {
-        self.list.extend(other.list);
+    pub fn append(&mut self, more: Diagnostics) {
+        self.list.extend(more.list);
     }
 }
 

@@ -313,7 +313,7 @@ fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPoli
         (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
         (access, _) => access,
     };
-    let own = decl.eds.as_ref().map(|eds| &eds.value);
+    let stated = decl.eds.as_ref().map(|eds| &eds.value);
     let protected = kept && entry.access.is_writable();
     let default = match defaults {
         EdsDefaults::All => true,
@@ -321,10 +321,10 @@ fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPoli
         EdsDefaults::Own => !protected && !entry.is_only_standard(Fact::Default),
     };
     EdsPolicy {
-        access: own.and_then(|eds| eds.access).unwrap_or(access),
-        default: own.and_then(|eds| eds.default).unwrap_or(default),
-        no_write: entry.locked || own.is_some_and(|eds| eds.no_write),
-        no_scan: own.is_some_and(|eds| eds.no_scan),
+        access: stated.and_then(|eds| eds.access).unwrap_or(access),
+        default: stated.and_then(|eds| eds.default).unwrap_or(default),
+        no_write: entry.locked || stated.is_some_and(|eds| eds.no_write),
+        no_scan: stated.is_some_and(|eds| eds.no_scan),
     }
 }
 

@@ -159,7 +159,7 @@ impl Plan<'_> {
             values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
         let store = if error.is_some() { quote!(#store) } else { quote!(#store; Ok(())) };
         let about = doc(&format!(
-            "Sets the entry that [`{name}`](Self::{name}) shows; an error if it has no such value."
+            "Sets the entry that [`{name}`](Self::{name}) shows.\n\n# Errors\nThe entry has no such value."
         ));
         let set = format_ident!("{}", setter(name));
         quote! {
