@@ -41,6 +41,7 @@ pub struct Label {
 
 /// One message to the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Stable code, such as `OD0301`.
     pub code: &'static Code,
