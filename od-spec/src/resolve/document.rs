@@ -7,7 +7,7 @@ use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::to_u16;
 use super::types::words;
-use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
+use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::check::codes as rule_codes;
 use crate::decode::lexical;
 use crate::diag::shorten;
@@ -62,11 +62,11 @@ fn table(decl: &TableDecl) -> Option<Table> {
         ContentDecl::Transitions(name) => TableContent::Transitions(name.value.clone()),
         ContentDecl::Commands(name) => TableContent::Commands(name.value.clone()),
         ContentDecl::Ladder(name) => TableContent::Ladder(name.value.clone()),
-        ContentDecl::Pdos(device, direction) => {
+        ContentDecl::Pdos { device, direction } => {
             let (device, direction) = (device.as_ref()?.value.clone(), direction.as_ref()?.value);
             TableContent::Pdos(PdoTable { device, direction })
         }
-        ContentDecl::Rows(columns, rows) => TableContent::Rows {
+        ContentDecl::Rows { columns, rows } => TableContent::Rows {
             columns: columns.clone(),
             rows: rows.iter().map(|row| row.value.clone()).collect(),
         },
@@ -79,10 +79,7 @@ fn table(decl: &TableDecl) -> Option<Table> {
 
 /// Codes of a list; `all` is the empty list.
 fn error_codes(list: &[Name]) -> Vec<u16> {
-    list.iter()
-        .filter_map(|code| lexical::error_codes(&code.value))
-        .flat_map(|(first, last)| first..=last)
-        .collect()
+    list.iter().filter_map(|code| lexical::error_codes(&code.value)).flat_map(CodeRange::codes).collect()
 }
 
 pub(super) fn errata(
@@ -135,12 +132,16 @@ fn place(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErratumPlace> {
-    if let Some((id, has_sub)) = lexical::entry_by_index(&reference.value) {
-        let known = devices.iter().any(|device| {
-            if has_sub { device.entry(id).is_some() } else { device.objects.contains_key(&id.index) }
-        });
-        if known {
-            return Some(if has_sub { ErratumPlace::Entry(id) } else { ErratumPlace::Object(id.index) });
+    if let Some(entry) = lexical::entry_by_index(&reference.value) {
+        let is_known = |device: &&Dictionary| match entry.sub {
+            Some(_) => device.entry(entry.id()).is_some(),
+            None => device.objects.contains_key(&entry.index),
+        };
+        if devices.iter().any(is_known) {
+            return Some(match entry.sub {
+                Some(_) => ErratumPlace::Entry(entry.id()),
+                None => ErratumPlace::Object(entry.index),
+            });
         }
     }
     // By name, or wrong: the name lookup reports it.
@@ -243,7 +244,7 @@ fn check_content(
             let constraints = system.constraints.iter().map(|constraint| constraint.name.as_str()).collect();
             known(name, "constraint", constraints, "define it under `constraints:`");
         }
-        ContentDecl::Pdos(Some(name), _) => {
+        ContentDecl::Pdos { device: Some(name), .. } => {
             let devices = system.devices.iter().map(|device| device.key.as_str()).collect();
             known(name, "device", devices, "define it under `devices:`");
         }
@@ -251,7 +252,7 @@ fn check_content(
             for code in list.iter().filter(|code| code.value != "all") {
                 let range = lexical::error_codes(&code.value);
                 let has = |code: u16| system.errors.binary_search_by_key(&code, |error| error.code).is_ok();
-                if !range.is_some_and(|(first, last)| (first..=last).all(has)) {
+                if !range.is_some_and(|range| range.codes().all(has)) {
                     diagnostics.push(
                         Diagnostic::new(
                             codes::UNKNOWN_REFERENCE,
@@ -263,7 +264,7 @@ fn check_content(
                 }
             }
         }
-        ContentDecl::Rows(columns, rows) => {
+        ContentDecl::Rows { columns, rows } => {
             for row in rows.iter().filter(|row| row.value.len() != columns.len()) {
                 diagnostics.push(
                     Diagnostic::new(
@@ -279,6 +280,6 @@ fn check_content(
                 );
             }
         }
-        ContentDecl::Pdos(None, _) | ContentDecl::Glossary | ContentDecl::History => {}
+        ContentDecl::Pdos { device: None, .. } | ContentDecl::Glossary | ContentDecl::History => {}
     }
 }
