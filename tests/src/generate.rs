@@ -19,6 +19,9 @@ pub const SPECS: [&str; 2] = ["fullmo-drive", "pitch-control-system"];
 const COMMAND: &str = "cargo xtask generate";
 
 /// All generated files: path below the root, and contents.
+///
+/// # Errors
+/// A specification does not compile, or a file that examples are put into cannot be read.
 pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
     let mut files = Vec::new();
     for stem in SPECS {
@@ -53,6 +56,9 @@ fn modules(system: &System, sources: &SourceMap) -> Result<Vec<Artifact>, Failur
 }
 
 /// Writes what changed; tells for each file whether it did.
+///
+/// # Errors
+/// As [`all`], or a file cannot be written.
 pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
     let mut report = Vec::new();
     for (path, bytes) in all()? {
@@ -70,6 +76,9 @@ pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
 }
 
 /// The first generated file that is not current, with its first differing line.
+///
+/// # Errors
+/// As [`all`].
 pub fn first_difference() -> Result<Option<String>, Failure> {
     for (path, bytes) in all()? {
         let old = fs::read(root().join(&path)).unwrap_or_default();

@@ -1,7 +1,9 @@
 //! The COB-ID of a PDO is an 11-bit identifier that no other service has for itself, on every node.
 
+use super::findings::Findings;
 use super::pdo::{NO_REMOTE_FRAMES, NOT_VALID, Parameter};
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };

@@ -2,7 +2,7 @@
 
 use super::{lexical, nearest};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::expr::Expr;
+use crate::expr::{ConditionError, Expr, Parsed};
 use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::model::Access;
 use crate::scalar;
@@ -200,12 +200,12 @@ const fn expected(shape: Shape) -> &'static str {
 /// Reports what cannot be read in a condition or formula.
 fn unreadable(
     text: Spanned<&str>,
-    read: Result<Expr, (std::ops::Range<usize>, String)>,
+    read: Parsed<Expr>,
     what: &str,
     help: &str,
     diagnostics: &mut Diagnostics,
 ) {
-    if let Err((range, message)) = read {
+    if let Err(ConditionError { range, message }) = read {
         diagnostics.push(
             Diagnostic::new(
                 codes::BAD_NOTATION,

@@ -5,6 +5,7 @@ use crate::source::Spanned;
 
 /// An enum or a bit field with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NamedType {
     /// Name.
     pub name: String,
@@ -29,6 +30,7 @@ pub enum TypeKind {
 
 /// One value of an enum.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EnumValue {
     /// Raw value.
     pub value: i128,
@@ -42,6 +44,7 @@ pub struct EnumValue {
 
 /// One bit, or a run of bits that belong together.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BitField {
     /// Lowest bit.
     pub first: u8,
@@ -78,6 +81,7 @@ impl BitField {
 
 /// Error codes that one entry adds to a bit of its shared type.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BitErrors {
     /// Lowest bit of the field.
     pub bit: u8,

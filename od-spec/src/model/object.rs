@@ -68,6 +68,7 @@ impl Origin {
 
 /// One object of a dictionary.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Object {
     /// Index.
     pub index: Index,
@@ -114,6 +115,7 @@ impl Object {
 
 /// One addressable value.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Entry {
     /// Sub-index.
     pub sub: SubIndex,
@@ -251,6 +253,7 @@ impl Entry {
 
 /// A raw value with a meaning of its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SpecialValue {
     /// Raw value.
     pub value: i128,
@@ -262,6 +265,7 @@ pub struct SpecialValue {
 
 /// A view of another entry in a narrower type or another unit; it has no storage of its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Alias {
     /// The entry that holds the value.
     pub target: EntryId,
@@ -275,6 +279,7 @@ pub struct Alias {
 
 /// What the EDS shows of an entry beyond its own facts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EdsPolicy {
     /// Access written into the EDS.
     pub access: Access,

@@ -2,19 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use super::numbers::to_u16;
 use super::places;
 use super::refs::{Broken, Names};
-use super::scope::unknown;
-use super::to_u16;
+use super::table_content::Contents;
 use super::types::words;
 use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
-use crate::check::codes as rule_codes;
 use crate::decode::lexical;
-use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
     Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
-    TableContent, TypeKind,
+    TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -169,7 +167,7 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
             );
         }
         match decl.contents.as_slice() {
-            [content] => check_content(&content.value, root, system, broken, diagnostics),
+            [content] => Contents { root, system, broken }.check(&content.value, diagnostics),
             [first, second, ..] => diagnostics.push(
                 Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a table is filled by one key only")
                     .with(first.span, "filled here")
@@ -181,105 +179,5 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
                     .help("write one of `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
             ),
         }
-    }
-}
-
-fn check_content(
-    content: &ContentDecl,
-    root: &Spec,
-    system: &System,
-    broken: &Broken,
-    diagnostics: &mut Diagnostics,
-) {
-    // What is declared, but did not make it into the model, was reported there.
-    let lost = |name: &str| match content {
-        ContentDecl::Bits(_) | ContentDecl::Values(_) => {
-            !system.types.contains_key(name) && root.types.iter().any(|decl| decl.name.value == name)
-        }
-        ContentDecl::Ladder(_) => root.constraints.iter().any(|decl| decl.name.value == name),
-        ContentDecl::States(_) | ContentDecl::Transitions(_) | ContentDecl::Commands(_) => {
-            root.machines.iter().any(|decl| decl.name.value == name)
-        }
-        _ => false,
-    };
-    let mut known = |name: &Name, what: &str, names: Vec<&str>, help: &str| {
-        if !names.contains(&name.value.as_str()) && !lost(&name.value) {
-            diagnostics.push(unknown(codes::UNKNOWN_REFERENCE, name, what, names, help));
-        }
-    };
-    match content {
-        ContentDecl::Overview(list) | ContentDecl::Objects(list) => {
-            for index in list {
-                let known = system.devices.iter().any(|device| device.objects.contains_key(&index.value));
-                if !known && !broken.has(index.value) {
-                    diagnostics.push(
-                        Diagnostic::new(
-                            codes::UNKNOWN_ENTRY,
-                            index.span,
-                            format!("there is no object {}", index.value),
-                        )
-                        .help("correct the index, or define the object"),
-                    );
-                }
-            }
-        }
-        ContentDecl::Bits(name) => {
-            let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Bits(_)));
-            known(
-                name,
-                "bit field",
-                types.map(|named| named.name.as_str()).collect(),
-                "define it under `types:`",
-            );
-        }
-        ContentDecl::Values(name) => {
-            let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Enum(_)));
-            known(name, "enum", types.map(|named| named.name.as_str()).collect(), "define it under `types:`");
-        }
-        ContentDecl::States(name) | ContentDecl::Transitions(name) | ContentDecl::Commands(name) => {
-            let machines = system.machines.keys().map(String::as_str).collect();
-            known(name, "state machine", machines, "define it under `state-machines:`");
-        }
-        ContentDecl::Ladder(name) => {
-            let constraints = system.constraints.iter().map(|constraint| constraint.name.as_str()).collect();
-            known(name, "constraint", constraints, "define it under `constraints:`");
-        }
-        ContentDecl::Pdos { device: Some(name), .. } => {
-            let devices = system.devices.iter().map(|device| device.key.as_str()).collect();
-            known(name, "device", devices, "define it under `devices:`");
-        }
-        ContentDecl::Errors(list) | ContentDecl::Reactions(list) => {
-            for code in list.iter().filter(|code| code.value != "all") {
-                let range = lexical::error_codes(&code.value);
-                let has = |code: u16| system.errors.binary_search_by_key(&code, |error| error.code).is_ok();
-                if !range.is_some_and(|range| range.codes().all(has)) {
-                    diagnostics.push(
-                        Diagnostic::new(
-                            codes::UNKNOWN_REFERENCE,
-                            code.span,
-                            format!("there is no error code `{}`", shorten(&code.value)),
-                        )
-                        .help("define it under `errors:`, or write `all`"),
-                    );
-                }
-            }
-        }
-        ContentDecl::Rows { columns, rows } => {
-            for row in rows.iter().filter(|row| row.value.len() != columns.len()) {
-                diagnostics.push(
-                    Diagnostic::new(
-                        rule_codes::COUNT_MISMATCH,
-                        row.span,
-                        format!(
-                            "this row has {} cells, the table has {} columns",
-                            row.value.len(),
-                            columns.len()
-                        ),
-                    )
-                    .help("write one cell per column; `\"\"` for an empty one"),
-                );
-            }
-        }
-        ContentDecl::Pdos { device: None, .. } | ContentDecl::Glossary | ContentDecl::History => {}
     }
 }

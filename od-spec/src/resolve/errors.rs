@@ -70,7 +70,9 @@ fn error(
         );
         return None;
     };
-    let text = |own: Text, below: Option<Text>| if own.is_empty() { below.unwrap_or_default() } else { own };
+    let text = |written: Text, below: Option<Text>| {
+        if written.is_empty() { below.unwrap_or_default() } else { written }
+    };
     Some(ErrorCode {
         code,
         name,

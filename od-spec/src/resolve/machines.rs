@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::libraries;
+use super::numbers::{to_u8, to_u32};
 use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::types::words;
-use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
@@ -74,31 +74,31 @@ fn whole<'a>(
         }
     }
     let mut transitions = below.transitions.clone();
-    for own in &decl.transitions {
-        match transitions.iter_mut().find(|below| below.number.value == own.number.value) {
+    for over in &decl.transitions {
+        match transitions.iter_mut().find(|below| below.number.value == over.number.value) {
             Some(transition) => {
-                if !own.from.is_empty() {
-                    transition.from.clone_from(&own.from);
+                if !over.from.is_empty() {
+                    transition.from.clone_from(&over.from);
                 }
-                transition.to = own.to.clone().or_else(|| transition.to.clone());
-                transition.event = own.event.clone().or_else(|| transition.event.clone());
-                transition.action = own.action.clone().or_else(|| transition.action.clone());
+                transition.to = over.to.clone().or_else(|| transition.to.clone());
+                transition.event = over.event.clone().or_else(|| transition.event.clone());
+                transition.action = over.action.clone().or_else(|| transition.action.clone());
             }
-            None => transitions.push(own.clone()),
+            None => transitions.push(over.clone()),
         }
     }
     let mut commands = below.commands.clone();
-    for own in &decl.commands {
-        match commands.iter_mut().find(|below| below.name.value == own.name.value) {
+    for over in &decl.commands {
+        match commands.iter_mut().find(|below| below.name.value == over.name.value) {
             Some(command) => {
-                command.pattern = own.pattern.clone().or_else(|| command.pattern.clone());
-                command.send = own.send.or(command.send);
-                command.about = own.about.clone().or_else(|| command.about.clone());
-                if !own.transitions.is_empty() {
-                    command.transitions.clone_from(&own.transitions);
+                command.pattern = over.pattern.clone().or_else(|| command.pattern.clone());
+                command.send = over.send.or(command.send);
+                command.about = over.about.clone().or_else(|| command.about.clone());
+                if !over.transitions.is_empty() {
+                    command.transitions.clone_from(&over.transitions);
                 }
             }
-            None => commands.push(own.clone()),
+            None => commands.push(over.clone()),
         }
     }
     Some(Cow::Owned(MachineDecl {
@@ -299,23 +299,25 @@ fn check_width(
 fn check_states_differ(decl: &MachineDecl, states: &[State], diagnostics: &mut Diagnostics) {
     for (at, state) in states.iter().enumerate() {
         let (mask, value) = state.pattern.mask_and_value();
-        for other in &states[at + 1..] {
-            let (other_mask, other_value) = other.pattern.mask_and_value();
-            let common = mask & other_mask;
-            if value & common != other_value & common {
+        for later in &states[at + 1..] {
+            let (later_mask, later_value) = later.pattern.mask_and_value();
+            let common = mask & later_mask;
+            if value & common != later_value & common {
                 continue;
             }
             let named = |name: &str| decl.states.iter().find(|state| state.name.value == name);
             let span = |name: &str| named(name).map(|state| state.name.span);
-            let (Some(here), Some(there)) = (span(&other.name), span(&state.name)) else { continue };
+            let (Some(later_place), Some(earlier_place)) = (span(&later.name), span(&state.name)) else {
+                continue;
+            };
             diagnostics.push(
                 Diagnostic::new(
                     codes::AMBIGUOUS_STATES,
-                    here,
-                    format!("`{}` and `{}` can look the same in the status entry", state.name, other.name),
+                    later_place,
+                    format!("`{}` and `{}` can look the same in the status entry", state.name, later.name),
                 )
                 .label("this state")
-                .with(there, "and this one")
+                .with(earlier_place, "and this one")
                 .help("give the patterns a bit that is 0 in one state and 1 in the other"),
             );
         }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::numbers::{to_u8, to_u16};
 use super::pdo_objects::{communication_object, mapping_object};
 use super::refs::{Broken, Names};
 use super::types::words;
 use super::values::{self, Expected};
-use super::{to_u8, to_u16};
 use crate::ast::{Name, PdoDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};

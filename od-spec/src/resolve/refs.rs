@@ -21,9 +21,9 @@ impl Broken {
         self.names.extend(name.map(|name| name.value.clone()));
     }
 
-    pub(super) fn append(&mut self, other: Broken) {
-        self.indices.extend(other.indices);
-        self.names.extend(other.names);
+    pub(super) fn append(&mut self, more: Broken) {
+        self.indices.extend(more.indices);
+        self.names.extend(more.names);
     }
 
     pub(super) fn has(&self, index: Index) -> bool {

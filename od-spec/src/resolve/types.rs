@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::to_u16;
+use super::numbers::to_u16;
 use crate::ast::{BitDecl, BitRange, TypeDecl, ValueDecl, Words};
 use crate::check::codes as rule_codes;
 use crate::decode::nearest;
