@@ -168,6 +168,36 @@ pub struct Entry {
 }
 
 impl Entry {
+    /// An entry about which nothing more is said: without value, limits, mapping and storage, and in an EDS as it is.
+    pub(crate) fn new(sub: SubIndex, name: String, data_type: DataType, access: Access, span: Span) -> Self {
+        Self {
+            sub,
+            name,
+            data_type,
+            named_type: None,
+            access,
+            locked: false,
+            pdo: PdoMapping::None,
+            default: None,
+            low: None,
+            high: None,
+            unit: None,
+            special: Vec::new(),
+            stored: Storage::No,
+            alias: None,
+            category: None,
+            since: None,
+            writable_when: None,
+            capacity: None,
+            identifier: None,
+            bit_errors: Vec::new(),
+            eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
+            facts: Facts::none(),
+            about: Text::default(),
+            span,
+        }
+    }
+
     /// Smallest and largest value that an EDS or a server can state as plain limits: the declared
     /// limits, widened to take in the special values. `None` where nothing limits that side.
     pub fn hull(&self) -> (Option<i128>, Option<i128>) {

@@ -86,7 +86,7 @@ fn target<'a>(
 
 /// The alias that a reference names, by index or by name.
 fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared<'_>>) -> Option<Spanned<Index>> {
-    let by_index = crate::decode::lexical::entry_by_index(&reference.value).map(|(id, _)| id.index);
+    let by_index = crate::decode::lexical::entry_by_index(&reference.value).map(|entry| entry.index);
     let mut aliases = declared.values().map(|one| &one.decl).filter(|decl| decl.alias.is_some());
     let is_named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.value == reference.value);
     let named =

@@ -19,9 +19,10 @@ pub(super) fn resolve(
     for decl in &root.objects {
         check_write_conditions(decl, devices, broken, diagnostics);
     }
-    for formula in root.units.iter().filter_map(|unit| unit.formula.as_ref()) {
-        check_known(formula, &devices.iter().collect::<Vec<_>>(), broken, diagnostics);
-        check_operands(formula, devices, diagnostics);
+    for formula in root.units.iter().filter_map(|unit| unit.formula.clone()) {
+        let formula = formula.map(|formula| formula.0);
+        check_known(&formula, &devices.iter().collect::<Vec<_>>(), broken, diagnostics);
+        check_operands(&formula, devices, diagnostics);
     }
     root.constraints.iter().filter_map(|decl| constraint(decl, devices, broken, diagnostics)).collect()
 }

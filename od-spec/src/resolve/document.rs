@@ -7,7 +7,7 @@ use super::places;
 use super::refs::{Broken, Names};
 use super::table_content::Contents;
 use super::types::words;
-use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
+use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -60,11 +60,11 @@ fn table(decl: &TableDecl) -> Option<Table> {
         ContentDecl::Transitions(name) => TableContent::Transitions(name.value.clone()),
         ContentDecl::Commands(name) => TableContent::Commands(name.value.clone()),
         ContentDecl::Ladder(name) => TableContent::Ladder(name.value.clone()),
-        ContentDecl::Pdos(device, direction) => {
+        ContentDecl::Pdos { device, direction } => {
             let (device, direction) = (device.as_ref()?.value.clone(), direction.as_ref()?.value);
             TableContent::Pdos(PdoTable { device, direction })
         }
-        ContentDecl::Rows(columns, rows) => TableContent::Rows {
+        ContentDecl::Rows { columns, rows } => TableContent::Rows {
             columns: columns.clone(),
             rows: rows.iter().map(|row| row.value.clone()).collect(),
         },
@@ -77,10 +77,7 @@ fn table(decl: &TableDecl) -> Option<Table> {
 
 /// Codes of a list; `all` is the empty list.
 fn error_codes(list: &[Name]) -> Vec<u16> {
-    list.iter()
-        .filter_map(|code| lexical::error_codes(&code.value))
-        .flat_map(|(first, last)| first..=last)
-        .collect()
+    list.iter().filter_map(|code| lexical::error_codes(&code.value)).flat_map(CodeRange::codes).collect()
 }
 
 pub(super) fn errata(
@@ -133,12 +130,16 @@ fn place(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErratumPlace> {
-    if let Some((id, has_sub)) = lexical::entry_by_index(&reference.value) {
-        let known = devices.iter().any(|device| {
-            if has_sub { device.entry(id).is_some() } else { device.objects.contains_key(&id.index) }
-        });
-        if known {
-            return Some(if has_sub { ErratumPlace::Entry(id) } else { ErratumPlace::Object(id.index) });
+    if let Some(entry) = lexical::entry_by_index(&reference.value) {
+        let is_known = |device: &&Dictionary| match entry.sub {
+            Some(_) => device.entry(entry.id()).is_some(),
+            None => device.objects.contains_key(&entry.index),
+        };
+        if devices.iter().any(is_known) {
+            return Some(match entry.sub {
+                Some(_) => ErratumPlace::Entry(entry.id()),
+                None => ErratumPlace::Object(entry.index),
+            });
         }
     }
     // By name, or wrong: the name lookup reports it.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{BitErrorDecl, EntryDecl, Name, SpecialDecl};
+use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -272,7 +272,7 @@ fn bit_errors(
     };
     let mut errors = Vec::new();
     for decl in &list.value {
-        let (first, last) = decl.bits.value;
+        let BitRange { first, last } = decl.bits.value;
         if !fields.iter().any(|field| (field.first, field.last) == (first, last)) {
             diagnostics.push(
                 Diagnostic::new(

@@ -64,13 +64,13 @@ fn whole<'a>(
         return None;
     };
     let mut states = below.states.clone();
-    for (name, pattern, about) in &decl.states {
-        match states.iter_mut().find(|(below, ..)| below.value == name.value) {
+    for over in &decl.states {
+        match states.iter_mut().find(|below| below.name.value == over.name.value) {
             Some(state) => {
-                state.1 = pattern.clone().or_else(|| state.1.clone());
-                state.2 = about.clone().or_else(|| state.2.clone());
+                state.pattern = over.pattern.clone().or_else(|| state.pattern.clone());
+                state.about = over.about.clone().or_else(|| state.about.clone());
             }
-            None => states.push((name.clone(), pattern.clone(), about.clone())),
+            None => states.push(over.clone()),
         }
     }
     let mut transitions = below.transitions.clone();
@@ -152,14 +152,16 @@ fn machine(
     let states: Vec<State> = decl
         .states
         .iter()
-        .filter_map(|(name, pattern, about)| {
-            check_width(pattern.as_ref()?, status, device, diagnostics)?;
-            Some(State { name: name.value.clone(), pattern: pattern.clone()?.value, about: words(about) })
+        .filter_map(|state| {
+            let pattern = state.pattern.as_ref()?;
+            check_width(pattern, status, device, diagnostics)?;
+            let (name, pattern) = (state.name.value.clone(), pattern.value.clone());
+            Some(State { name, pattern, about: words(&state.about) })
         })
         .collect();
     check_states_differ(decl, &states, diagnostics);
     let known = |name: &Name, diagnostics: &mut Diagnostics| {
-        let names = decl.states.iter().map(|(name, ..)| name.value.as_str());
+        let names = decl.states.iter().map(|state| state.name.value.as_str());
         let found = names.clone().any(|state| state == name.value);
         if !found {
             let otherwise = "name one of the machine's states";
@@ -171,7 +173,7 @@ fn machine(
     for one in &decl.transitions {
         let from = match one.from.as_slice() {
             [start] if start.value == "start" => Vec::new(),
-            [any] if any.value == "any" => decl.states.iter().map(|(name, ..)| name.value.clone()).collect(),
+            [any] if any.value == "any" => decl.states.iter().map(|state| state.name.value.clone()).collect(),
             list => {
                 list.iter().filter(|name| known(name, diagnostics)).map(|name| name.value.clone()).collect()
             }
@@ -256,8 +258,8 @@ fn check_complete(decl: &MachineDecl, diagnostics: &mut Diagnostics) {
                 .help(format!("add `{key}:`")),
         );
     };
-    for (name, ..) in decl.states.iter().filter(|(_, pattern, _)| pattern.is_none()) {
-        missing(name.span, "a state", "pattern");
+    for state in decl.states.iter().filter(|state| state.pattern.is_none()) {
+        missing(state.name.span, "a state", "pattern");
     }
     for one in &decl.transitions {
         let keys = [("from", one.from.is_empty()), ("to", one.to.is_none()), ("event", one.event.is_none())];
@@ -303,7 +305,8 @@ fn check_states_differ(decl: &MachineDecl, states: &[State], diagnostics: &mut D
             if value & common != later_value & common {
                 continue;
             }
-            let span = |name: &str| decl.states.iter().find(|(n, ..)| n.value == name).map(|(n, ..)| n.span);
+            let named = |name: &str| decl.states.iter().find(|state| state.name.value == name);
+            let span = |name: &str| named(name).map(|state| state.name.span);
             let (Some(later_place), Some(earlier_place)) = (span(&later.name), span(&state.name)) else {
                 continue;
             };

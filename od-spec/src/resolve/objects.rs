@@ -7,8 +7,7 @@ use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, DataType, EdsPolicy, Entry, Fact, Object, ObjectKind, PdoMapping, Statement,
-    Storage, SubIndex, Text, Value,
+    Access, AccessRight, DataType, Entry, Fact, Object, ObjectKind, Statement, SubIndex, Value,
 };
 use crate::source::Spanned;
 
@@ -71,21 +70,6 @@ pub(super) fn resolve(
     })
 }
 
-/// What elements and members take from their object.
-fn inherited(object: &EntryDecl) -> EntryDecl {
-    EntryDecl {
-        type_name: object.type_name.clone(),
-        unit: object.unit.clone(),
-        access: object.access,
-        pdo: object.pdo,
-        stored: object.stored,
-        writable_when: object.writable_when.clone(),
-        eds: object.eds.clone(),
-        unsure: object.unsure,
-        ..EntryDecl::empty(object.span)
-    }
-}
-
 fn elements(
     decl: &ObjectDecl,
     array: &ArrayDecl,
@@ -124,7 +108,7 @@ fn elements(
         }
     };
     let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
-    let common = EntryDecl { name: None, ..array.entry.over(&inherited(&decl.entry)) };
+    let common = EntryDecl { name: None, ..array.entry.over(&decl.entry.inherited()) };
     let (mut list, mut broken) = (Vec::new(), false);
     for sub in (1..=count).filter(|sub| !omitted(*sub)) {
         let element = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
@@ -161,7 +145,7 @@ fn members(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    let common = inherited(&decl.entry);
+    let common = decl.entry.inherited();
     let (mut list, mut broken) = (Vec::new(), false);
     for (sub, member) in &record.members {
         if decl.omit.iter().any(|omit| omit.value == i128::from(sub.value.0)) {
@@ -221,30 +205,9 @@ fn finish(
     let count = decl.sub0.as_ref();
     let span = count.map_or(decl.index.span, |count| count.span);
     let mut sub0 = Entry {
-        sub: SubIndex(0),
-        name: "number of elements".to_owned(),
-        data_type: DataType::Unsigned8,
-        named_type: None,
-        access: Access::Ro,
-        locked: false,
-        pdo: PdoMapping::None,
         default: Some(Value::Integer(i128::from(highest.0))),
-        low: None,
-        high: None,
-        unit: None,
-        special: Vec::new(),
-        stored: Storage::No,
-        alias: None,
-        category: None,
-        since: None,
-        writable_when: None,
-        capacity: None,
-        identifier: None,
-        bit_errors: Vec::new(),
-        eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
         facts: [(Fact::Default, Statement::derived(span))].into_iter().collect(),
-        about: Text::default(),
-        span,
+        ..Entry::new(SubIndex(0), "number of elements".to_owned(), DataType::Unsigned8, Access::Ro, span)
     };
     if let Some(count) = count {
         let usual = EntryDecl {

@@ -69,7 +69,7 @@ impl Names {
     ) -> Option<EntryId> {
         let text = reference.value.as_str();
         if lexical::looks_like_index(text) {
-            let (id, _) = lexical::entry_by_index(text)?;
+            let id = lexical::entry_by_index(text)?.id();
             if exists(id) {
                 return Some(id);
             }

@@ -38,10 +38,10 @@ impl Contents<'_> {
                 self.machines().check(name, diagnostics);
             }
             ContentDecl::Ladder(name) => self.constraints().check(name, diagnostics),
-            ContentDecl::Pdos(Some(name), _) => self.devices().check(name, diagnostics),
+            ContentDecl::Pdos { device: Some(name), .. } => self.devices().check(name, diagnostics),
             ContentDecl::Errors(list) | ContentDecl::Reactions(list) => self.errors(list, diagnostics),
-            ContentDecl::Rows(columns, rows) => check_rows(columns, rows, diagnostics),
-            ContentDecl::Pdos(None, _) | ContentDecl::Glossary | ContentDecl::History => {}
+            ContentDecl::Rows { columns, rows } => check_rows(columns, rows, diagnostics),
+            ContentDecl::Pdos { device: None, .. } | ContentDecl::Glossary | ContentDecl::History => {}
         }
     }
 
@@ -97,7 +97,7 @@ impl Contents<'_> {
         let has = |code: u16| self.system.errors.binary_search_by_key(&code, |error| error.code).is_ok();
         for code in list.iter().filter(|code| code.value != "all") {
             let range = lexical::error_codes(&code.value);
-            if !range.is_some_and(|(first, last)| (first..=last).all(has)) {
+            if !range.is_some_and(|range| range.codes().all(has)) {
                 let message = format!("there is no error code `{}`", shorten(&code.value));
                 diagnostics.push(
                     Diagnostic::new(codes::UNKNOWN_REFERENCE, code.span, message)
