@@ -25,6 +25,8 @@ const RECEIVE: u16 = 0x1400;
 const TRANSMIT: u16 = 0x1800;
 /// Bits of a CAN frame.
 const FRAME_BITS: u32 = 64;
+/// Bit 30 of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
+const NO_REMOTE_FRAMES: u32 = 1 << 30;
 
 /// The data of a PDO.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -273,6 +275,7 @@ pub(crate) fn check_communication(
     let cob_id = current(table, image, index, 1).unwrap_or(NOT_VALID);
     let is_valid = cob_id & NOT_VALID == 0;
     let refused = match sub {
+        1 if index < TRANSMIT && new & NO_REMOTE_FRAMES != 0 => true,
         1 => return check_cob_id(cob_id, new),
         2 => matches!(new, 241..=251) || index < TRANSMIT && matches!(new, 252 | 253),
         3 => is_valid && current(table, image, index, 3) != Some(new),
