@@ -1,7 +1,7 @@
 //! Rules of changing the parameters of a PDO (CiA 301 9.6.3, 1400h to 1BFFh).
 
 use crate::abort::AbortCode;
-use crate::cob_id::{NOT_VALID, check_cob_id};
+use crate::cob_id::{NO_REMOTE_FRAMES, NOT_VALID, check_cob_id};
 use crate::mapping::{FRAME_BITS, MAPPING, Mapped, TRANSMIT, width};
 use crate::stored::current;
 use crate::table::{Flags, Found, Table};
@@ -17,6 +17,7 @@ pub(crate) fn check_communication(
     let cob_id = current(table, image, index, 1).unwrap_or(NOT_VALID);
     let is_valid = cob_id & NOT_VALID == 0;
     let refused = match sub {
+        1 if index < TRANSMIT && new & NO_REMOTE_FRAMES != 0 => true,
         1 => return check_cob_id(cob_id, new),
         2 => matches!(new, 241..=251) || index < TRANSMIT && matches!(new, 252 | 253),
         3 => is_valid && current(table, image, index, 3) != Some(new),

@@ -1,4 +1,4 @@
-//! The COB-ID of a PDO is an 11-bit identifier that no other service has for itself, on every node.
+//! The COB-IDs of PDOs, SYNC, TIME, EMCY and SDO channels are 11-bit identifiers that no other service has for itself, on every node.
 
 use super::findings::Findings;
 use super::pdo::{NO_REMOTE_FRAMES, NOT_VALID, Parameter};
@@ -12,9 +12,10 @@ pub(crate) const CODE: &Code = &Code {
     id: "OD0503",
     severity: Severity::Error,
     title: "an unusable COB-ID",
-    explanation: "The identifier has more than 11 bits or is kept for NMT, SDO, heartbeat or LSS. A PDO on such an identifier would disturb a service that \
-        every device relies on: a PDO with the identifier 0 stops nodes. `cob-id:` is the identifier alone; the flag bits follow from `valid:` and \
-        `no-rtr:`. Write a free identifier.",
+    explanation: "The identifier of a PDO, of SYNC, TIME, EMCY or of an SDO channel beside the first has more than 11 bits or is kept for NMT, SDO, heartbeat \
+        or LSS. A message on such an identifier would disturb a service that every device relies on: a PDO with the identifier 0 stops nodes. A device \
+        refuses it with abort code 0609 0030h. `cob-id:` is the identifier alone; the flag bits follow from `valid:` and `no-rtr:`. Write a free \
+        identifier.",
     clause: Some("CiA 301, table 35 (restricted CAN identifiers)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {cob-id: $NODEID + 0x600, map: [level]}}}",
@@ -34,25 +35,57 @@ const RESTRICTED: [std::ops::RangeInclusive<i128>; 8] = [
     0x780..=0x7FF,
 ];
 
+/// What bit 31 of a COB-ID says.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Bit31 {
+    /// That the message does not exist.
+    NotValid,
+    /// Nothing about the identifier: SYNC and TIME.
+    Other,
+}
+
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for pdo in &subject.device.pdos {
-        let Some(parameter) = subject.communication(pdo, 1) else { continue };
-        if let Some(problem) = subject.nodes().find_map(|node| problem(subject, &parameter, node)) {
+    let pdos = subject.device.pdos.iter().filter_map(|pdo| subject.communication(pdo, 1));
+    let pdos = pdos.map(|parameter| (parameter, Bit31::NotValid));
+    for (parameter, bit_31) in pdos.chain(services(subject)) {
+        if let Some(problem) = subject.nodes().find_map(|node| problem(subject, &parameter, bit_31, node)) {
             let message = format!("{}: {problem}", parameter.id);
+            let help = if is_of_pdo(&parameter) {
+                "write a free identifier; bits 31 (no PDO, `valid: no`) and 30 (no remote frames, `no-rtr: yes`) are flags"
+            } else {
+                "write a free identifier; bits 31 and 30 are flags"
+            };
             findings.push(
                 Diagnostic::new(CODE, parameter.place, message)
-                    .help("write a free identifier; bits 31 (no PDO, `valid: no`) and 30 (no remote frames, `no-rtr: yes`) are flags")
+                    .help(help)
                     .note("CiA 301 table 35: restricted CAN identifiers"),
             );
         }
     }
 }
 
-fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, node: u8) -> Option<String> {
+const fn is_of_pdo(parameter: &Parameter<'_>) -> bool {
+    matches!(parameter.id.index.0, 0x1400..=0x15FF | 0x1800..=0x19FF)
+}
+
+/// The COB-IDs of services that can be configured; the first SDO channel (1200h) has restricted ones by right.
+fn services<'a>(subject: &Subject<'a>) -> impl Iterator<Item = (Parameter<'a>, Bit31)> {
+    let subject = *subject;
+    subject.device.entries().filter_map(move |(id, ..)| {
+        let bit_31 = match (id.index.0, id.sub.0) {
+            (0x1005 | 0x1012, 0) => Bit31::Other,
+            (0x1014, 0) | (0x1028, 1..) | (0x1201..=0x12FF, 1 | 2) => Bit31::NotValid,
+            _ => return None,
+        };
+        Some((subject.parameter(id.index.0, id.sub.0)?, bit_31))
+    })
+}
+
+fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node: u8) -> Option<String> {
     let raw = parameter.value.integer_for(node)?;
     let id = raw & !(NOT_VALID | NO_REMOTE_FRAMES);
-    // A PDO that does not exist needs no identifier.
-    if raw & NOT_VALID != 0 && id == 0 {
+    // A message that does not exist needs no identifier.
+    if bit_31 == Bit31::NotValid && raw & NOT_VALID != 0 && id == 0 {
         return None;
     }
     let on_node = subject.on_node(parameter.value, node);

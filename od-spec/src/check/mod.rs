@@ -15,6 +15,7 @@ mod bit_rates_exist;
 mod cob_ids_are_unrestricted;
 mod cob_ids_differ;
 mod commands_are_not_downloaded;
+mod communication_values_are_defined;
 mod constants_are_not_stored;
 mod constants_have_values;
 mod constraints_hold;
@@ -92,6 +93,7 @@ pub(crate) static RULES: &[Rule] = &[
     pdos_fit_a_frame::RULE,
     pdo_parameters_agree::RULE,
     granularity_fits_mapping::RULE,
+    communication_values_are_defined::RULE,
     bit_rates_are_standard::RULE,
     bit_rates_exist::RULE,
     constraints_hold::RULE,

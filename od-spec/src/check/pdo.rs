@@ -35,7 +35,8 @@ pub(super) fn title(pdo: &Pdo) -> String {
 }
 
 impl<'a> Subject<'a> {
-    fn parameter(&self, index: u16, sub: u8) -> Option<Parameter<'a>> {
+    /// A parameter with its value.
+    pub(super) fn parameter(&self, index: u16, sub: u8) -> Option<Parameter<'a>> {
         let id = entry_id(index, sub);
         let entry = self.device.entry(id)?;
         Some(Parameter { id, entry, value: entry.default.as_ref()?, place: self.place(entry, Fact::Default) })

@@ -14,7 +14,8 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     title: "a placeholder that the device does not take",
     explanation: "RPDOs may hold placeholders of the types that the device lists in `dummies:`, to skip bits that are meant for another device; \
-        TPDOs may not. A device that does not know the placeholder refuses the whole mapping. List the type in `dummies:`, or map entries only.",
+        TPDOs may not. A placeholder has the length of its type. A device that does not know the placeholder refuses the whole mapping. List the \
+        type in `dummies:`, or map entries only.",
     clause: Some("CiA 306, 4.6.2 ([DummyUsage])"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: rw, pdo: receive}\npdos:\n  io: {receive: {1: {map: [unsigned8, level]}}}",
@@ -25,18 +26,23 @@ const CODE: &Code = &Code {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for pdo in &subject.device.pdos {
         for parameter in subject.mapping(pdo) {
-            let Some(data_type) = target(parameter.raw()).as_ref().and_then(placeholder) else { continue };
-            let problem = match pdo.direction {
-                Direction::Transmit => "a TPDO has no placeholders".to_owned(),
-                Direction::Receive if !subject.device.info.dummies.contains(&data_type) => {
+            let Some(mapped) = target(parameter.raw()) else { continue };
+            let Some(data_type) = placeholder(&mapped) else { continue };
+            let taken = subject.device.info.dummies.contains(&data_type);
+            let problem = match (pdo.direction, data_type.bits()) {
+                (Direction::Transmit, _) => "a TPDO has no placeholders".to_owned(),
+                (Direction::Receive, _) if !taken => {
                     format!("{} takes no {data_type} placeholder", title(pdo))
                 }
-                Direction::Receive => continue,
+                (Direction::Receive, Some(bits)) if bits != u16::from(mapped.bits) => {
+                    format!("a placeholder of {data_type} has {bits} bits, not {}", mapped.bits)
+                }
+                (Direction::Receive, Some(_) | None) => continue,
             };
             let message = format!("{}: {problem}", parameter.id);
             findings.push(
                 Diagnostic::new(CODE, parameter.place, message)
-                    .help("list the type in the device's `dummies:`; placeholders stand in RPDOs only"),
+                    .help("list the type in the device's `dummies:`; placeholders stand in RPDOs only, in the length of their type"),
             );
         }
     }

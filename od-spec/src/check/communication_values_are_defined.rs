@@ -1,0 +1,85 @@
+//! Communication objects have values that CiA 301 defines, beyond what type and limits can say.
+
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::{Subject, entry_id};
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{Entry, EntryId, Fact, Value};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+
+/// Largest node-ID.
+const LAST_NODE: i128 = 127;
+
+const CODE: &Code = &Code {
+    id: "OD0510",
+    severity: Severity::Error,
+    title: "a value that a communication object does not have",
+    explanation: "1003h.0, the number of errors, starts with 0 and can only be set to 0; 1016h watches the nodes 1 to 127, each of them once; the SYNC counter of 1019h runs \
+        to 2 to 240, or is not sent (0). A device refuses any other value, and a download at boot stops there. Write a value that CiA 301 defines.",
+    clause: Some("CiA 301, objects 1003h, 1016h and 1019h"),
+    example: Some(Example::new(
+        "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, sync counter]}\nobjects:\n  0x1019: {from: cia301, default: 1}",
+        "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, sync counter]}\nobjects:\n  0x1019: {from: cia301, default: 2}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for (id, entry, value) in subject.values() {
+        let Some(raw) = value.integer() else { continue };
+        let finding = match (id.index.0, id.sub.0) {
+            (0x1003, 0) if raw != 0 => {
+                let what = "a device starts with an empty error history";
+                Some(undefined(subject, id, entry, what, "write 0"))
+            }
+            (0x1016, 1..) if raw >> 16 > LAST_NODE => {
+                let what = format!("{} is no node-ID", raw >> 16);
+                let help = "write the node-ID, 1 to 127, in bits 23..16 and the time in ms in bits 15..0";
+                Some(undefined(subject, id, entry, &what, help))
+            }
+            (0x1016, 1..) => watched_twice(subject, id, entry, raw),
+            // A value outside its limits is said by itself.
+            (0x1019, 0) if matches!(raw, 1 | 241..) && entry.allows(raw) => {
+                let what = format!("a SYNC counter that runs to {raw} is reserved");
+                Some(undefined(subject, id, entry, &what, "write 2 to 240, or 0 for a SYNC without counter"))
+            }
+            _ => None,
+        };
+        if let Some(finding) = finding {
+            findings.push(finding);
+        }
+    }
+}
+
+fn undefined(subject: &Subject<'_>, id: EntryId, entry: &Entry, what: &str, help: &str) -> Diagnostic {
+    let message = format!("{id} ({}): {what}", entry.name);
+    Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help)
+}
+
+/// The node that a value of 1016h watches: bits 23 to 16 are the node, 15 to 0 the time in ms; without either, none.
+const fn watched(raw: i128) -> Option<i128> {
+    let (node, time) = (raw >> 16, raw & 0xFFFF);
+    if node == 0 || time == 0 { None } else { Some(node) }
+}
+
+/// A node that an entry before watches already; a setting is blamed before a default.
+fn watched_twice(subject: &Subject<'_>, id: EntryId, entry: &Entry, raw: i128) -> Option<Diagnostic> {
+    let node = watched(raw)?;
+    let (first_id, first) = (1..id.sub.0).find_map(|sub| {
+        let first_id = entry_id(id.index.0, sub);
+        let first = subject.device.entry(first_id)?;
+        let watches = first.default.as_ref().and_then(Value::integer).and_then(watched) == Some(node);
+        watches.then_some((first_id, first))
+    })?;
+    let ((id, entry), (namesake_id, namesake)) = if first.is_set() && !entry.is_set() {
+        ((first_id, first), (id, entry))
+    } else {
+        ((id, entry), (first_id, first))
+    };
+    let what = format!("{namesake_id} watches node {node}, too");
+    let help = "watch each node once; a time of 0 switches an entry off";
+    let finding = undefined(subject, id, entry, &what, help);
+    let place = subject.place(namesake, Fact::Default);
+    // What a library says has no place in the specification.
+    Some(if place == subject.device.span { finding } else { finding.with(place, namesake_id.to_string()) })
+}

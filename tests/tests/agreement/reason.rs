@@ -1,0 +1,34 @@
+//! Why one of the three may say something else than the verdict.
+
+macro_rules! reasons {
+    ($($reason:ident: $text:literal;)+) => {
+        /// Why one of the three may say something else.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub(crate) enum Reason { $(#[doc = $text] $reason,)+ }
+
+        impl Reason {
+            pub(crate) const ALL: &'static [Self] = &[$(Self::$reason),+];
+
+            pub(crate) const fn text(self) -> &'static str {
+                match self { $(Self::$reason => $text,)+ }
+            }
+        }
+    };
+}
+
+reasons! {
+    DefaultNeedsNoWrite: "a specification states the value that the entry has; nothing writes it";
+    ReservedBitIsHarmless: "a reserved bit is a warning to who writes it; a device ignores it (CiA 301: reserved bits are not checked)";
+    OnlyWhileConditionHolds: "a DCF cannot know in which state the device will be: a warning";
+    EdsLineHoldsLess: "an EDS or DCF line cannot hold the text; the bus can";
+    NoNotation: "no specification, EDS or DCF has a notation for values of this type";
+    FollowsFromType: "lengths of mapped entries, their number and empty places follow from `map:`";
+    KeyHasARange: "the key of the language has a range of its own";
+    TargetIsWider: "a specification states the value of the target, whose type has it";
+    BetweenSteps: "a specification states the value of the target, which has no such step";
+    OnlyToolsMustNot: "a tool must not write it at each boot; a person with a client may";
+    EdsShowsLess: "the EDS shows less access than the device gives, and a DCF goes by the EDS";
+    NoPdoYet: "the PDO does not exist, and its identifier is looked at when it is switched on";
+    PassedOnTheWay: "while PDOs are configured one after the other, two may pass through one identifier";
+    RealsAreMisread: "PLC tools may misread a default of type REAL: a warning";
+}
