@@ -31,7 +31,7 @@ pub use document::{
 pub use download::{NoSuchValue, Write, download};
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
-pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
+pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;

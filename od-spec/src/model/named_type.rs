@@ -68,8 +68,20 @@ pub struct BitField {
     pub priority: Option<String>,
     /// Named values of a run of bits.
     pub values: Vec<EnumValue>,
-    /// Meanings that apply only in one mode of operation: mode, name, meaning.
-    pub modes: Vec<(String, String, Text)>,
+    /// Meanings that apply only in one mode of operation.
+    pub modes: Vec<ModeMeaning>,
+}
+
+/// What bits mean in one mode of operation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ModeMeaning {
+    /// The mode.
+    pub mode: String,
+    /// Name of the bits in this mode.
+    pub name: String,
+    /// Meaning.
+    pub about: Text,
 }
 
 impl BitField {

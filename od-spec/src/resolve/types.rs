@@ -8,7 +8,9 @@ use crate::check::codes as rule_codes;
 use crate::decode::nearest;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Statement, Text, TypeKind};
+use crate::model::{
+    BitField, BitUsage, DataType, EnumValue, ModeMeaning, NamedType, Statement, Text, TypeKind,
+};
 use crate::source::{FileId, Span, Spanned};
 
 /// Resolves a type; `None` when it is too broken to be used.
@@ -203,7 +205,8 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
             .modes
             .iter()
             .filter_map(|bit| {
-                Some((bit.mode.value.clone(), bit.name.as_ref()?.value.clone(), words(&bit.about)))
+                let (mode, name) = (bit.mode.value.clone(), bit.name.as_ref()?.value.clone());
+                Some(ModeMeaning { mode, name, about: words(&bit.about) })
             })
             .collect(),
     }
