@@ -165,8 +165,8 @@ fn property(key: &Key) -> Json {
     if let (Some(example), Some(_)) = (key.example, definition(key.shape)) {
         members.push(("examples".to_owned(), texts([example.trim_matches('"')])));
     }
-    if let Json::Object(own) = schema(key.shape) {
-        members.extend(own);
+    if let Json::Object(of_value) = schema(key.shape) {
+        members.extend(of_value);
     }
     Json::Object(members)
 }
@@ -288,7 +288,13 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Condition => "condition",
         Shape::Formula => "formula",
         Shape::Pattern => "bit-pattern",
-        _ => return None,
+        Shape::Choice(_)
+        | Shape::Integer(..)
+        | Shape::Map(_)
+        | Shape::MapOf(..)
+        | Shape::List(_)
+        | Shape::OneOrMore(_)
+        | Shape::ShortOr(..) => return None,
     })
 }
 

@@ -74,3 +74,42 @@ impl FromNode for EdsDecl {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::ENTRY;
+    use crate::model::{Author, Fact, Facts};
+    use crate::source::SourceMap;
+    use crate::yaml;
+
+    const EVERY_KEY: &str = "{name: n, identifier: i, type: unsigned8, unit: volt, access: rw, pdo: receive, default: 1, min: 0, \
+        max: 9, special: {255: off}, stored: application, category: optional, since: 1.04, writable-when: 0x2000 == 0, \
+        bit-errors: {0: 0x1000}, capacity: 4, eds: {flags: [no-write]}, about: text}";
+
+    fn words(facts: &Facts) -> Vec<&'static str> {
+        facts.said_by(Author::Maker).map(Fact::word).collect()
+    }
+
+    #[test]
+    fn every_key_states_its_fact() {
+        let mut sources = SourceMap::new();
+        let id = sources.add("test", EVERY_KEY);
+        let mut diagnostics = Diagnostics::new();
+        let root = yaml::parse(id, sources.file(id), &mut diagnostics).unwrap();
+        let reader = Reader { node: &root, language: "en" };
+        let decl = entry(reader, &ENTRY, root.span, &mut diagnostics);
+        assert!(!decl.unsure);
+
+        let mut keys: Vec<&str> = ENTRY.keys.iter().map(|key| key.name).collect();
+        let mut stated = words(&decl.facts(id));
+        keys.sort_unstable();
+        stated.sort_unstable();
+        assert_eq!(stated, keys);
+
+        let inherited = words(&decl.inherited().facts(id));
+        assert_eq!(inherited, ["type", "unit", "access", "pdo", "stored", "writable-when", "eds"]);
+        let about_one_value: Vec<&str> = decl.about_one_value().map(|key| key.value).collect();
+        assert_eq!(about_one_value, ["default", "min", "max", "special", "bit-errors", "capacity"]);
+    }
+}

@@ -193,7 +193,9 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
         Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
-        _ => "a text",
+        Shape::Text | Shape::Words => "a text",
+        Shape::Map(_) | Shape::MapOf(..) | Shape::ShortOr(..) => "a map",
+        Shape::List(_) | Shape::OneOrMore(_) => "a list",
     }
 }
 
@@ -217,32 +219,35 @@ fn unreadable(
     }
 }
 
+fn check_integer(text: Spanned<&str>, low: i128, high: i128, diagnostics: &mut Diagnostics) {
+    match scalar::integer(text.value) {
+        Err(error) => diagnostics.push(
+            Diagnostic::new(
+                codes::BAD_NUMBER,
+                text.span,
+                format!("found `{}`, expected an integer", shorten(text.value)),
+            )
+            .help(error.help()),
+        ),
+        Ok(number) if !(low..=high).contains(&number) => {
+            let range = if low == high { format!("{low}") } else { format!("a number from {low} to {high}") };
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::NUMBER_OUT_OF_RANGE,
+                    text.span,
+                    format!("found `{}`, expected {range}", shorten(text.value)),
+                )
+                .help(format!("write {range}")),
+            );
+        }
+        Ok(_) => {}
+    }
+}
+
 fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics) {
     let value = text.value;
     match shape {
-        Shape::Integer(low, high) => match scalar::integer(value) {
-            Err(error) => diagnostics.push(
-                Diagnostic::new(
-                    codes::BAD_NUMBER,
-                    text.span,
-                    format!("found `{}`, expected an integer", shorten(value)),
-                )
-                .help(error.help()),
-            ),
-            Ok(number) if !(low..=high).contains(&number) => {
-                let range =
-                    if low == high { format!("{low}") } else { format!("a number from {low} to {high}") };
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::NUMBER_OUT_OF_RANGE,
-                        text.span,
-                        format!("found `{}`, expected {range}", shorten(value)),
-                    )
-                    .help(format!("write {range}")),
-                );
-            }
-            Ok(_) => {}
-        },
+        Shape::Integer(low, high) => check_integer(text, low, high, diagnostics),
         Shape::YesNo if scalar::yes_no(value).is_none() => diagnostics.push(
             Diagnostic::new(
                 codes::UNKNOWN_WORD,
