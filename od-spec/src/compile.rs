@@ -6,7 +6,7 @@ use crate::decode::{decode, nearest};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::System;
-use crate::resolve;
+use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceMap, Span};
 use crate::yaml;
 
@@ -79,8 +79,8 @@ fn build(
     drop(node);
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
-    let system = resolve::resolve(&spec, &libraries, diagnostics);
-    check::system(rules, &system, diagnostics);
+    let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
+    check::system(rules, &system, library.as_ref(), diagnostics);
     Some(system)
 }
 

@@ -43,6 +43,8 @@ mod parameters;
 mod reference;
 mod resolve;
 #[cfg(test)]
+mod rule_cases;
+#[cfg(test)]
 mod rule_examples;
 pub mod scalar;
 pub mod source;

@@ -28,7 +28,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let device = subject.device;
     let place = device.place(Fact::BitRates);
     for rate in device.info.bit_rates.iter().filter(|rate| !BIT_RATES.contains(rate)) {
-        findings.push(
+        findings.push_each(
             Diagnostic::new(CODE, place, format!("{rate} kbit/s is not a CANopen bit rate"))
                 .help("write one of 10, 20, 50, 125, 250, 500, 800 and 1000"),
         );

@@ -61,6 +61,14 @@ fn users<'a>(subject: &Subject<'a>) -> Vec<User<'a>> {
     let services = SERVICES.iter().filter_map(|(index, service)| {
         let id = entry_id(*index, 0);
         let entry = subject.device.entry(id)?;
+        // Bit 31 of 1014h says that there is no EMCY; in 1005h and 1012h it says nothing about the identifier.
+        let is_off = |node| {
+            let raw = entry.default.as_ref().and_then(|value| value.integer_for(node));
+            *index == 0x1014 && raw.is_some_and(|raw| raw & NOT_VALID != 0)
+        };
+        if subject.nodes().all(is_off) {
+            return None;
+        }
         Some(User {
             name: format!("{service} ({id})"),
             value: entry.default.as_ref()?,

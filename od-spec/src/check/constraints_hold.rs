@@ -25,38 +25,81 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    let key = &subject.device.key;
-    for constraint in subject.system.constraints.iter().filter(|constraint| constraint.devices.includes(key))
-    {
-        // A condition that names the device of every entry says the same on each of them.
-        let prefixed = constraint.require.entries().iter().all(|entry| entry.device.is_some());
-        if prefixed && subject.node.is_none() && constraint.devices.keys().first() != Some(key) {
-            continue;
-        }
+    for constraint in &subject.system.constraints {
         // A value outside its limits is said by itself.
-        if set_outside_limits(subject, constraint) {
-            continue;
-        }
-        if let Outcome::Fails { left, op, right } = outcome(constraint, subject) {
-            findings.push_each(finding(subject, constraint, &Broken { left, op, right }));
+        let broken = views(subject, constraint)
+            .into_iter()
+            .filter(|view| !view.names_setting_outside_limits(constraint))
+            .find_map(|view| Some((view, view.broken(constraint)?)));
+        if let Some((view, broken)) = broken {
+            findings.push_each(finding(&view, constraint, &broken));
         }
     }
 }
 
-/// Whether a setting that the constraint names lies outside its limits.
-fn set_outside_limits(subject: &Subject<'_>, constraint: &Constraint) -> bool {
-    constraint.require.entries().into_iter().any(|named| {
-        let Some((entry, place)) = subject.named_entry(named) else { return false };
-        let is_set = subject.settings().contains(&place.file);
-        is_set && subject.raw(named).is_some_and(|raw| !entry.allows(raw))
-    })
+/// The values of all devices, as a condition sees them from one: what it names without a device is that one's.
+#[derive(Clone, Copy)]
+struct View<'a> {
+    subject: Subject<'a>,
+    from: &'a str,
 }
 
-/// Whether a constraint holds; one whose `when` does not hold, or cannot be decided, holds.
-fn outcome(constraint: &Constraint, subject: &Subject<'_>) -> Outcome {
-    match &constraint.when {
-        Some(when) if when.evaluate(subject) != Outcome::Holds => Outcome::Holds,
-        Some(_) | None => constraint.require.evaluate(subject),
+/// From where a constraint is looked at for a device. On a type it is the device's own affair, unless one before it breaks
+/// the constraint already; a configured node may break it for another device, too.
+fn views<'a>(subject: &Subject<'a>, constraint: &'a Constraint) -> Vec<View<'a>> {
+    let key = &subject.device.key;
+    let view = |from: &'a String| View { subject: *subject, from };
+    let is_seen_from = constraint.seen_from.contains(key);
+    match subject.node {
+        None if is_seen_from => {
+            let mut before = constraint.seen_from.iter().take_while(|from| *from != key).map(view);
+            let said_before = before.any(|view| view.broken(constraint).is_some());
+            constraint.seen_from.iter().filter(|from| *from == key && !said_before).map(view).collect()
+        }
+        Some(_) if is_seen_from => {
+            constraint.seen_from.iter().filter(|from| *from == key).map(view).collect()
+        }
+        Some(_) if constraint.devices.includes(key) => constraint.seen_from.iter().map(view).collect(),
+        None | Some(_) => Vec::new(),
+    }
+}
+
+impl View<'_> {
+    /// The same entry with its device.
+    fn explicit(&self, entry: &EntryRef) -> EntryRef {
+        let device = entry.device.clone().unwrap_or_else(|| self.from.to_owned());
+        EntryRef { device: Some(device), id: entry.id }
+    }
+
+    /// The link that does not hold; none where the constraint holds, its `when` does not, or a value is unknown.
+    fn broken(&self, constraint: &Constraint) -> Option<Broken> {
+        if constraint.when.as_ref().is_some_and(|when| when.evaluate(self) != Outcome::Holds) {
+            return None;
+        }
+        match constraint.require.evaluate(self) {
+            Outcome::Fails { left, op, right } => Some(Broken { left, op, right }),
+            Outcome::Holds | Outcome::Unknown => None,
+        }
+    }
+
+    /// Whether a setting that the constraint names lies outside its limits.
+    fn names_setting_outside_limits(&self, constraint: &Constraint) -> bool {
+        constraint.require.entries().into_iter().any(|named| {
+            let named = self.explicit(named);
+            let Some((entry, place)) = self.subject.named_entry(&named) else { return false };
+            let is_set = self.subject.settings().contains(&place.file);
+            is_set && self.subject.raw(&named).is_some_and(|raw| !entry.allows(raw))
+        })
+    }
+}
+
+impl Values for View<'_> {
+    fn value(&self, entry: &EntryRef) -> Option<Ratio> {
+        self.subject.value(&self.explicit(entry))
+    }
+
+    fn raw(&self, entry: &EntryRef) -> Option<i128> {
+        self.subject.raw(&self.explicit(entry))
     }
 }
 
@@ -74,20 +117,21 @@ struct Named<'a> {
     is_set: bool,
 }
 
-fn finding(subject: &Subject<'_>, constraint: &Constraint, broken: &Broken) -> Diagnostic {
+fn finding(view: &View<'_>, constraint: &Constraint, broken: &Broken) -> Diagnostic {
+    let subject = &view.subject;
     let conditions = [Some(&constraint.require), constraint.when.as_ref()];
     let named: Vec<Named<'_>> = conditions
         .into_iter()
         .flatten()
         .flat_map(|condition| condition.entries())
         .filter_map(|entry| {
-            let (_, place) = subject.named_entry(entry)?;
+            let (_, place) = subject.named_entry(&view.explicit(entry))?;
             let is_set = place.file != constraint.span.file && subject.settings().contains(&place.file);
             Some(Named { entry, place, is_set })
         })
         .collect();
     let Broken { left, op, right } = broken;
-    let message = format!("the values of `{}` break `{}`", subject.device.key, shorten(&constraint.name));
+    let message = format!("the values of `{}` break `{}`", view.from, shorten(&constraint.name));
     let sides = format!("{} is {}, {} is {}: not {}", left.0, left.1, right.0, right.1, op.sign());
     let set = named.iter().find(|named| named.is_set);
     let mut diagnostic = match set {

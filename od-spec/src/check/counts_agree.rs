@@ -6,7 +6,7 @@ use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{DataType, Entry, Fact, Index, Object, Role, SubIndex, Value};
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
 
 /// The code of the rule.
 pub const CODE: &Code = &Code {

@@ -4,6 +4,7 @@ use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -30,8 +31,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         (1.., None) => (first, "granularity is not 0, but no mapping can be changed"),
         (0, None) | (1.., Some(_)) => return,
     };
-    findings.push(
-        Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key))
-            .help("correct the device's `granularity:`, or `mapping:` of the PDOs"),
-    );
+    let diagnostic = Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key))
+        .help("correct the device's `granularity:`, or `mapping:` of the PDOs");
+    findings.push(match device.facts.get(Fact::Granularity) {
+        Some(granularity) => diagnostic.with(granularity.span, "the granularity"),
+        None => diagnostic,
+    });
 }

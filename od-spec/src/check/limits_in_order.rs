@@ -7,7 +7,7 @@ use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, Value};
 use crate::wording::format_value;
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 const CODE: &Code = &Code {
     id: "OD0407",
@@ -23,6 +23,13 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
+        // What follows from the entry behind a view is said there.
+        if entry.alias.is_some()
+            && entry.facts.get(Fact::LowLimit).is_none()
+            && entry.facts.get(Fact::HighLimit).is_none()
+        {
+            continue;
+        }
         let Some((low, high)) = entry.low.zip(entry.high).filter(|(low, high)| low > high) else { continue };
         let show = |raw| format_value(entry, &Value::Integer(raw));
         let message = format!(

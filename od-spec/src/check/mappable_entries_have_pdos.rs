@@ -34,7 +34,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some((id, _, entry)) = mappable.next() {
             let message =
                 format!("{id} can be mapped into {}s, but `{}` has none", direction.pdo(), device.key);
-            findings.push(
+            findings.push_each(
                 Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message)
                     .help(format!("describe the device's {}s under `pdos:`", direction.pdo())),
             );

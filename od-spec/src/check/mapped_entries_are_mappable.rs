@@ -49,8 +49,6 @@ fn finding(
         let help = "map an entry of the device; bits 31..16: index, 15..8: sub-index, 7..0: length in bits";
         return Some(Diagnostic::new(codes::UNKNOWN_ENTRY, place, message).help(help));
     };
-    // That such a type cannot be mapped at all is said at the entry.
-    let bits = entry.data_type.bits()?;
     if !entry.pdo.allows(pdo.direction) {
         let direction = match entry.pdo {
             PdoMapping::None => "PDOs".to_owned(),
@@ -66,6 +64,8 @@ fn finding(
             diagnostic
         });
     }
+    // That a type without a length says it can be mapped is said at the entry.
+    let bits = entry.data_type.bits()?;
     (u16::from(length) != bits).then(|| {
         Diagnostic::new(CODE, place, format!("{at}: {id} has {bits} bits, not {length}"))
             .help(format!("write the entry's length in bits 7..0 of the mapping of {}", title(pdo)))

@@ -4,9 +4,9 @@ use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Access, Direction, Entry, EntryId, Fact, PdoMapping};
+use crate::model::{Access, Author, Direction, Entry, EntryId, Fact, PdoMapping};
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 pub(super) const CODE: &Code = &Code {
     id: "OD0417",
@@ -24,6 +24,11 @@ pub(super) const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
+        // What follows from the entry behind a view is said there.
+        let derived = |fact| entry.facts.is_said_by(fact, Author::Derived);
+        if entry.alias.is_some() && derived(Fact::Mapping) && derived(Fact::Access) {
+            continue;
+        }
         // What has no length cannot be mapped at all.
         if entry.pdo != PdoMapping::None && !entry.data_type.is_mappable() {
             continue;

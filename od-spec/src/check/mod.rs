@@ -115,30 +115,39 @@ pub(crate) static RULES: &[Rule] = &[
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.
-pub(crate) fn system(rules: &[&Rule], system: &System, diagnostics: &mut Diagnostics) {
+pub(crate) fn system(
+    rules: &[&Rule],
+    system: &System,
+    library: Option<&Dictionary>,
+    diagnostics: &mut Diagnostics,
+) {
     for needs in [Needs::Nothing, Needs::Everything] {
         if needs == Needs::Everything && diagnostics.has_errors() {
             return;
         }
         for rule in rules.iter().filter(|rule| rule.needs == needs) {
-            apply(rule, system, diagnostics);
+            apply(rule, system, library, diagnostics);
         }
     }
 }
 
-fn apply(rule: &Rule, system: &System, diagnostics: &mut Diagnostics) {
+fn apply(rule: &Rule, system: &System, library: Option<&Dictionary>, diagnostics: &mut Diagnostics) {
+    let mut look = |check: fn(&Subject<'_>, &mut Findings), device: &Dictionary| {
+        let mut findings = Findings::of(device);
+        check(&Subject { system, device, node: None }, &mut findings);
+        diagnostics.append(findings.into_diagnostics());
+    };
     match rule.check {
         Check::System(check) => {
             let mut findings = Findings::anywhere();
             check(system, &mut findings);
             diagnostics.append(findings.into_diagnostics());
         }
+        Check::Objects(check) => {
+            system.devices.iter().chain(library).for_each(|device| look(check, device));
+        }
         Check::Device(check) => {
-            for device in &system.devices {
-                let mut findings = Findings::of(device);
-                check(&Subject { system, device, node: None }, &mut findings);
-                diagnostics.append(findings.into_diagnostics());
-            }
+            system.devices.iter().for_each(|device| look(check, device));
         }
         Check::Settings(_) => {}
     }
@@ -161,7 +170,9 @@ pub(crate) fn configuration(
             return;
         }
         for rule in rules.iter().filter(|rule| rule.needs == needs) {
-            let (Check::Device(check) | Check::Settings(check)) = rule.check else { continue };
+            let (Check::Objects(check) | Check::Device(check) | Check::Settings(check)) = rule.check else {
+                continue;
+            };
             let mut findings = Findings::of(device);
             check(&subject, &mut findings);
             diagnostics.append(findings.touching(&subject.settings()));

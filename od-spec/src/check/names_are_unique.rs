@@ -10,7 +10,7 @@ use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{DataType, Entry, Fact, Object};
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 /// The code of the rule.
 pub const CODE: &Code = &Code {

@@ -16,8 +16,8 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     title: "a text that an EDS cannot hold",
     explanation: "An EDS line has at most 255 characters, which leaves 241 for a name. `;`, `#` and `=` in names and texts are read as comments or keys by \
-        several PLC tools, so they are refused; blanks at the ends of a string are lost. Characters outside ASCII are transliterated. What \
-        readers see would otherwise depend on the reader. Choose another name or text, or withhold the default from the EDS.",
+        several PLC tools, so they are refused. Characters outside ASCII are transliterated; a name that has none left is refused, too. What \
+        readers see would otherwise depend on the reader. Choose another name or text.",
     clause: Some("CiA 306, 4.2 and 4.6.3.2"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: speed = 0, type: unsigned8, access: ro}",

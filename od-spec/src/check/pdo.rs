@@ -20,12 +20,18 @@ pub(super) struct Parameter<'a> {
     pub value: &'a Value,
     /// Where the value stands.
     pub place: Span,
+    /// The node-ID of a configured node.
+    node: Option<u8>,
 }
 
 impl Parameter<'_> {
-    /// The raw value. Only a COB-ID can depend on the node-ID.
+    /// The raw value. In a specification only a COB-ID can depend on the node-ID.
     pub(super) fn raw(&self) -> i128 {
-        self.value.integer().unwrap_or_default()
+        let raw = match self.node {
+            Some(node) => self.value.integer_for(node),
+            None => self.value.integer(),
+        };
+        raw.unwrap_or_default()
     }
 }
 
@@ -39,7 +45,8 @@ impl<'a> Subject<'a> {
     pub(super) fn parameter(&self, index: u16, sub: u8) -> Option<Parameter<'a>> {
         let id = entry_id(index, sub);
         let entry = self.device.entry(id)?;
-        Some(Parameter { id, entry, value: entry.default.as_ref()?, place: self.place(entry, Fact::Default) })
+        let place = self.place(entry, Fact::Default);
+        Some(Parameter { id, entry, value: entry.default.as_ref()?, place, node: self.node })
     }
 
     /// A communication parameter.
@@ -61,7 +68,7 @@ impl<'a> Subject<'a> {
     /// All mapping parameters behind the count, used or not.
     pub(super) fn mapping(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
         let (subject, index) = (*self, pdo.mapping_index());
-        (1..=0x40).map_while(move |sub| subject.parameter(index, sub))
+        (1..=u8::MAX).map_while(move |sub| subject.parameter(index, sub))
     }
 
     /// The mapping parameters that count.

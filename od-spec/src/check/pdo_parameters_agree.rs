@@ -6,7 +6,7 @@ use super::pdo::{NO_REMOTE_FRAMES, target, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Direction, Fact, Pdo};
+use crate::model::{Direction, Fact, Mapped, Pdo, PdoTarget};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -45,7 +45,10 @@ fn count(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     let (count, offered, title) = (parameter.raw(), subject.mapping_capacity(pdo), title(pdo));
     if count > offered {
         let message = format!("{}: {title} maps {count} entries, but offers {offered}", parameter.id);
-        let help = "map fewer entries, raise `capacity:`, or lower the device's `granularity:`";
+        let help = subject.help(
+            "map fewer entries, raise `capacity:`, or lower the device's `granularity:`",
+            "map fewer entries",
+        );
         let place = match parameter.entry.facts.get(Fact::Capacity) {
             Some(capacity) if !parameter.entry.is_set() => capacity.span,
             Some(_) | None => parameter.place,
@@ -67,7 +70,16 @@ fn count(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
 /// What is mapped comes in multiples of the device's granularity.
 fn granularity(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     let granularity = subject.device.info.granularity.max(1);
-    let odd = |raw: i128| target(raw).is_some_and(|mapped| mapped.bits % granularity != 0);
+    // A length that is not the entry's is said by itself.
+    let has_its_length = |mapped: &Mapped| match mapped.target {
+        PdoTarget::Entry(id) => {
+            subject.device.entry(id).and_then(|entry| entry.data_type.bits()) == Some(mapped.bits.into())
+        }
+        PdoTarget::Dummy(data_type) => data_type.bits() == Some(mapped.bits.into()),
+    };
+    let odd = |raw: i128| {
+        target(raw).is_some_and(|mapped| mapped.bits % granularity != 0 && has_its_length(&mapped))
+    };
     let parameter = subject.mapping(pdo).find(|parameter| odd(parameter.raw()))?;
     let bits = target(parameter.raw())?.bits;
     let message = format!(
@@ -75,10 +87,10 @@ fn granularity(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         parameter.id,
         title(pdo)
     );
-    Some(
-        Diagnostic::new(CODE, parameter.place, message)
-            .help("lower the device's `granularity:`, or map entries of its multiples"),
-    )
+    Some(Diagnostic::new(CODE, parameter.place, message).help(subject.help(
+        "lower the device's `granularity:`, or map entries of its multiples",
+        "map entries of its multiples",
+    )))
 }
 
 fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
@@ -92,7 +104,10 @@ fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         Some(_) | None => parameter.place,
     };
     let message = format!("{}: an RPDO is not asked for by remote frames", parameter.id);
-    let help = "leave bit 30 of an RPDO's COB-ID 0 (`no-rtr:` sets it); it is reserved";
+    let help = subject.help(
+        "remove `no-rtr:`; bit 30 of an RPDO's COB-ID is reserved",
+        "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
+    );
     Some(Diagnostic::new(CODE, place, message).help(help))
 }
 

@@ -37,6 +37,8 @@ pub(crate) enum Needs {
 pub(crate) enum Check {
     /// What the devices share.
     System(fn(&System, &mut Findings)),
+    /// The objects of a device or of a library, one by one.
+    Objects(fn(&Subject<'_>, &mut Findings)),
     /// One device, as a type or as a configured node.
     Device(fn(&Subject<'_>, &mut Findings)),
     /// One configured node: what is set, and whether it can be set.

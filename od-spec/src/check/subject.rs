@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
+use crate::diag::Diagnostic;
 use crate::model::{
     Author, Dictionary, Entry, EntryId, EntryRef, Fact, Index, Object, Ratio, SubIndex, System, Value,
     Values, convert,
@@ -43,6 +44,22 @@ impl<'a> Subject<'a> {
             format!(" on node {node}")
         } else {
             String::new()
+        }
+    }
+
+    /// What to do: about a specification, or about a setting.
+    pub(super) const fn help(&self, specification: &'static str, setting: &'static str) -> &'static str {
+        match self.node {
+            None => specification,
+            Some(_) => setting,
+        }
+    }
+
+    /// Adds to a message about an entry that its value was set through a view of it.
+    pub(super) fn seen_through(&self, id: EntryId, diagnostic: Diagnostic) -> Diagnostic {
+        match self.device.views_of(id).find(|view| view.entry.is_set()) {
+            Some(view) => diagnostic.note(format!("{} is a view of {id}", view.id)),
+            None => diagnostic,
         }
     }
 

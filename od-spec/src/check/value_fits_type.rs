@@ -7,7 +7,7 @@ use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{DataType, Entry, EntryId, Fact, Value};
 use crate::wording::format_value;
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 /// The code of the rule.
 pub const CODE: &Code = &Code {
@@ -81,6 +81,6 @@ fn length(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
     Some(
         Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
             .with(subject.place(entry, Fact::Capacity), "the capacity")
-            .help("raise the capacity, or shorten the value"),
+            .help(subject.help("raise the capacity, or shorten the value", "shorten the value")),
     )
 }

@@ -27,18 +27,20 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let Some(TypeKind::Enum(values)) = entry.named_type.as_ref().map(|named| &named.kind) else {
             continue;
         };
-        let is_listed = |raw: i128| {
-            values.iter().any(|listed| listed.value == raw)
-                || entry.special.iter().any(|special| special.value == raw)
-        };
-        let stranger =
-            subject.nodes_of(value).filter_map(|node| value.integer_for(node)).find(|raw| !is_listed(*raw));
-        if let Some(raw) = stranger {
-            let message = format!("{id} ({}): {raw} is not a value of its enum", entry.name);
-            findings.push(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
-                    .help("write the name of a value, or add the value to the type"),
+        // What a view shows of another entry's value is no value of its own.
+        if entry.alias.is_some() && !entry.is_set() {
+            continue;
+        }
+        let is_listed = |raw: i128| values.iter().any(|listed| listed.value == raw);
+        let mut raw = subject.nodes_of(value).filter_map(|node| value.integer_for(node));
+        if let Some(stranger) = raw.find(|raw| !is_listed(*raw)) {
+            let message = format!("{id} ({}): {stranger} is not a value of its enum", entry.name);
+            let help = subject.help(
+                "write the name of a value, or add the value to the type",
+                "write the name of a value; the device refuses any other",
             );
+            let diagnostic = Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help);
+            findings.push(subject.seen_through(id, diagnostic));
         }
     }
 }

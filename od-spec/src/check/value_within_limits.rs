@@ -5,9 +5,10 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Entry, EntryId, Fact, Value};
+use crate::source::Span;
 use crate::wording::{allowed, format_value};
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 pub(crate) const CODE: &Code = &Code {
     id: "OD0406",
@@ -25,19 +26,23 @@ pub(crate) const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, entry, value) in subject.values() {
-        let target = entry.alias.as_ref().and_then(|alias| subject.device.entry(alias.target));
-        // Of a view and the entry that it shows, the entry is blamed: the limits of the view follow from it.
-        let is_blamed = |target: &Entry| {
-            target.place(Fact::Default) == entry.place(Fact::Default)
-                && target.default.as_ref().is_some_and(|value| outside(subject, target, value).is_some())
-        };
-        if target.is_some_and(is_blamed) {
-            continue;
-        }
-        if let Some(node) = outside(subject, entry, value) {
-            findings.push(finding(subject, id, entry, value, node));
+        if entry.alias.is_none() || view_counts(subject, entry) {
+            if let Some(node) = outside(subject, entry, value) {
+                findings.push(finding(subject, id, entry, value, node));
+            }
         }
     }
+}
+
+/// Whether a view is blamed: its limits are those of what is written through it, and of a default that the entry behind it
+/// can have.
+fn view_counts(subject: &Subject<'_>, view: &Entry) -> bool {
+    let is_written = subject.node.is_none() || view.is_set();
+    let target = view.alias.as_ref().and_then(|alias| subject.device.entry(alias.target));
+    let is_right = |target: &Entry| {
+        target.default.as_ref().is_none_or(|value| outside(subject, target, value).is_none())
+    };
+    is_written && target.is_none_or(is_right)
 }
 
 /// The first node on which the value is outside.
@@ -50,19 +55,16 @@ fn outside(subject: &Subject<'_>, entry: &Entry, value: &Value) -> Option<u8> {
 }
 
 fn finding(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value, node: u8) -> Diagnostic {
-    let place = subject.place(entry, Fact::Default);
     let raw = value.integer_for(node).unwrap_or_default();
     let (shown, on_node) = (format_value(entry, &Value::Integer(raw)), subject.on_node(value, node));
     let message = format!("{id} ({}): {shown} is outside {}{on_node}", entry.name, allowed(entry));
-    let help = if subject.node.is_some() {
-        "write a value within the limits; the device refuses any other"
-    } else {
-        "correct the value or the limits, or make the value `special`"
-    };
-    let diagnostic = Diagnostic::new(CODE, place, message).help(help);
-    let shows = |view: &Entry| view.alias.as_ref().is_some_and(|alias| alias.target == id) && view.is_set();
-    match subject.device.entries().find(|(.., view)| shows(view)) {
-        Some((view, ..)) => diagnostic.note(format!("{view} is a view of {id}")),
-        None => diagnostic,
-    }
+    let help = subject.help(
+        "correct the value or the limits, or make the value `special`",
+        "write a value within the limits; the device refuses any other",
+    );
+    // Where a library says the value, it is the maker's limit that does not fit.
+    let places = [Fact::Default, Fact::LowLimit, Fact::HighLimit].map(|fact| subject.place(entry, fact));
+    let is_makers = |place: &&Span| **place != subject.device.span && **place != entry.span;
+    let place = places.iter().find(is_makers).unwrap_or(&places[0]);
+    subject.seen_through(id, Diagnostic::new(CODE, *place, message).help(help))
 }

@@ -131,6 +131,8 @@ pub struct Constraint {
     pub when: Option<Expr>,
     /// Devices whose entries it names; a list even where it names those of every device.
     pub devices: Devices,
+    /// Devices on which it is tried: those that have every entry named without a device. Never empty.
+    pub seen_from: Vec<String>,
     /// Where the condition is written.
     pub span: Span,
     /// Where it names entries, in the order of [`Expr::entries`].

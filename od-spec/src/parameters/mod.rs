@@ -81,7 +81,7 @@ pub(crate) fn assign_with(
 ) -> ParameterValues {
     let mut settings: Vec<Setting> = Vec::new();
     for assignment in assignments {
-        match read::setting(device, assignment) {
+        match read::setting(device, node, assignment) {
             Ok(setting) => match settings.iter().find(|before| before.holder == setting.holder) {
                 Some(before) => diagnostics.push(set_twice(&setting, before)),
                 None => settings.push(setting),

@@ -22,7 +22,7 @@ impl From<Box<Diagnostic>> for Unread {
 }
 
 /// Reads a setting: which entry, and which value of its type.
-pub(super) fn setting(device: &Dictionary, assignment: &Assignment) -> Result<Setting, Unread> {
+pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) -> Result<Setting, Unread> {
     let span = assignment.span;
     let Some((name, text)) = assignment.value.split_once('=') else {
         return Err(Box::new(
@@ -49,7 +49,11 @@ pub(super) fn setting(device: &Dictionary, assignment: &Assignment) -> Result<Se
         values::read(text, value_span, expected).map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
     let holder = match &entry.alias {
         Some(alias) => {
-            check_whole_steps(device, id, entry, alias, &value, value_span)?;
+            let raw = value.integer_for(node);
+            if let Some(raw) = raw.filter(|raw| target_value(alias, *raw).is_none()) {
+                let diagnostic = no_whole_steps(device, id, alias, raw, value_span);
+                return Err(Unread { diagnostic, id: Some(id) });
+            }
             alias.target
         }
         None => id,
@@ -80,20 +84,17 @@ pub(super) fn target_value(alias: &Alias, raw: i128) -> Option<i128> {
 }
 
 /// What is set through a view is a whole number of steps of the entry that it shows.
-fn check_whole_steps(
-    device: &Dictionary,
-    id: EntryId,
-    entry: &Entry,
-    alias: &Alias,
-    value: &Value,
-    span: Span,
-) -> Result<(), Box<Diagnostic>> {
-    let Some(raw) = value.integer().filter(|raw| target_value(alias, *raw).is_none()) else { return Ok(()) };
-    let target = device.entry(alias.target).map_or("", |target| target.name.as_str());
-    let shown = format_value(entry, &Value::Integer(raw));
-    let message =
-        format!("{id} ({}): {shown} is no whole number of steps of {} ({target})", entry.name, alias.target);
-    Err(Box::new(
+fn no_whole_steps(device: &Dictionary, id: EntryId, alias: &Alias, raw: i128, span: Span) -> Box<Diagnostic> {
+    let name = |id| device.entry(id).map_or("", |entry| entry.name.as_str());
+    let shown = device.entry(id).map(|entry| format_value(entry, &Value::Integer(raw)));
+    let message = format!(
+        "{id} ({}): {} is no whole number of steps of {} ({})",
+        name(id),
+        shown.unwrap_or_default(),
+        alias.target,
+        name(alias.target)
+    );
+    Box::new(
         Diagnostic::new(codes::INEXACT_VALUE, span, message).help(format!("set {} instead", alias.target)),
-    ))
+    )
 }

@@ -203,12 +203,14 @@ fn constraint(
     }
     keys.sort();
     keys.dedup();
+    let seen_from = if with_all_entries.is_empty() { vec![*all.first()?] } else { with_all_entries };
     Some(Constraint {
         name: decl.name.value.clone(),
         about: words(&decl.about),
         require: require.value.clone(),
         when: decl.when.as_ref().map(|when| when.value.clone()),
         devices: Devices::Only(keys),
+        seen_from: seen_from.into_iter().map(|device| device.key.clone()).collect(),
         span: require.span,
         places: places(require),
     })

@@ -7,6 +7,9 @@ use crate::diag::{Diagnostics, codes};
 use crate::model::{DataType, Date, DateTime, DeviceInfo, Fact, Facts, FileInfo, Statement, Vendor};
 use crate::source::{Span, Spanned};
 
+/// An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
+const EPOCH: DateTime = DateTime { date: Date { year: 2000, month: 1, day: 1 }, hour: 0, minute: 0 };
+
 /// Where the facts about a device stand.
 pub(super) fn facts(device: &DeviceDecl) -> Facts {
     let rates = device.bit_rates.iter().map(|rate| rate.span).reduce(Span::to);
@@ -61,9 +64,7 @@ pub(super) fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> Device
 pub(super) fn file(device: &DeviceDecl, vendor: &Vendor) -> FileInfo {
     let eds = device.eds.as_ref();
     let text = |name: Option<&Name>| name.map(|name| name.value.clone());
-    // An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
-    let epoch = DateTime { date: Date { year: 2000, month: 1, day: 1 }, hour: 0, minute: 0 };
-    let created = eds.and_then(|eds| eds.created).map_or(epoch, |created| created.value);
+    let created = eds.and_then(|eds| eds.created).map_or(EPOCH, |created| created.value);
     let created_by = text(eds.and_then(|eds| eds.created_by.as_ref())).unwrap_or_else(|| vendor.name.clone());
     FileInfo {
         description: text(eds.and_then(|eds| eds.description.as_ref()))
@@ -75,5 +76,36 @@ pub(super) fn file(device: &DeviceDecl, vendor: &Vendor) -> FileInfo {
         created_by,
         version: eds.and_then(|eds| eds.version).map_or(1, |version| to_u8(version.value)),
         revision: eds.and_then(|eds| eds.revision).map_or(0, |revision| to_u8(revision.value)),
+    }
+}
+
+/// What a library says about the device that will use it: nothing.
+pub(super) const fn none() -> DeviceInfo {
+    DeviceInfo {
+        product_name: String::new(),
+        product: 0,
+        product_revision: 0,
+        order_code: String::new(),
+        bit_rates: Vec::new(),
+        device_type: 0,
+        granularity: 0,
+        boot_up_master: false,
+        boot_up_slave: false,
+        group_messaging: false,
+        lss: false,
+        dummies: Vec::new(),
+    }
+}
+
+/// What a library says about the EDS of the device that will use it: nothing.
+pub(super) const fn no_file() -> FileInfo {
+    FileInfo {
+        description: String::new(),
+        created: EPOCH,
+        created_by: String::new(),
+        modified: EPOCH,
+        modified_by: String::new(),
+        version: 1,
+        revision: 0,
     }
 }

@@ -10,7 +10,9 @@ use super::types::words;
 use super::{aliases, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, Name, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{DeviceInfo, Dictionary, Index, Object, Role, Statement, SubIndex, Value, Vendor};
+use crate::model::{
+    DeviceInfo, Dictionary, Facts, Index, Object, Role, Statement, SubIndex, Text, Value, Vendor,
+};
 
 pub(super) fn resolve(
     root: &Spec,
@@ -60,14 +62,29 @@ pub(super) fn resolve(
     (dictionaries, broken)
 }
 
-/// Checks the objects of a library that is compiled by itself: no device will ever ask for them.
-pub(super) fn check_library(root: &Spec, libraries: &[Spec], scope: &Scope, diagnostics: &mut Diagnostics) {
+/// The objects of a library that is compiled by itself, as if a device had all of them: for the rules about objects.
+pub(super) fn of_library(
+    root: &Spec,
+    libraries: &[Spec],
+    scope: &Scope,
+    diagnostics: &mut Diagnostics,
+) -> Option<Dictionary> {
+    let profile = root.profile.as_ref()?;
     let around = Surroundings { scope, file: root.file, eds: EdsDefaults::Safe };
-    for declared in decls::of_library(root, libraries, scope, diagnostics).into_values() {
-        if declared.decl.alias.is_none() {
-            objects::resolve(&declared, around, diagnostics);
-        }
-    }
+    let declared = decls::of_library(root, libraries, scope, diagnostics);
+    let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
+    let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));
+    Some(Dictionary {
+        key: profile.value.clone(),
+        name: profile.value.clone(),
+        info: device_info::none(),
+        file: device_info::no_file(),
+        about: Text::default(),
+        objects: objects.map(|object| (object.index, object)).collect(),
+        pdos: Vec::new(),
+        facts: Facts::none(),
+        span: profile.span,
+    })
 }
 
 /// Every device key that is used must be declared.

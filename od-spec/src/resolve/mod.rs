@@ -24,16 +24,24 @@ pub(crate) mod values;
 
 use crate::ast::Spec;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{System, Vendor};
+use crate::model::{Dictionary, System, Vendor};
 use crate::source::Span;
 
 use numbers::to_u32;
 pub(crate) use refs::lookup;
 use scope::Scope;
 
+/// What a specification gives.
+pub(crate) struct Resolved {
+    /// The model.
+    pub system: System,
+    /// Of a library that is compiled by itself: its objects, which no device has asked for yet.
+    pub library: Option<Dictionary>,
+}
+
 /// Builds the model from a specification and the libraries it uses. Mistakes go to `diagnostics`; with an error
 /// among them the model is incomplete and must not be used.
-pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> System {
+pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Resolved {
     keys_have_effect::check(root, diagnostics);
     let scope = Scope::new(root, libraries, diagnostics);
     let languages = match root.languages.as_slice() {
@@ -55,9 +63,7 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
                 .help("add `devices:` with at least one device, such as `drive: {name: My drive}`"),
         );
     }
-    if root.profile.is_some() {
-        devices::check_library(root, libraries, &scope, diagnostics);
-    }
+    let library = devices::of_library(root, libraries, &scope, diagnostics);
     let (devices, broken) = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
     let mut system = System {
         title: root.title.as_ref().map_or(String::new(), |title| title.value.clone()),
@@ -76,7 +82,7 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
     system.constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
     system.errata = document::errata(root, &system, &broken, diagnostics);
     document::check(root, &system, &broken, diagnostics);
-    system
+    Resolved { system, library }
 }
 
 /// The first line of a file-wide span: enough to show where the file starts.

@@ -1,0 +1,163 @@
+//! What rules say about cases that are easily missed: values through views, formulas of a configured node, what is mapped
+//! but cannot be, conditions across devices.
+
+use crate::compile::{NoFiles, compile};
+use crate::diag::{Diagnostics, Example};
+use crate::parameters::assign;
+use crate::source::{SourceMap, Spanned};
+
+/// The codes of what is said about a specification, and about settings of node `node` of its first device.
+fn said(text: &str, node: u8, settings: &[&str]) -> Vec<&'static str> {
+    let mut sources = SourceMap::new();
+    let root = sources.add("case.od.yaml", Example::whole(text));
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    let mut diagnostics = compiled.diagnostics;
+    let Some(system) = compiled.system.filter(|_| !settings.is_empty()) else { return codes(&diagnostics) };
+    let settings: Vec<_> = settings
+        .iter()
+        .map(|setting| {
+            let file = sources.add("--set", *setting);
+            Spanned::new((*setting).to_owned(), sources.whole(file))
+        })
+        .collect();
+    assign(&system, &system.devices[0], node, &settings, &mut diagnostics);
+    codes(&diagnostics)
+}
+
+fn codes(diagnostics: &Diagnostics) -> Vec<&'static str> {
+    diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
+}
+
+const NONE: [&str; 0] = [];
+
+#[test]
+fn what_has_no_length_is_not_mapped() {
+    for data_type in ["visible-string", "octet-string", "domain"] {
+        let text = format!(
+            "objects:\n  0x2000: {{name: label, type: {data_type}, access: ro}}\npdos:\n  io: {{transmit: {{1: {{map: [label]}}}}}}"
+        );
+        assert_eq!(said(&text, 1, &[]), ["OD0502"], "{data_type}");
+    }
+    let text = "objects:\n  0x2000: {name: label, type: visible-string, access: ro}\n  0x2001: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [level]}}}";
+    assert_eq!(said(text, 1, &["1A00.1=0x20000018"]), ["OD0502"]);
+}
+
+#[test]
+fn a_fixed_mapping_counts_all_of_its_entries() {
+    let map = vec!["flag"; 65].join(", ");
+    let text = format!(
+        "devices:\n  io: {{name: Example, bit-rates: [125], granularity: 0, features: [heartbeat producer]}}\nobjects:\n  0x2000: {{name: flag, type: boolean, access: ro, pdo: transmit}}\npdos:\n  io: {{transmit: {{1: {{mapping: fixed, map: [{map}]}}}}}}"
+    );
+    assert_eq!(said(&text, 1, &[]), ["OD0507"]);
+}
+
+/// Settings of a node are numbers: a formula is what it is on that node.
+#[test]
+fn formulas_of_a_configured_node_are_numbers() {
+    let text = "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {sync-start: 0, map: [level]}}}";
+    assert_eq!(said(text, 5, &["1A00.0=$NODEID+60"]), ["OD0508"]);
+    assert_eq!(said(text, 5, &["1A00.2=$NODEID+0x20990003"]), ["OD0310"]);
+    assert_eq!(said(text, 125, &["1800.2=$NODEID+120"]), ["OD0505"]);
+    assert_eq!(said(text, 125, &["1800.6=$NODEID+120"]), ["OD0508"]);
+    assert_eq!(said(text, 5, &["1A00.0=2", "1A00.2=$NODEID+0x20000003"]), NONE);
+}
+
+const VIEWS: &str = "units:\n  volt: {symbol: V}\n  millivolt: {symbol: mV, base: 1/1000 V}\nobjects:
+  0x2000: {name: fixed, type: unsigned16, access: rw locked, unit: volt, default: 5, max: 60}
+  0x2001: {name: fine fixed, alias: fixed, type: unsigned16, unit: millivolt}
+  0x2002: {name: free, type: unsigned16, access: rw, unit: volt, default: 5, max: 60}
+  0x2003: {name: fine free, alias: free, type: unsigned16, unit: millivolt}
+  0x2004: {name: count, type: unsigned16, access: rw, default: 5, max: 1000}
+  0x2005: {name: short count, alias: count, type: unsigned8, max: 50}";
+
+#[test]
+fn a_view_opens_no_way_around_a_rule() {
+    assert_eq!(said(VIEWS, 5, &["2001=$NODEID"]), ["OD0704"]);
+    assert_eq!(said(VIEWS, 5, &["2001=1500"]), ["OD0704"], "a lock is said before what else is wrong");
+    assert_eq!(said(VIEWS, 5, &["2003=$NODEID+0xEA60"]), ["OD0412"]);
+    assert_eq!(said(VIEWS, 5, &["2003=61000"]), ["OD0406"]);
+    // The limits of a view are those of what is written through it.
+    assert_eq!(said(VIEWS, 5, &["2004=60"]), NONE);
+    assert_eq!(said(VIEWS, 5, &["2005=60"]), ["OD0406"]);
+}
+
+#[test]
+fn one_mistake_is_said_once() {
+    let view = |target: &str| {
+        format!(
+            "objects:\n  0x2000: {{name: aa, type: unsigned16, {target}}}\n  0x2001: {{name: bb, alias: aa, type: unsigned8}}"
+        )
+    };
+    assert_eq!(said(&view("access: rw, default: 120, max: 100"), 1, &[]), ["OD0406"]);
+    assert_eq!(said(&view("access: rw, min: 100, max: 10"), 1, &[]), ["OD0407"]);
+    assert_eq!(said(&view("access: rwr, pdo: receive"), 1, &[]), ["OD0417"]);
+    // And two mistakes are said, even at one place.
+    let rates = "devices:\n  io: {name: Example, bit-rates: [100, 300], features: [heartbeat producer]}";
+    assert_eq!(said(rates, 1, &[]), ["OD0601", "OD0601"]);
+    let mappable = "objects:\n  0x2000: {name: aa, type: unsigned8, access: rw, pdo: both}";
+    assert_eq!(said(mappable, 1, &[]), ["OD0802", "OD0802"]);
+    let length = "objects:\n  0x2000: {name: aa, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [aa]}}}";
+    assert_eq!(said(length, 1, &["1A00.2=0x20000007"]), ["OD0502"]);
+}
+
+#[test]
+fn an_emcy_that_does_not_exist_has_no_cob_id() {
+    let text = "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, emergency]}\nobjects:\n  0x2000: {name: aa, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [aa]}}}";
+    assert_eq!(said(text, 5, &["1014=0x80000185"]), NONE);
+    assert_eq!(said(text, 5, &["1800.1=0x85"]), ["OD0504"]);
+}
+
+#[test]
+fn an_enum_has_no_special_values() {
+    let text = "types:\n  mode: {base: unsigned16, values: {0: off, 1: on}}\nobjects:\n  0x2000: {name: mode, type: mode, access: rw, special: {7: none}}\n  0x2001: {name: short mode, alias: mode, type: unsigned8}";
+    assert_eq!(said(text, 5, &["2000=7"]), ["OD0403"]);
+    assert_eq!(said(text, 5, &["2001=7"]), ["OD0403"]);
+}
+
+const THREE: &str = "devices:
+  io: {name: One, bit-rates: [125], features: [heartbeat producer], product: 5}
+  jo: {name: Two, bit-rates: [125], features: [heartbeat producer], product: 1}
+  zo: {name: Three, bit-rates: [125], features: [heartbeat producer], product: 1}
+objects:
+  0x2000: {on: [io, jo], name: aa, type: unsigned8, access: rw, default: 5}
+  0x2001: {on: [zo], name: bb, type: unsigned8, access: rw, default: 1}
+constraints:\n";
+
+#[test]
+fn a_condition_is_tried_where_it_belongs() {
+    let said = |constraint: &str| said(&format!("{THREE}  order: {constraint}"), 1, &[]);
+    // Seen from the device that has what is named without one.
+    assert_eq!(said("{require: \"io:0x2000 < jo:0x2000\", when: \"0x2001 == 1\"}"), ["OD0606"]);
+    assert_eq!(said("{on: [jo], require: \"0x1018.2 < 3\", when: \"io:0x2000 == 5\"}"), NONE);
+    // Two devices share the entry: one message.
+    assert_eq!(said("{require: \"0x2000 < 3\"}"), ["OD0606"]);
+    assert_eq!(said("{require: \"io:0x2000 < jo:0x2000\"}"), ["OD0606"]);
+}
+
+#[test]
+fn a_condition_across_devices_sees_the_settings_of_one() {
+    let text = format!("{THREE}  order: {{on: [jo], require: \"0x1018.2 < 3\", when: \"io:0x2000 == 7\"}}");
+    assert_eq!(said(&text, 1, &[]), NONE);
+    assert_eq!(said(&text, 1, &["2000=7"]), NONE, "product 1 of `jo` is below 3");
+    let text = format!(
+        "{THREE}  order: {{require: \"0x2001 == 1\", when: \"io:0x2000 == 7\"}}\n  other: {{require: \"io:0x2000 < 6\", when: \"0x2001 == 1\"}}"
+    );
+    assert_eq!(said(&text, 1, &["2000=7"]), ["OD0606"]);
+}
+
+#[test]
+fn a_library_is_judged_by_itself() {
+    let text = "od-spec: 1\ntitle: Library\nprofile: mylib\nobjects:
+  0x2000: {name: aa, type: unsigned8, access: rw, default: 120, max: 100}
+  0x2001: {name: bb, type: unsigned8, access: ro locked}
+  0x2002: {name: cc, type: unsigned8, access: ro, pdo: receive}
+  0x2003: {name: dd, type: visible-string, access: ro, pdo: transmit}
+  0x2004: {name: ee, type: unsigned8, access: rw, min: 9, max: 3}
+  0x2005: {name: ff, type: unsigned8, access: const, default: 1, stored: application}
+  0x2006: {name: gg, type: visible-string, access: rw, capacity: 2, default: abcd}
+  0x2007: {name: hh, array: {count: 2, name: element, type: unsigned8, access: ro}}\n";
+    let mut sources = SourceMap::new();
+    let root = sources.add("mylib.od.yaml", text);
+    let found = codes(&compile(&mut sources, root, &mut NoFiles).diagnostics);
+    assert_eq!(found, ["OD0406", "OD0414", "OD0417", "OD0416", "OD0407", "OD0415", "OD0404", "OD0303"]);
+}
