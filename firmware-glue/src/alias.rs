@@ -1,25 +1,16 @@
 //! Aliases: views of another entry in a narrower type or another unit.
 
 use crate::abort::AbortCode;
-use crate::table::{DataType, Row};
-
-/// A view of another entry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Alias {
-    /// The entry that holds the value.
-    pub target: Row,
-    /// How the value is shown.
-    pub view: View,
-}
+use crate::data_type::DataType;
 
 /// How an alias shows the value of its target: value × numerator / denominator, rounded, and fitted into a type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct View {
-    /// Positive.
+    /// Raw values of the view per [`denominator`](Self::denominator) raw values of its target; positive.
     pub numerator: u32,
-    /// Positive.
+    /// Raw values of the target per [`numerator`](Self::numerator) raw values of the view; positive.
     pub denominator: u32,
-    /// The type of the view.
+    /// The type of the view: INTEGERn or UNSIGNEDn.
     pub data_type: DataType,
     /// What a value between two steps becomes.
     pub rounding: Rounding,
@@ -68,12 +59,17 @@ impl View {
         Self { numerator, denominator, data_type, rounding, outside }
     }
 
-    /// What the alias shows of a value of its target; [`AbortCode::NOT_STORED`] for one that it cannot show and may
-    /// neither saturate nor wrap.
+    /// What the alias shows of a value of its target.
+    ///
+    /// # Errors
+    /// [`AbortCode::NOT_STORED`] for a value that it cannot show and may neither saturate nor wrap.
     pub const fn show(&self, target: i64) -> Result<i64, AbortCode> {
         let value = self.rounded(target);
         // Bits of 64 that the type leaves unused.
-        let unused = 64 - width(self.data_type);
+        let unused = match self.data_type.integer_bits() {
+            Some(bits) => 64 - bits,
+            None => 0,
+        };
         let (low, high) = if self.data_type.is_signed() {
             (i64::MIN >> unused, i64::MAX >> unused)
         } else {
@@ -119,8 +115,10 @@ impl View {
         if up { floor + 1 } else { floor }
     }
 
-    /// The value that the target gets when the alias is written; [`AbortCode::INVALID_VALUE`] for one that falls between
-    /// two steps of the target.
+    /// The value that the target gets when the alias is written.
+    ///
+    /// # Errors
+    /// [`AbortCode::INVALID_VALUE`] for a value that falls between two steps of the target.
     pub const fn target(&self, value: i64) -> Result<i64, AbortCode> {
         let (numerator, denominator) = (self.numerator as i64, self.denominator as i64);
         let Some(product) = value.checked_mul(denominator) else { return Err(AbortCode::INVALID_VALUE) };
@@ -128,20 +126,6 @@ impl View {
             Some(target) if target * numerator == product => Ok(target),
             _ => Err(AbortCode::INVALID_VALUE),
         }
-    }
-}
-
-/// Bits of an integer type that a view can have.
-const fn width(data_type: DataType) -> u32 {
-    match data_type {
-        DataType::Integer8 | DataType::Unsigned8 => 8,
-        DataType::Integer16 | DataType::Unsigned16 => 16,
-        DataType::Integer24 | DataType::Unsigned24 => 24,
-        DataType::Integer32 | DataType::Unsigned32 => 32,
-        DataType::Integer40 | DataType::Unsigned40 => 40,
-        DataType::Integer48 | DataType::Unsigned48 => 48,
-        DataType::Integer56 | DataType::Unsigned56 => 56,
-        _ => 64,
     }
 }
 

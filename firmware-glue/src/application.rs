@@ -1,17 +1,17 @@
 //! What a dictionary asks the application.
 
 use crate::abort::AbortCode;
-use crate::dictionary::Dictionary;
+use crate::entries::Entries;
 
 /// The application's part in accesses over the bus. Every method has a default, so that `&mut ()` is an application that
 /// agrees to everything the dictionary allows, and never unlocks.
-pub trait Application<D: Dictionary> {
+pub trait Application<D: Entries> {
     /// Whether the device is unlocked for service, so that locked entries can be written. Never unless overridden.
     fn is_unlocked(&self) -> bool {
         false
     }
 
-    /// Called before an entry is read by [`Dictionary::upload`] or packed into a PDO: the moment to bring values up to date
+    /// Called before an entry is read by `Dictionary::upload` or packed into a PDO: the moment to bring values up to date
     /// that are not kept current all the time. Of an alias, the entry is its target.
     fn refresh(&mut self, dictionary: &mut D, entry: D::Entry) {
         let _ = (dictionary, entry);
@@ -21,6 +21,9 @@ pub trait Application<D: Dictionary> {
     ///
     /// Commands such as "store parameters" (1010h) are carried out here: their signature was checked, a client is answered
     /// only when they are done, and a failure is an abort code such as [`AbortCode::HARDWARE`].
+    ///
+    /// # Errors
+    /// The abort code for the client; the entry keeps its value then.
     fn accept(&mut self, dictionary: &mut D, entry: D::Entry, value: &[u8]) -> Result<(), AbortCode> {
         let _ = (dictionary, entry, value);
         Ok(())
@@ -32,7 +35,10 @@ pub trait Application<D: Dictionary> {
         let _ = (dictionary, entry);
     }
 
-    /// Reads a DOMAIN from an offset on; returns the number of bytes, 0 at its end.
+    /// Reads a DOMAIN from an offset in bytes on; returns the number of bytes, 0 at its end.
+    ///
+    /// # Errors
+    /// The abort code for the client; [`AbortCode::NO_DATA`] unless overridden.
     fn read_domain(
         &mut self,
         dictionary: &mut D,
@@ -44,7 +50,10 @@ pub trait Application<D: Dictionary> {
         Err(AbortCode::NO_DATA)
     }
 
-    /// Takes a part of a DOMAIN; `last` tells that it is complete.
+    /// Takes a part of a DOMAIN from an offset in bytes on; `last` tells that it is complete.
+    ///
+    /// # Errors
+    /// The abort code for the client; [`AbortCode::NOT_STORED`] unless overridden.
     fn write_domain(
         &mut self,
         dictionary: &mut D,
@@ -58,4 +67,4 @@ pub trait Application<D: Dictionary> {
     }
 }
 
-impl<D: Dictionary> Application<D> for () {}
+impl<D: Entries> Application<D> for () {}

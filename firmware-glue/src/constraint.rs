@@ -17,7 +17,7 @@ pub struct Constraint<D> {
 }
 
 /// A dictionary with conditions between its entries.
-pub trait Constrained: Dictionary + 'static {
+pub trait Constrained: Dictionary<'static> + 'static {
     /// The conditions, in the order of the specification.
     const CONSTRAINTS: &'static [Constraint<Self>];
 
@@ -83,7 +83,7 @@ impl<D: Constrained, A: Application<D>> Application<D> for Guard<'_, A> {
 
 /// Whether every condition that holds now would hold with the value.
 fn stays_consistent<D: Constrained>(dictionary: &mut D, entry: D::Entry, value: &[u8]) -> bool {
-    let at = D::TABLE.found(D::row(entry)).offset();
+    let at = dictionary.table().found(dictionary.row(entry)).offset();
     // Conditions compute with integers; longer values are in none.
     let mut old = [0; 8];
     let Some(kept) = old.get_mut(..value.len()) else { return true };

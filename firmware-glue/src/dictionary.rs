@@ -1,27 +1,64 @@
 //! Access to a dictionary by index and sub-index: what an SDO server needs.
 
-use core::fmt::Debug;
-
 use crate::abort::AbortCode;
 use crate::application::Application;
+use crate::check::check_value;
 use crate::communication;
-use crate::table::{Attributes, DataType, Flags, Found, NONE, Place, Region, Row, Storage, Table};
-use crate::value::{Value, number, prefix, trimmed};
+use crate::effect::Effect;
+use crate::entries::Entries;
+use crate::info::Info;
+use crate::stored::{put, reset, value_of};
+use crate::table::{Attributes, Flags, Found, NONE, Place, Row, Storage, Table};
+use crate::value::{Value, number};
 
-/// A dictionary: values in a byte image, everything else in a constant table. The generator implements the required part;
+/// A dictionary: values in a byte image, everything else in a table that lives for `'t`, of generated code for `'static`. The
+/// generator implements the required part (and [`TableDictionary`](crate::TableDictionary) does, for tables made at run time);
 /// the rest follows.
-pub trait Dictionary: Sized {
-    /// Every entry, by name.
-    type Entry: Copy + Eq + Debug + 'static;
-
+///
+/// ```
+/// use firmware_glue::table::{Attributes, EntryRow, Flags, Limits, NONE, Parts, Place, Run};
+/// use firmware_glue::{AbortCode, DataType, Dictionary, EntryId, Storage, Table, TableDictionary};
+///
+/// // 2000h "set pressure": UNSIGNED16, rw, 0 to 160, default 25. The generator makes this of a specification.
+/// const SET_PRESSURE: Attributes = Attributes {
+///     data_type: DataType::Unsigned16,
+///     flags: Flags::READ.with(Flags::WRITE),
+///     place: Place::Image,
+///     storage: Storage::No,
+///     page: 0,
+///     size: 2,
+///     limits: 0,
+///     values: NONE,
+///     condition: NONE,
+/// };
+/// let table = Table::checked(Parts {
+///     runs: &[Run { index: 0x2000, object: 0 }, Run { index: 0xFFFF, object: 1 }],
+///     objects: &[0, 1],
+///     entries: &[EntryRow { attributes: 0, place: 0 }],
+///     attributes: &[SET_PRESSURE],
+///     limits: &[Limits { low: 0, high: 160 }],
+///     factory: &[25, 0],
+///     ..Parts::EMPTY
+/// })?;
+/// let mut dictionary = TableDictionary::new(&table, [0; 2], 1)?;
+///
+/// assert_eq!(*dictionary.read(0x2000, 0)?, [25, 0]);
+/// assert_eq!(dictionary.write(0x2000, 0, &[120, 0], &mut ()), Ok(EntryId { index: 0x2000, sub: 0 }));
+/// assert_eq!(dictionary.write(0x2000, 0, &[161, 0], &mut ()), Err(AbortCode::TOO_HIGH));
+/// assert_eq!(dictionary.write(0x2000, 0, &[120], &mut ()), Err(AbortCode::TOO_SHORT));
+/// assert_eq!(*dictionary.read(0x2000, 0)?, [120, 0]);
+/// assert_eq!(dictionary.read(0x2001, 0).unwrap_err(), AbortCode::NO_OBJECT);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+pub trait Dictionary<'t>: Entries {
     /// What every entry is.
-    const TABLE: &'static Table;
+    fn table(&self) -> &'t Table<'t>;
 
     /// The entry of a row; `None` beyond the table.
-    fn entry(row: Row) -> Option<Self::Entry>;
+    fn entry(&self, row: Row) -> Option<Self::Entry>;
 
     /// The row of an entry.
-    fn row(entry: Self::Entry) -> Row;
+    fn row(&self, entry: Self::Entry) -> Row;
 
     /// The values.
     fn image(&self) -> &[u8];
@@ -37,15 +74,15 @@ pub trait Dictionary: Sized {
     /// # Errors
     /// [`AbortCode::NO_OBJECT`], [`AbortCode::NO_SUB_INDEX`].
     #[inline]
-    fn find(index: u16, sub: u8) -> Result<Self::Entry, AbortCode> {
-        let row = Self::TABLE.find(index, sub)?;
-        Self::entry(row).ok_or(AbortCode::INTERNAL)
+    fn find(&self, index: u16, sub: u8) -> Result<Self::Entry, AbortCode> {
+        let row = self.table().find(index, sub)?;
+        self.entry(row).ok_or(AbortCode::INTERNAL)
     }
 
     /// What is known about an entry.
     #[inline]
-    fn info(entry: Self::Entry) -> Info {
-        Info { table: Self::TABLE, row: Self::row(entry), shared: Self::TABLE.attributes(Self::row(entry)) }
+    fn info(&self, entry: Self::Entry) -> Info<'t> {
+        Info::new(self.table(), self.row(entry))
     }
 
     /// The value of an entry, as an SDO client reads it.
@@ -55,27 +92,38 @@ pub trait Dictionary: Sized {
     /// not filled; [`AbortCode::UNSUPPORTED_ACCESS`] for a DOMAIN, which the application has
     /// ([`upload_domain`](Self::upload_domain)); what an alias says about a value that it cannot show.
     #[inline]
-    fn read(&self, index: u16, sub: u8) -> Result<Value<'_>, AbortCode> {
-        let found = Self::TABLE.lookup(index, sub)?;
+    fn read<'v>(&'v self, index: u16, sub: u8) -> Result<Value<'v>, AbortCode>
+    where
+        't: 'v,
+    {
+        let table = self.table();
+        let found = table.lookup(index, sub)?;
         if !found.shared.flags.has(Flags::READ) {
             return Err(AbortCode::WRITE_ONLY);
         }
         if index == 0x1003 && sub > 0 {
-            communication::history_has(Self::TABLE, self.image(), sub)?;
+            communication::history_has(table, self.image(), sub)?;
         }
-        value_of(Self::TABLE, self.image(), found)
+        value_of(table, self.image(), found)
     }
 
     /// [`read`](Self::read), after the application had the chance to bring the value up to date.
-    fn upload<A: Application<Self>>(
-        &mut self,
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn upload<'v, A: Application<Self>>(
+        &'v mut self,
         index: u16,
         sub: u8,
         application: &mut A,
-    ) -> Result<Value<'_>, AbortCode> {
-        let row = Self::TABLE.find(index, sub)?;
-        if let (Some(entry), true) = (Self::entry(row), Self::TABLE.attributes(row).flags.has(Flags::READ)) {
-            application.refresh(self, Self::entry(holder(Self::TABLE, row)).unwrap_or(entry));
+    ) -> Result<Value<'v>, AbortCode>
+    where
+        't: 'v,
+    {
+        let table = self.table();
+        let row = table.find(index, sub)?;
+        if let (Some(entry), true) = (self.entry(row), table.attributes(row).flags.has(Flags::READ)) {
+            application.refresh(self, self.entry(table.holder(row)).unwrap_or(entry));
         }
         self.read(index, sub)
     }
@@ -96,14 +144,14 @@ pub trait Dictionary: Sized {
         data: &[u8],
         application: &mut A,
     ) -> Result<Self::Entry, AbortCode> {
-        let found = Self::TABLE.lookup(index, sub)?;
+        let found = self.table().lookup(index, sub)?;
         if !found.shared.flags.has(Flags::WRITE) {
             return Err(AbortCode::READ_ONLY);
         }
         write_row(self, found, data, application)
     }
 
-    /// Reads a DOMAIN from an offset on, from the application; returns the number of bytes, 0 at its end.
+    /// Reads a DOMAIN from an offset in bytes on, from the application; returns the number of bytes, 0 at its end.
     ///
     /// # Errors
     /// That it does not exist, [`AbortCode::WRITE_ONLY`], [`AbortCode::UNSUPPORTED_ACCESS`] for an entry that is none, what
@@ -116,11 +164,12 @@ pub trait Dictionary: Sized {
         buffer: &mut [u8],
         application: &mut A,
     ) -> Result<usize, AbortCode> {
-        let entry = domain::<Self>(index, sub, Flags::READ, AbortCode::WRITE_ONLY)?;
+        let domain = find_domain(self.table(), index, sub, Flags::READ, AbortCode::WRITE_ONLY)?;
+        let entry = self.entry(domain.row).ok_or(AbortCode::INTERNAL)?;
         application.read_domain(self, entry, offset, buffer)
     }
 
-    /// Gives a part of a DOMAIN to the application; `last` tells that it is complete.
+    /// Gives a part of a DOMAIN to the application, from an offset in bytes on; `last` tells that it is complete.
     ///
     /// # Errors
     /// That it does not exist, its access, lock and write condition, what the application says.
@@ -133,185 +182,150 @@ pub trait Dictionary: Sized {
         last: bool,
         application: &mut A,
     ) -> Result<(), AbortCode> {
-        let entry = domain::<Self>(index, sub, Flags::WRITE, AbortCode::READ_ONLY)?;
-        let shared = Self::TABLE.attributes(Self::row(entry));
-        check_lock::<Self, A>(shared, application)?;
-        check_condition(self, shared)?;
+        let domain = find_domain(self.table(), index, sub, Flags::WRITE, AbortCode::READ_ONLY)?;
+        let entry = self.entry(domain.row).ok_or(AbortCode::INTERNAL)?;
+        check_lock::<Self, A>(domain.shared, application)?;
+        check_condition(self, domain.shared)?;
         application.write_domain(self, entry, offset, data, last)
     }
 
-    /// Puts every value back to the one after a factory reset, for a node-ID.
+    /// Puts every value back to the one after a factory reset, for a node-ID from 1 to 127.
     fn reset(&mut self, node_id: u8) {
-        let whole = Region { storage: Storage::No, start: 0, end: u32::MAX, layout: 0 };
-        reset_region(self, &whole, node_id);
+        reset(self.table(), self.image_mut(), &(0..usize::MAX), node_id);
     }
 
-    /// Puts the values of one storage group back, as "restore defaults" (1011h) does.
+    /// Puts the values of one storage group back, as "restore defaults" (1011h) does, for a node-ID from 1 to 127.
     fn reset_stored(&mut self, storage: Storage, node_id: u8) {
-        if let Some(region) = Self::TABLE.region(storage) {
-            reset_region(self, region, node_id);
+        let table = self.table();
+        if let Some(region) = table.region(storage) {
+            reset(table, self.image_mut(), &region.range(), node_id);
         }
     }
 
     /// The bytes that a "store parameters" command saves: 1010h.2 the communication parameters, .3 the application
-    /// parameters, .4 the manufacturer's, .1 all of them.
+    /// parameters, .4 the manufacturer's, .1 all of them. None where nothing is stored.
     fn stored(&self, storage: Storage) -> &[u8] {
-        Self::TABLE.region(storage).and_then(|region| self.image().get(bounds(region))).unwrap_or_default()
+        self.table().region(storage).and_then(|region| self.image().get(region.range())).unwrap_or_default()
     }
 
-    /// Takes back bytes that [`stored`](Self::stored) gave, with the number that [`layout`](Self::layout) had then; `false`,
-    /// and no change, if they are not of this layout. The values themselves are not checked: keep a checksum beside them.
-    /// Entries that follow the node-ID come back as they were saved.
-    #[must_use]
-    fn restore(&mut self, storage: Storage, layout: u32, bytes: &[u8]) -> bool {
-        let Some(region) = Self::TABLE.region(storage) else { return false };
-        match self.image_mut().get_mut(bounds(region)) {
-            Some(place) if place.len() == bytes.len() && region.layout == layout => {
+    /// Takes back bytes that [`stored`](Self::stored) gave, with the number that [`layout`](Self::layout) had then. The values
+    /// themselves are not checked: keep a checksum beside them. Entries that follow the node-ID come back as they were saved.
+    ///
+    /// # Errors
+    /// [`OtherLayout`] if they are not of this layout; nothing changes then.
+    fn restore(&mut self, storage: Storage, layout: u32, bytes: &[u8]) -> Result<(), OtherLayout> {
+        let region =
+            self.table().region(storage).filter(|region| region.layout == layout).ok_or(OtherLayout)?;
+        match self.image_mut().get_mut(region.range()) {
+            Some(place) if place.len() == bytes.len() => {
                 place.copy_from_slice(bytes);
-                true
+                Ok(())
             }
-            _ => false,
+            _ => Err(OtherLayout),
         }
     }
 
-    /// A number that changes whenever another set of entries, types or places is stored in a group.
-    fn layout(storage: Storage) -> u32 {
-        Self::TABLE.region(storage).map_or(0, |region| region.layout)
+    /// A number that changes whenever another set of entries, types or places is stored in a group; 0 where nothing is stored.
+    fn layout(&self, storage: Storage) -> u32 {
+        self.table().region(storage).map_or(0, |region| region.layout)
     }
 }
 
-fn bounds(region: &Region) -> core::ops::Range<usize> {
-    let place = |offset: u32| usize::try_from(offset).unwrap_or(usize::MAX);
-    place(region.start)..place(region.end)
-}
+/// Stored bytes of another set of entries, types or places than the dictionary has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct OtherLayout;
 
-fn reset_region<D: Dictionary>(dictionary: &mut D, region: &Region, node_id: u8) {
-    let part = bounds(region);
-    let image = dictionary.image_mut();
-    for (at, (byte, factory)) in image.iter_mut().zip(D::TABLE.factory).enumerate() {
-        if part.contains(&at) {
-            *byte = *factory;
-        }
-    }
-    for place in D::TABLE.node_id_places {
-        let at = usize::try_from(place.offset).unwrap_or(usize::MAX);
-        if part.contains(&at) {
-            crate::image::add(image, at, place.size.into(), node_id);
-        }
+impl core::fmt::Display for OtherLayout {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("stored values of another layout")
     }
 }
 
-/// The row that holds the value: of an alias, its target's.
-pub(crate) fn holder(table: &Table, row: Row) -> Row {
-    match table.attributes(row).place {
-        Place::Alias => table.alias(row).map_or(row, |alias| alias.target),
-        _ => row,
-    }
-}
+impl core::error::Error for OtherLayout {}
 
-/// The value of an entry, whatever its access.
-#[inline]
-pub(crate) fn value_of<'a>(
-    table: &'static Table,
-    image: &'a [u8],
-    found: Found,
-) -> Result<Value<'a>, AbortCode> {
-    let shared = found.shared;
-    let bytes = match shared.place {
-        Place::Image => image,
-        Place::Constant => table.constants,
-        Place::Alias => return alias_value(table, image, found.row),
-        Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
-    };
-    let at = found.offset();
-    if shared.data_type.is_string() && shared.place == Place::Image {
-        return string_value(bytes, at, shared);
-    }
-    let bytes = bytes.get(at..at + usize::from(shared.size)).ok_or(AbortCode::INTERNAL)?;
-    Ok(Value::of(bytes))
-}
-
-#[inline(never)]
-fn string_value<'a>(bytes: &'a [u8], at: usize, shared: &Attributes) -> Result<Value<'a>, AbortCode> {
-    let size = usize::from(shared.size) + prefix(shared.data_type);
-    let bytes = bytes.get(at..at + size).ok_or(AbortCode::INTERNAL)?;
-    Ok(Value::of(trimmed(shared.data_type, bytes)))
-}
-
-#[inline(never)]
-fn alias_value(table: &'static Table, image: &[u8], row: Row) -> Result<Value<'static>, AbortCode> {
-    let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
-    let target = table.found(alias.target);
-    let number = number(target.shared.data_type, &value_of(table, image, target)?);
-    Ok(Value::computed(alias.view.show(number)?, table.attributes(row).size))
-}
-
-fn domain<D: Dictionary>(index: u16, sub: u8, flag: u8, refusal: AbortCode) -> Result<D::Entry, AbortCode> {
-    let entry = D::find(index, sub)?;
-    let shared = D::TABLE.attributes(D::row(entry));
-    if !shared.flags.has(flag) {
+/// A DOMAIN with an access; `refusal` tells that it has not.
+fn find_domain<'t>(
+    table: &Table<'t>,
+    index: u16,
+    sub: u8,
+    access: Flags,
+    refusal: AbortCode,
+) -> Result<Found<'t>, AbortCode> {
+    let found = table.lookup(index, sub)?;
+    if !found.shared.flags.has(access) {
         Err(refusal)
-    } else if shared.place != Place::Application {
+    } else if found.shared.place != Place::Application {
         Err(AbortCode::UNSUPPORTED_ACCESS)
     } else {
-        Ok(entry)
+        Ok(found)
     }
 }
 
 /// The service lock; an alias of a locked entry is locked, too.
-fn check_lock<D: Dictionary, A: Application<D>>(
-    shared: &Attributes,
-    application: &A,
-) -> Result<(), AbortCode> {
+fn check_lock<D: Entries, A: Application<D>>(shared: &Attributes, application: &A) -> Result<(), AbortCode> {
     let locked = shared.flags.has(Flags::LOCKED) && !application.is_unlocked();
     if locked { Err(AbortCode::DEVICE_STATE) } else { Ok(()) }
 }
 
 /// The write condition.
-fn check_condition<D: Dictionary>(dictionary: &D, shared: &Attributes) -> Result<(), AbortCode> {
+fn check_condition<'t, D: Dictionary<'t>>(dictionary: &D, shared: &Attributes) -> Result<(), AbortCode> {
     let open = shared.condition == NONE || dictionary.condition(shared.condition);
     if open { Ok(()) } else { Err(AbortCode::DEVICE_STATE) }
 }
 
 /// Checks and writes the value of an entry whose access is settled.
-pub(crate) fn write_row<D: Dictionary, A: Application<D>>(
+pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
     dictionary: &mut D,
-    found: Found,
+    found: Found<'t>,
     data: &[u8],
     application: &mut A,
 ) -> Result<D::Entry, AbortCode> {
+    let table = dictionary.table();
     check_lock::<D, A>(found.shared, application)?;
-    check_value(D::TABLE, found.shared, data)?;
+    check_value(table, found.shared, data)?;
     let mut buffer = [0; 8];
-    let (holder, data) = match found.shared.place {
-        Place::Image => (found, data),
+    let Held { holder, data } = match found.shared.place {
+        Place::Image => Held { holder: found, data },
         Place::Constant => return Err(AbortCode::READ_ONLY),
         Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
-        Place::Alias => aliased(D::TABLE, found, data, &mut buffer)?,
+        Place::Alias => aliased(table, found, data, &mut buffer)?,
     };
-    let store = holder.row >= D::TABLE.first_application_row
-        || communication::check_row(D::TABLE, dictionary.image(), holder.row, data)?;
+    let effect = if holder.row >= table.parts().first_application_row {
+        Effect::Store
+    } else {
+        communication::check(table, dictionary.image(), holder.row, data)?
+    };
     check_condition(dictionary, found.shared)?;
     if holder.row != found.row {
         check_condition(dictionary, holder.shared)?;
     }
-    let entry = D::entry(holder.row).ok_or(AbortCode::INTERNAL)?;
+    let entry = dictionary.entry(holder.row).ok_or(AbortCode::INTERNAL)?;
     application.accept(dictionary, entry, data)?;
-    if store {
-        put(dictionary.image_mut(), holder, data)?;
-        application.changed(dictionary, entry);
+    match effect {
+        Effect::Store => {
+            put(dictionary.image_mut(), holder, data)?;
+            application.changed(dictionary, entry);
+        }
+        Effect::Command => {}
     }
     Ok(entry)
 }
 
+/// The entry that holds a value, and what it gets.
+struct Held<'t, 'd> {
+    holder: Found<'t>,
+    data: &'d [u8],
+}
+
 /// What the target of an alias gets.
 #[inline(never)]
-fn aliased<'a>(
-    table: &'static Table,
-    found: Found,
+fn aliased<'t, 'd>(
+    table: &Table<'t>,
+    found: Found<'_>,
     data: &[u8],
-    buffer: &'a mut [u8; 8],
-) -> Result<(Found, &'a [u8]), AbortCode> {
+    buffer: &'d mut [u8; 8],
+) -> Result<Held<'t, 'd>, AbortCode> {
     let alias = table.alias(found.row).ok_or(AbortCode::INTERNAL)?;
     let holder = table.found(alias.target);
     let target = holder.shared;
@@ -323,173 +337,5 @@ fn aliased<'a>(
         return Err(AbortCode::INVALID_VALUE);
     }
     check_value(table, target, value)?;
-    Ok((holder, value))
-}
-
-fn check_value(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), AbortCode> {
-    let size = usize::from(shared.size);
-    if shared.place == Place::Application {
-        return Err(AbortCode::UNSUPPORTED_ACCESS);
-    }
-    if data.len() > size {
-        return Err(AbortCode::TOO_LONG);
-    }
-    if shared.data_type.is_string() {
-        return check_text(shared.data_type, data);
-    }
-    if data.len() < size {
-        return Err(AbortCode::TOO_SHORT);
-    }
-    if shared.data_type == DataType::Boolean && data.iter().any(|byte| *byte > 1) {
-        return Err(AbortCode::INVALID_VALUE);
-    }
-    if shared.limits == NONE && shared.values == NONE {
-        return Ok(());
-    }
-    check_number(table, shared, data)
-}
-
-fn check_number(table: &Table, shared: &Attributes, data: &[u8]) -> Result<(), AbortCode> {
-    let number = number(shared.data_type, data);
-    let listed =
-        table.values.get(usize::from(shared.values)).is_some_and(|list| list.binary_search(&number).is_ok());
-    if listed {
-        return Ok(());
-    }
-    if shared.flags.has(Flags::ONLY_VALUES) {
-        return Err(AbortCode::INVALID_VALUE);
-    }
-    match table.limits.get(usize::from(shared.limits)) {
-        Some(limits) if number > limits.high => Err(AbortCode::TOO_HIGH),
-        Some(limits) if number < limits.low => Err(AbortCode::TOO_LOW),
-        _ => Ok(()),
-    }
-}
-
-/// A VISIBLE_STRING holds 20h to 7Eh, a UNICODE_STRING whole units; zeros may pad both, but stand between no characters, as
-/// what is behind them would be lost.
-fn check_text(data_type: DataType, data: &[u8]) -> Result<(), AbortCode> {
-    if data_type == DataType::OctetString {
-        return Ok(());
-    }
-    if data_type == DataType::UnicodeString && data.len() % 2 == 1 {
-        return Err(AbortCode::LENGTH);
-    }
-    let Some((text, padding)) = data.split_at_checked(trimmed(data_type, data).len()) else {
-        return Err(AbortCode::INTERNAL);
-    };
-    let printable = |byte: &u8| data_type != DataType::VisibleString || (0x20..=0x7E).contains(byte);
-    let fine = text.iter().all(printable) && padding.iter().all(|byte| *byte == 0);
-    if fine { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
-}
-
-#[inline]
-fn put(image: &mut [u8], holder: Found, data: &[u8]) -> Result<(), AbortCode> {
-    let at = holder.offset();
-    if holder.shared.data_type.is_string() {
-        let size = usize::from(holder.shared.size) + prefix(holder.shared.data_type);
-        let place = image.get_mut(at..at + size).ok_or(AbortCode::INTERNAL)?;
-        store_string(place, holder.shared.data_type, data);
-        return Ok(());
-    }
-    let place = image.get_mut(at..at + data.len()).ok_or(AbortCode::INTERNAL)?;
-    copy(place, data);
-    Ok(())
-}
-
-/// Copies bytes of the same number: a call of `memcpy` takes longer than the copy of a small number.
-#[inline]
-fn copy(place: &mut [u8], data: &[u8]) {
-    let done =
-        copy_exactly::<4>(place, data) || copy_exactly::<2>(place, data) || copy_exactly::<1>(place, data);
-    if !done {
-        place.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
-    }
-}
-
-#[inline]
-fn copy_exactly<const N: usize>(place: &mut [u8], data: &[u8]) -> bool {
-    match (<&mut [u8; N]>::try_from(place), <&[u8; N]>::try_from(data)) {
-        (Ok(place), Ok(data)) => {
-            *place = *data;
-            true
-        }
-        _ => false,
-    }
-}
-
-/// Puts a string that fits into its place, padded with zeros.
-#[inline(never)]
-pub(crate) fn store_string(place: &mut [u8], data_type: DataType, data: &[u8]) {
-    let length = u16::try_from(data.len()).unwrap_or_default().to_le_bytes();
-    let (head, rest) = place.split_at_mut(prefix(data_type).min(place.len()));
-    head.iter_mut().zip(length).for_each(|(byte, new)| *byte = new);
-    let (text, padding) = rest.split_at_mut(data.len().min(rest.len()));
-    text.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
-    padding.fill(0);
-}
-
-/// What is known about an entry, read from the table in flash.
-#[derive(Debug, Clone, Copy)]
-pub struct Info {
-    table: &'static Table,
-    row: Row,
-    shared: &'static Attributes,
-}
-
-impl Info {
-    /// Index and sub-index.
-    pub fn id(&self) -> (u16, u8) {
-        self.table.id(self.row)
-    }
-
-    /// Data type.
-    pub const fn data_type(&self) -> DataType {
-        self.shared.data_type
-    }
-
-    /// Bytes of a value; of a string, the most that it can have; 0 of a DOMAIN.
-    pub const fn size(&self) -> u16 {
-        self.shared.size
-    }
-
-    /// Whether an SDO client can read it.
-    pub const fn is_readable(&self) -> bool {
-        self.shared.flags.has(Flags::READ)
-    }
-
-    /// Whether an SDO client can write it (in some state of the device).
-    pub const fn is_writable(&self) -> bool {
-        self.shared.flags.has(Flags::WRITE)
-    }
-
-    /// Whether it can be written only while the device is unlocked for service.
-    pub const fn is_locked(&self) -> bool {
-        self.shared.flags.has(Flags::LOCKED)
-    }
-
-    /// Whether RPDOs can carry it.
-    pub const fn is_receivable(&self) -> bool {
-        self.shared.flags.has(Flags::RECEIVE)
-    }
-
-    /// Whether TPDOs can carry it.
-    pub const fn is_transmittable(&self) -> bool {
-        self.shared.flags.has(Flags::TRANSMIT)
-    }
-
-    /// What keeps its value over power-off.
-    pub const fn storage(&self) -> Storage {
-        self.shared.storage
-    }
-
-    /// Whether it is a view of another entry.
-    pub const fn is_alias(&self) -> bool {
-        matches!(self.shared.place, Place::Alias)
-    }
-
-    /// Smallest and largest value that can be written, where there are limits. Of UNSIGNED64, the numbers minus 2^63.
-    pub fn limits(&self) -> Option<(i64, i64)> {
-        self.table.limits.get(usize::from(self.shared.limits)).map(|limits| (limits.low, limits.high))
-    }
+    Ok(Held { holder, data: value })
 }

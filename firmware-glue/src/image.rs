@@ -8,7 +8,8 @@
     reason = "only where it is inlined, the constant offset makes the bounds check vanish"
 )]
 
-use crate::text::Time;
+use crate::number::{signed, unsigned};
+use crate::time::Time;
 
 /// The `N` bytes at an offset.
 #[inline(always)]
@@ -146,7 +147,10 @@ pub(crate) const fn add(image: &mut [u8], offset: usize, size: usize, node_id: u
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OutOfRange;
 
-/// Puts an unsigned number of `N` bytes.
+/// Puts an unsigned number of `N` bytes, up to 8.
+///
+/// # Errors
+/// [`OutOfRange`] for one that has more; nothing changes then.
 #[inline(always)]
 pub fn put_unsigned<const N: usize>(image: &mut [u8], at: usize, value: u64) -> Result<(), OutOfRange> {
     let bytes = value.to_le_bytes();
@@ -158,7 +162,10 @@ pub fn put_unsigned<const N: usize>(image: &mut [u8], at: usize, value: u64) -> 
     Ok(())
 }
 
-/// Puts a signed number of `N` bytes.
+/// Puts a signed number of `N` bytes, up to 8.
+///
+/// # Errors
+/// [`OutOfRange`] for one that has more; nothing changes then.
 #[inline(always)]
 pub fn put_signed<const N: usize>(image: &mut [u8], at: usize, value: i64) -> Result<(), OutOfRange> {
     let bytes = value.to_le_bytes();
@@ -170,45 +177,9 @@ pub fn put_signed<const N: usize>(image: &mut [u8], at: usize, value: i64) -> Re
     Ok(())
 }
 
-/// Up to 8 bytes as an unsigned number.
-#[inline]
-pub(crate) fn unsigned(bytes: &[u8]) -> u64 {
-    match *bytes {
-        [a] => a.into(),
-        [a, b] => u16::from_le_bytes([a, b]).into(),
-        [a, b, c, d] => u32::from_le_bytes([a, b, c, d]).into(),
-        _ => bytes.iter().take(8).rev().fold(0, |value, byte| value << 8 | u64::from(*byte)),
-    }
-}
-
-/// Up to 8 bytes as a signed number.
-#[inline]
-pub(crate) fn signed(bytes: &[u8]) -> i64 {
-    match *bytes {
-        [a] => i8::from_le_bytes([a]).into(),
-        [a, b] => i16::from_le_bytes([a, b]).into(),
-        [a, b, c, d] => i32::from_le_bytes([a, b, c, d]).into(),
-        _ => {
-            let unused = 64 - 8 * bytes.len().clamp(1, 8);
-            (unsigned(bytes) << unused).cast_signed() >> unused
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_of_any_width() {
-        assert_eq!(signed(&[0xFF, 0xFF, 0x7F]), 0x7F_FFFF);
-        assert_eq!(signed(&[0, 0, 0x80]), -0x80_0000);
-        assert_eq!(signed(&[0xFE, 0xFF, 0xFF, 0xFF, 0xFF]), -2);
-        assert_eq!(signed(&[0; 0]), 0);
-        assert_eq!(unsigned(&[1, 2, 3, 4, 5, 6, 7]), 0x0007_0605_0403_0201);
-        assert_eq!(unsigned(&[0xFF; 8]), u64::MAX);
-        assert_eq!(signed(&[0xFF; 8]), -1);
-    }
 
     #[test]
     fn the_node_id_carries_over_within_its_value_only() {

@@ -9,7 +9,8 @@
 //! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
 //! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`].
 //!
-//! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself. There is no hidden state: a dictionary is a plain
+//! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself.
+//! There is no hidden state: a dictionary is a plain
 //! value, and a program can have several.
 //!
 //! # Features
@@ -18,41 +19,69 @@
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 
 #![no_std]
+#![warn(clippy::missing_errors_doc)]
 
 mod abort;
 mod alias;
 mod application;
+mod check;
+mod checked;
+mod cob_id;
 mod communication;
 mod constraint;
+mod data_type;
 mod dictionary;
+mod effect;
+mod entries;
+mod fault;
+mod flags;
+#[doc(hidden)]
+pub mod generated_for_layout_1;
+mod id;
 pub mod image;
+mod info;
+mod mapping;
 pub mod named;
+mod number;
 pub mod pdo;
+mod pdo_parameters;
 pub mod quantity;
+mod rows;
 #[cfg(feature = "critical-section")]
 mod shared;
 mod special;
+mod stand_in;
+mod stored;
 pub mod table;
+mod table_dictionary;
 pub mod text;
+mod time;
 mod value;
 
 pub use abort::AbortCode;
-pub use alias::{Alias, Outside, Rounding, View};
+pub use alias::{Outside, Rounding, View};
 pub use application::Application;
 pub use constraint::{Constrained, Constraint, unpack_consistent};
+pub use data_type::DataType;
 #[cfg(feature = "defmt")]
 pub use defmt;
-pub use dictionary::{Dictionary, Info};
+pub use dictionary::{Dictionary, OtherLayout};
+pub use entries::Entries;
+pub use fault::{Fault, TableError};
+pub use id::EntryId;
 pub use image::{
     OutOfRange, get_bool, get_f32, get_f64, get_i8, get_i16, get_i32, get_i64, get_time, get_u8, get_u16,
     get_u32, get_u64, narrow, put_bool, put_f32, put_f64, put_i8, put_i16, put_i32, put_i64, put_time,
     put_u8, put_u16, put_u32, put_u64,
 };
+pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]
 pub use shared::Shared;
 pub use special::Special;
-pub use table::{DataType, Storage, Table};
-pub use text::{NoFit, Time, Utf16};
+pub use table::{Storage, Table};
+pub use table_dictionary::{TableDictionary, WrongSize};
+pub use text::{NoFit, Utf16};
+pub use time::Time;
 pub use value::Value;

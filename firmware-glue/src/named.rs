@@ -7,20 +7,42 @@ use core::fmt;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UnknownValue<T>(pub T);
 
+/// A value of an enum, with its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct NamedValue {
+    /// The raw value.
+    pub value: i64,
+    /// Its name in the specification.
+    pub name: &'static str,
+}
+
+/// A bit of a bit field, or a run of bits, with its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct NamedBits {
+    /// Lowest bit, from 0 on.
+    pub first: u8,
+    /// Highest bit, up to 63.
+    pub last: u8,
+    /// Name in the specification.
+    pub name: &'static str,
+}
+
 /// A type of which some values have names.
 pub trait Enumeration: Copy {
     /// Name of the type, as the specification spells it.
     const TYPE: &'static str;
     /// Values with their names, ascending.
-    const NAMES: &'static [(i64, &'static str)];
+    const NAMES: &'static [NamedValue];
 
     /// The raw value.
     fn number(self) -> i64;
 
     /// The name of the value, where it has one.
     fn name(self) -> Option<&'static str> {
-        let at = Self::NAMES.binary_search_by_key(&self.number(), |(value, _)| *value).ok()?;
-        Self::NAMES.get(at).map(|(_, name)| *name)
+        let at = Self::NAMES.binary_search_by_key(&self.number(), |named| named.value).ok()?;
+        Self::NAMES.get(at).map(|named| named.name)
     }
 
     /// Whether the value has a name.
@@ -33,8 +55,8 @@ pub trait Enumeration: Copy {
 pub trait BitField: Copy {
     /// Name of the type, as the specification spells it.
     const TYPE: &'static str;
-    /// Lowest bit, highest bit and name of every used part, ascending.
-    const FIELDS: &'static [(u8, u8, &'static str)];
+    /// Every used part, ascending.
+    const FIELDS: &'static [NamedBits];
 
     /// The raw value.
     fn bits(self) -> u64;
@@ -54,7 +76,7 @@ pub fn show_value<T: Enumeration>(value: T, f: &mut fmt::Formatter<'_>) -> fmt::
 pub fn show_bits<T: BitField>(value: T, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     write!(f, "{}: {:#06x}", T::TYPE, value.bits())?;
     let mut separator = " (";
-    for (first, last, name) in T::FIELDS {
+    for NamedBits { first, last, name } in T::FIELDS {
         let part = value.bits() >> first & (u64::MAX >> (63 - (last - first)));
         match (part, first == last) {
             (0, _) => continue,
@@ -72,7 +94,8 @@ macro_rules! enumeration {
     ($name:ident($raw:ty) = $label:literal { $($value:literal => $text:literal,)* }) => {
         impl $crate::Enumeration for $name {
             const TYPE: &'static str = $label;
-            const NAMES: &'static [(i64, &'static str)] = &[$(($value, $text)),*];
+            const NAMES: &'static [$crate::named::NamedValue] =
+                &[$($crate::named::NamedValue { value: $value, name: $text }),*];
 
             fn number(self) -> i64 {
                 i64::try_from($crate::quantity::Raw::number(self.0)).unwrap_or_default()
@@ -106,7 +129,8 @@ macro_rules! bit_field {
     ($name:ident = $label:literal { $($first:literal..=$last:literal => $text:literal,)* }) => {
         impl $crate::BitField for $name {
             const TYPE: &'static str = $label;
-            const FIELDS: &'static [(u8, u8, &'static str)] = &[$(($first, $last, $text)),*];
+            const FIELDS: &'static [$crate::named::NamedBits] =
+                &[$($crate::named::NamedBits { first: $first, last: $last, name: $text }),*];
 
             fn bits(self) -> u64 {
                 self.0.into()

@@ -1,7 +1,52 @@
-//! PDOs by their mapping parameters: packing, unpacking, and the rules of changing a mapping (CiA 301 9.6.3, 1400h to 1BFFh).
+//! PDOs by their mapping parameters: packing and unpacking (CiA 301 9.6.3, 1400h to 1BFFh).
 //!
 //! The mapping parameters in the dictionary are the only description of a PDO, so that a mapping changed over the bus works
 //! like the default one. For the default mappings, the generator also prints structures with straight-line code.
+//!
+//! ```
+//! use firmware_glue::table::{Attributes, EntryRow, Flags, NONE, Parts, Pdo, Place, Run};
+//! use firmware_glue::{DataType, Dictionary, Storage, Table, TableDictionary, pdo};
+//!
+//! // 1400h, 1600h: RPDO 1 with COB-ID 201h, which carries 2000h.0, an UNSIGNED16. The generator makes this of a specification.
+//! let entry = |data_type: DataType, flags| Attributes {
+//!     data_type,
+//!     flags,
+//!     place: Place::Image,
+//!     storage: Storage::No,
+//!     page: 0,
+//!     size: data_type.size().unwrap_or(0),
+//!     limits: NONE,
+//!     values: NONE,
+//!     condition: NONE,
+//! };
+//! let row = |attributes, place| EntryRow { attributes, place };
+//! let written = Flags::READ.with(Flags::WRITE);
+//! let runs = [(0x1400, 0), (0x1600, 1), (0x2000, 2), (0xFFFF, 3)].map(|(index, object)| Run { index, object });
+//! let entries = [row(0, 0), row(1, 4), row(0, 1), row(1, 8), row(2, 2)];
+//! let attributes = [
+//!     entry(DataType::Unsigned8, Flags::READ),
+//!     entry(DataType::Unsigned32, written),
+//!     entry(DataType::Unsigned16, written.with(Flags::RECEIVE)),
+//! ];
+//! let table = Table::checked(Parts {
+//!     runs: &runs,
+//!     pdos: &[Pdo { index: 0x1400, cob_id: 1, mapping: 2, rows: &[4] }],
+//!     first_application_row: 4,
+//!     objects: &[0, 2, 4, 5],
+//!     entries: &entries,
+//!     attributes: &attributes,
+//!     factory: &[1, 1, 0, 0, 0x01, 0x02, 0, 0, 0x10, 0, 0x00, 0x20],
+//!     ..Parts::EMPTY
+//! })?;
+//! let mut dictionary = TableDictionary::new(&table, [0; 12], 1)?;
+//!
+//! let received = pdo::unpack(&mut dictionary, 1, &[0x34, 0x12], &mut ()).expect("RPDO 1 exists");
+//! assert_eq!(received.refused, None);
+//! assert_eq!(*dictionary.read(0x2000, 0)?, [0x34, 0x12]);
+//! assert_eq!(pdo::unpack(&mut dictionary, 1, &[0x34], &mut ()), Err(pdo::PdoError::TooShort));
+//! assert_eq!(pdo::pack(&mut dictionary, 1, &mut ()), Err(pdo::PdoError::NoPdo), "there is no TPDO");
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
 
 #![expect(
     clippy::inline_always,
@@ -12,21 +57,12 @@ use core::ops::Deref;
 
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::communication::{NOT_VALID, at_row, check_cob_id, current};
-use crate::dictionary::{Dictionary, holder, value_of, write_row};
-use crate::image::unsigned;
-use crate::table::{Attributes, DataType, Flags, Found, Place, Row, Table};
-
-/// The mapping object of a PDO is this far behind its communication object.
-const MAPPING: u16 = 0x200;
-/// Communication object of RPDO 1.
-const RECEIVE: u16 = 0x1400;
-/// Communication object of TPDO 1.
-const TRANSMIT: u16 = 0x1800;
-/// Bits of a CAN frame.
-const FRAME_BITS: u32 = 64;
-/// Bit 30 of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
-const NO_REMOTE_FRAMES: u32 = 1 << 30;
+use crate::cob_id::NOT_VALID;
+use crate::dictionary::{Dictionary, write_row};
+use crate::mapping::{FRAME_BITS, Mapped, RECEIVE, TRANSMIT, width};
+use crate::number::unsigned;
+use crate::stored::{at_row, value_of};
+use crate::table::{Found, Place, Row, Table};
 
 /// The data of a PDO.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +82,7 @@ impl Deref for Frame {
 /// Why a PDO was not packed or unpacked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum PdoError {
     /// The dictionary has no PDO of this number.
     NoPdo,
@@ -61,32 +98,43 @@ pub enum PdoError {
 
 /// What became of a received PDO.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Received<E> {
     /// The frame is longer than the mapping. CiA 301 allows for the emergency 8220h; the bytes beyond were ignored.
     pub too_long: bool,
-    /// The first entry that did not take its value (a limit, a lock, the application's veto), and why. The others got
-    /// theirs.
-    pub refused: Option<(E, AbortCode)>,
+    /// The first entry that did not take its value. The others got theirs.
+    pub refused: Option<Refused<E>>,
+}
+
+/// An entry that did not take its value from a PDO.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Refused<E> {
+    /// The entry, as it is mapped.
+    pub entry: E,
+    /// Why: a limit, a lock, the application's veto.
+    pub code: AbortCode,
 }
 
 /// The data of a TPDO, 1 to 512, by its present mapping.
 ///
 /// # Errors
 /// [`PdoError`]; never [`PdoError::TooShort`].
-pub fn pack<D: Dictionary, A: Application<D>>(
+pub fn pack<'t, D: Dictionary<'t>, A: Application<D>>(
     dictionary: &mut D,
     number: u16,
     application: &mut A,
 ) -> Result<Frame, PdoError> {
+    let table = dictionary.table();
     let mapping = Mapping::of(dictionary, TRANSMIT, number)?;
     let (mut data, mut length) = (0u64, 0u32);
     for at in 0..mapping.count {
-        let (found, bits) = mapping.mapped(dictionary, at)?;
+        let Field { found, bits } = mapping.field(dictionary, at)?;
         let Some(found) = found else { return Err(PdoError::NotMapped) };
-        if let Some(entry) = D::entry(holder(D::TABLE, found.row)) {
+        if let Some(entry) = dictionary.entry(table.holder(found.row)) {
             application.refresh(dictionary, entry);
         }
-        let bytes = value_of(D::TABLE, dictionary.image(), found).map_err(PdoError::NoValue)?;
+        let bytes = value_of(table, dictionary.image(), found).map_err(PdoError::NoValue)?;
         if length + bits > FRAME_BITS {
             return Err(PdoError::NotMapped);
         }
@@ -102,7 +150,7 @@ pub fn pack<D: Dictionary, A: Application<D>>(
 ///
 /// # Errors
 /// [`PdoError`]; nothing was stored then.
-pub fn unpack<D: Dictionary, A: Application<D>>(
+pub fn unpack<'t, D: Dictionary<'t>, A: Application<D>>(
     dictionary: &mut D,
     number: u16,
     data: &[u8],
@@ -111,7 +159,7 @@ pub fn unpack<D: Dictionary, A: Application<D>>(
     let mapping = Mapping::of(dictionary, RECEIVE, number)?;
     let mut length = 0;
     for at in 0..mapping.count {
-        length += mapping.mapped_bits(dictionary, at)?;
+        length += mapping.bits(dictionary, at)?;
     }
     let bytes = usize::try_from(length.div_ceil(8)).unwrap_or(usize::MAX);
     if length > FRAME_BITS {
@@ -123,16 +171,16 @@ pub fn unpack<D: Dictionary, A: Application<D>>(
     let mut received = Received { too_long: data.len() > bytes, refused: None };
     let mut rest = unsigned(data.get(..bytes).unwrap_or(data));
     for at in 0..mapping.count {
-        let (found, bits) = mapping.mapped(dictionary, at)?;
+        let Field { found, bits } = mapping.field(dictionary, at)?;
         let number = (rest & mask(bits)).to_le_bytes();
         rest = rest.checked_shr(bits).unwrap_or_default();
         let Some(found) = found else { continue };
         let size = usize::from(found.shared.size).min(8);
         let value = number.get(..size).unwrap_or(&number);
         if let Err(code) = write_row(dictionary, found, value, application)
-            && let (None, Some(entry)) = (received.refused, D::entry(found.row))
+            && let (None, Some(entry)) = (received.refused, dictionary.entry(found.row))
         {
-            received.refused = Some((entry, code));
+            received.refused = Some(Refused { entry, code });
         }
     }
     Ok(received)
@@ -163,25 +211,32 @@ pub fn put_bits<const N: usize>(data: &mut [u8; N], first: u32, bits: u32, value
 
 /// The mapping of a PDO now.
 #[derive(Clone, Copy)]
-struct Mapping {
+struct Mapping<'t> {
+    table: &'t Table<'t>,
     /// Row of the number of entries; their parameters follow.
     number: Row,
     count: u8,
     /// The rows that are mapped, as long as the mapping is the default one: then nothing has to be searched.
-    rows: Option<&'static [Row]>,
+    rows: Option<&'t [Row]>,
 }
 
-impl Mapping {
+/// What is mapped at a position, and its bits; no entry for a placeholder.
+struct Field<'t> {
+    found: Option<Found<'t>>,
+    bits: u32,
+}
+
+impl<'t> Mapping<'t> {
     /// The mapping of a PDO that exists now.
     #[inline(always)]
-    fn of<D: Dictionary>(dictionary: &D, first: u16, number: u16) -> Result<Self, PdoError> {
+    fn of<D: Dictionary<'t>>(dictionary: &D, first: u16, number: u16) -> Result<Self, PdoError> {
         if !(1..=512).contains(&number) {
             return Err(PdoError::NoPdo);
         }
-        let (table, image) = (D::TABLE, dictionary.image());
-        let index = first + number - 1;
-        let at = table.pdos.binary_search_by_key(&index, |pdo| pdo.index).map_err(|_| PdoError::NoPdo)?;
-        let pdo = table.pdos.get(at).ok_or(PdoError::NoPdo)?;
+        let (table, image) = (dictionary.table(), dictionary.image());
+        let (pdos, index) = (table.parts().pdos, first + number - 1);
+        let at = pdos.binary_search_by_key(&index, |pdo| pdo.index).map_err(|_| PdoError::NoPdo)?;
+        let pdo = pdos.get(at).ok_or(PdoError::NoPdo)?;
         let cob_id = at_row(table, image, table.found(pdo.cob_id)).ok_or(PdoError::NoPdo)?;
         if cob_id & NOT_VALID != 0 {
             return Err(PdoError::NotValid);
@@ -189,68 +244,62 @@ impl Mapping {
         let count = at_row(table, image, table.found(pdo.mapping)).and_then(|count| u8::try_from(count).ok());
         let Some(count @ 1..=64) = count else { return Err(PdoError::NotMapped) };
         let rows = Some(pdo.rows).filter(|rows| {
-            rows.len() == usize::from(count) && is_default(table, image, table.found(pdo.mapping + 1), count)
+            let first = table.found(pdo.mapping.saturating_add(1));
+            rows.len() == usize::from(count) && is_default(table, image, first, count)
         });
-        Ok(Self { number: pdo.mapping, count, rows })
+        Ok(Self { table, number: pdo.mapping, count, rows })
     }
 
     /// A mapping parameter.
     #[inline(always)]
-    fn parameter<D: Dictionary>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
-        let row = self.number + 1 + Row::from(at);
-        at_row(D::TABLE, dictionary.image(), D::TABLE.found(row)).ok_or(PdoError::NotMapped)
+    fn parameter<D: Dictionary<'t>>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
+        let row = self.number.saturating_add(1 + Row::from(at));
+        at_row(self.table, dictionary.image(), self.table.found(row)).ok_or(PdoError::NotMapped)
     }
 
-    /// What is mapped at a position, and its bits; no entry for a placeholder.
+    /// The entry at a position of the default mapping.
     #[inline(always)]
-    fn mapped<D: Dictionary>(self, dictionary: &D, at: u8) -> Result<(Option<Found>, u32), PdoError> {
+    fn default(self, rows: &[Row], at: u8) -> Found<'t> {
+        self.table.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX))
+    }
+
+    /// What is mapped at a position.
+    #[inline(always)]
+    fn field<D: Dictionary<'t>>(self, dictionary: &D, at: u8) -> Result<Field<'t>, PdoError> {
         if let Some(rows) = self.rows {
-            let found = D::TABLE.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX));
-            return Ok((Some(found), width(found.shared)));
+            let found = self.default(rows, at);
+            return Ok(Field { found: Some(found), bits: width(found.shared) });
         }
-        let (index, sub, bits) = parts(self.parameter(dictionary, at)?);
-        if is_dummy(index, sub) {
-            return Ok((None, bits));
+        let mapped = Mapped::of(self.parameter(dictionary, at)?);
+        if mapped.is_dummy() {
+            return Ok(Field { found: None, bits: mapped.bits });
         }
-        let found = D::TABLE.lookup(index, sub).map_err(|_| PdoError::NotMapped)?;
-        Ok((Some(found), bits))
+        let found = self.table.lookup(mapped.index, mapped.sub).map_err(|_| PdoError::NotMapped)?;
+        Ok(Field { found: Some(found), bits: mapped.bits })
     }
 
     /// The bits of what is mapped at a position.
     #[inline(always)]
-    fn mapped_bits<D: Dictionary>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
+    fn bits<D: Dictionary<'t>>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
         if let Some(rows) = self.rows {
-            let found = D::TABLE.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX));
-            return Ok(width(found.shared));
+            return Ok(width(self.default(rows, at).shared));
         }
-        Ok(parts(self.parameter(dictionary, at)?).2)
+        Ok(Mapped::of(self.parameter(dictionary, at)?).bits)
     }
 }
 
 /// Whether mapping parameters are those of the factory; constant ones are.
 #[inline]
-fn is_default(table: &Table, image: &[u8], first: Found, count: u8) -> bool {
+fn is_default(table: &Table<'_>, image: &[u8], first: Found<'_>, count: u8) -> bool {
     if first.shared.place == Place::Constant {
         return true;
     }
     let part = first.offset()..first.offset() + 4 * usize::from(count);
-    match (image.get(part.clone()), table.factory.get(part)) {
+    match (image.get(part.clone()), table.parts().factory.get(part)) {
         // Word by word: for a few, a call of `memcmp` takes longer.
         (Some(now), Some(factory)) => now.as_chunks::<4>().0.iter().eq(factory.as_chunks::<4>().0),
         _ => false,
     }
-}
-
-/// Bits of a value in a PDO.
-#[inline]
-fn width(shared: &Attributes) -> u32 {
-    if shared.data_type == DataType::Boolean { 1 } else { u32::from(shared.size) * 8 }
-}
-
-/// Index, sub-index and bits of a mapping parameter.
-fn parts(parameter: u32) -> (u16, u8, u32) {
-    let [bits, sub, low, high] = parameter.to_le_bytes();
-    (u16::from_le_bytes([low, high]), sub, bits.into())
 }
 
 const fn mask(bits: u32) -> u64 {
@@ -258,80 +307,4 @@ const fn mask(bits: u32) -> u64 {
         Some(above) => !above,
         None => u64::MAX,
     }
-}
-
-const fn is_dummy(index: u16, sub: u8) -> bool {
-    matches!(index, 1..=7) && sub == 0
-}
-
-/// Rules of 1400h to 15FFh and 1800h to 19FFh.
-pub(crate) fn check_communication(
-    table: &'static Table,
-    image: &[u8],
-    index: u16,
-    sub: u8,
-    new: u32,
-) -> Result<bool, AbortCode> {
-    let cob_id = current(table, image, index, 1).unwrap_or(NOT_VALID);
-    let is_valid = cob_id & NOT_VALID == 0;
-    let refused = match sub {
-        1 if index < TRANSMIT && new & NO_REMOTE_FRAMES != 0 => true,
-        1 => return check_cob_id(cob_id, new),
-        2 => matches!(new, 241..=251) || index < TRANSMIT && matches!(new, 252 | 253),
-        3 => is_valid && current(table, image, index, 3) != Some(new),
-        6 => new > 240 || is_valid && current(table, image, index, 6) != Some(new),
-        _ => false,
-    };
-    if refused { Err(AbortCode::INVALID_VALUE) } else { Ok(true) }
-}
-
-/// Rules of 1600h to 17FFh and 1A00h to 1BFFh: the mapping changes only while the PDO does not exist; its entries, only
-/// while their number is 0.
-pub(crate) fn check_mapping(
-    table: &'static Table,
-    image: &[u8],
-    index: u16,
-    sub: u8,
-    new: u32,
-) -> Result<bool, AbortCode> {
-    let cob_id = current(table, image, index - MAPPING, 1).unwrap_or(NOT_VALID);
-    let count = current(table, image, index, 0).unwrap_or_default();
-    if cob_id & NOT_VALID == 0 || sub != 0 && count != 0 {
-        return Err(AbortCode::UNSUPPORTED_ACCESS);
-    }
-    let flag = if index >= TRANSMIT { Flags::TRANSMIT } else { Flags::RECEIVE };
-    if sub != 0 {
-        // An entry of 0 maps nothing; it is refused when it is to be used.
-        return if new == 0 { Ok(true) } else { check_mapped(table, flag, new).map(|_| true) };
-    }
-    let Ok(count @ 0..=64) = u8::try_from(new) else { return Err(AbortCode::PDO_LENGTH) };
-    if current(table, image, index, count).is_none() {
-        return Err(AbortCode::PDO_LENGTH);
-    }
-    let mut bits = 0;
-    for sub in 1..=count {
-        let parameter = current(table, image, index, sub).ok_or(AbortCode::PDO_LENGTH)?;
-        bits += check_mapped(table, flag, parameter)?;
-    }
-    if bits > FRAME_BITS { Err(AbortCode::PDO_LENGTH) } else { Ok(true) }
-}
-
-/// Whether a mapping parameter can be used in a direction; its bits.
-fn check_mapped(table: &Table, flag: u8, parameter: u32) -> Result<u32, AbortCode> {
-    const DUMMY_BITS: [u32; 8] = [0, 1, 8, 16, 32, 8, 16, 32];
-    let (index, sub, bits) = parts(parameter);
-    let needed = if is_dummy(index, sub) {
-        if flag != Flags::RECEIVE || table.dummies & 1 << index == 0 {
-            return Err(AbortCode::NO_OBJECT);
-        }
-        DUMMY_BITS.get(usize::from(index)).copied().unwrap_or_default()
-    } else {
-        let Found { shared, .. } = table.lookup(index, sub).map_err(|_| AbortCode::NO_OBJECT)?;
-        if !shared.flags.has(flag) {
-            return Err(AbortCode::NOT_MAPPABLE);
-        }
-        width(shared)
-    };
-    let in_step = table.granularity != 0 && bits % u32::from(table.granularity) == 0;
-    if bits == needed && in_step { Ok(bits) } else { Err(AbortCode::NOT_MAPPABLE) }
 }

@@ -4,14 +4,33 @@ use core::fmt;
 
 use crate::image::OutOfRange;
 
+/// An exact scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Fraction {
+    /// Above the line; positive.
+    pub numerator: u64,
+    /// Below the line; positive.
+    pub denominator: u64,
+}
+
+/// A quantity counted in steps of another unit.
+#[doc(hidden)]
+pub struct Steps {
+    /// Whole steps, rounded down.
+    pub whole: i128,
+    /// Whether nothing is left of the quantity.
+    pub is_exact: bool,
+}
+
 /// A raw value with its unit. One raw step is [`SCALE`](Self::SCALE) times [`SYMBOL`](Self::SYMBOL); nothing is ever a float.
 pub trait Quantity: Copy {
     /// The unit's symbol, such as `mV`.
     const SYMBOL: &'static str;
-    /// One raw step in the symbol: numerator and denominator.
-    const SCALE: (u64, u64);
+    /// One raw step in the symbol.
+    const SCALE: Fraction;
     /// One raw step in the unit's base.
-    const STEP: (u64, u64);
+    const STEP: Fraction;
     /// What quantities have to share to be converted into each other, such as V for millivolts and volts.
     type Base;
     /// The same unit around another raw type.
@@ -32,8 +51,8 @@ pub trait Quantity: Copy {
         Q: Quantity<Base = Self::Base>,
         T: Raw,
     {
-        let (value, rest) = self.in_steps_of::<Q>().ok_or(OutOfRange)?;
-        if rest { Err(OutOfRange) } else { Q::from_number(value).ok_or(OutOfRange) }
+        let Steps { whole, is_exact } = self.in_steps_of::<Q>().ok_or(OutOfRange)?;
+        if is_exact { Q::from_number(whole).ok_or(OutOfRange) } else { Err(OutOfRange) }
     }
 
     /// The same quantity in another unit, rounded down to its steps.
@@ -45,18 +64,21 @@ pub trait Quantity: Copy {
         Q: Quantity<Base = Self::Base>,
         T: Raw,
     {
-        let (value, _) = self.in_steps_of::<Q>().ok_or(OutOfRange)?;
-        Q::from_number(value).ok_or(OutOfRange)
+        let Steps { whole, .. } = self.in_steps_of::<Q>().ok_or(OutOfRange)?;
+        Q::from_number(whole).ok_or(OutOfRange)
     }
 
-    /// The number of whole steps of another unit, and whether there is a rest.
+    /// The quantity in steps of another unit; `None` where 128 bits do not hold the product.
     #[doc(hidden)]
-    fn in_steps_of<Q: Quantity>(self) -> Option<(i128, bool)> {
+    fn in_steps_of<Q: Quantity>(self) -> Option<Steps> {
         let wide = |number: u64| i128::from(number);
-        let numerator = wide(Self::STEP.0).checked_mul(wide(Q::STEP.1))?;
-        let denominator = wide(Self::STEP.1).checked_mul(wide(Q::STEP.0))?;
+        let numerator = wide(Self::STEP.numerator).checked_mul(wide(Q::STEP.denominator))?;
+        let denominator = wide(Self::STEP.denominator).checked_mul(wide(Q::STEP.numerator))?;
         let product = self.number().checked_mul(numerator)?;
-        Some((product.checked_div_euclid(denominator)?, product.checked_rem_euclid(denominator)? != 0))
+        Some(Steps {
+            whole: product.checked_div_euclid(denominator)?,
+            is_exact: product.checked_rem_euclid(denominator)? == 0,
+        })
     }
 }
 
@@ -89,7 +111,7 @@ raw!(i8 i16 i32 i64 u8 u16 u32 u64);
 /// Writes a quantity with its unit: `50.0 °C`; where the scale is no short decimal, `7 × 1/3 s`.
 #[doc(hidden)]
 pub fn show<Q: Quantity>(quantity: Q, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-    let (numerator, denominator) = Q::SCALE;
+    let Fraction { numerator, denominator } = Q::SCALE;
     let raw = quantity.number();
     let places =
         (0u32..=12).find(|places| 10u64.checked_pow(*places).is_some_and(|power| power % denominator == 0));
@@ -123,8 +145,10 @@ macro_rules! unit {
 
         impl<__T: $crate::quantity::Raw> $crate::Quantity for $name<__T> {
             const SYMBOL: &'static str = $symbol;
-            const SCALE: (u64, u64) = ($n, $d);
-            const STEP: (u64, u64) = ($sn, $sd);
+            const SCALE: $crate::quantity::Fraction =
+                $crate::quantity::Fraction { numerator: $n, denominator: $d };
+            const STEP: $crate::quantity::Fraction =
+                $crate::quantity::Fraction { numerator: $sn, denominator: $sd };
             type Base = bases::$base;
             type With<__U> = $name<__U>;
 
@@ -179,7 +203,7 @@ macro_rules! defmt_quantity {
 #[cfg(feature = "defmt")]
 #[doc(hidden)]
 pub fn log<Q: Quantity>(quantity: Q, f: defmt::Formatter<'_>) {
-    let (numerator, denominator) = Q::SCALE;
+    let Fraction { numerator, denominator } = Q::SCALE;
     if (numerator, denominator) == (1, 1) {
         defmt::write!(f, "{=i128} {=str}", quantity.number(), Q::SYMBOL);
     } else {

@@ -1,10 +1,8 @@
-//! Strings and times.
+//! Strings in the image: up to their capacity, padded with zeros.
 
 use core::fmt;
 
-use crate::dictionary::store_string;
-use crate::table::DataType;
-use crate::value::{prefix, trimmed};
+use crate::data_type::StringType;
 
 /// A text longer than the capacity of its entry, or with characters that a VISIBLE_STRING does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +39,7 @@ impl fmt::Debug for Utf16<'_> {
 /// The VISIBLE_STRING at a place.
 #[doc(hidden)]
 pub fn visible(image: &[u8], at: usize, capacity: usize) -> &str {
-    core::str::from_utf8(string(image, DataType::VisibleString, at, capacity)).unwrap_or_default()
+    core::str::from_utf8(string(image, StringType::Visible, at, capacity)).unwrap_or_default()
 }
 
 /// Puts a VISIBLE_STRING.
@@ -50,25 +48,25 @@ pub fn put_visible(image: &mut [u8], at: usize, capacity: usize, text: &str) -> 
     if !text.bytes().all(|byte| (0x20..=0x7E).contains(&byte)) {
         return Err(NoFit);
     }
-    put_string(image, DataType::VisibleString, at, capacity, text.as_bytes())
+    put_string(image, StringType::Visible, at, capacity, text.as_bytes())
 }
 
 /// The OCTET_STRING at a place.
 #[doc(hidden)]
 pub fn octets(image: &[u8], at: usize, capacity: usize) -> &[u8] {
-    string(image, DataType::OctetString, at, capacity)
+    string(image, StringType::Octet, at, capacity)
 }
 
 /// Puts an OCTET_STRING.
 #[doc(hidden)]
 pub fn put_octets(image: &mut [u8], at: usize, capacity: usize, bytes: &[u8]) -> Result<(), NoFit> {
-    put_string(image, DataType::OctetString, at, capacity, bytes)
+    put_string(image, StringType::Octet, at, capacity, bytes)
 }
 
 /// The UNICODE_STRING at a place.
 #[doc(hidden)]
 pub fn unicode(image: &[u8], at: usize, capacity: usize) -> Utf16<'_> {
-    Utf16(string(image, DataType::UnicodeString, at, capacity))
+    Utf16(string(image, StringType::Unicode, at, capacity))
 }
 
 /// Puts a UNICODE_STRING; on an error, the old one may be gone in part.
@@ -87,47 +85,55 @@ pub fn put_unicode(image: &mut [u8], at: usize, capacity: usize, text: &str) -> 
     Ok(())
 }
 
-fn string(image: &[u8], data_type: DataType, at: usize, capacity: usize) -> &[u8] {
-    trimmed(data_type, image.get(at..at + capacity + prefix(data_type)).unwrap_or_default())
+fn string(image: &[u8], string_type: StringType, at: usize, capacity: usize) -> &[u8] {
+    trimmed(string_type, image.get(at..at + capacity + prefix(string_type)).unwrap_or_default())
 }
 
 fn put_string(
     image: &mut [u8],
-    data_type: DataType,
+    string_type: StringType,
     at: usize,
     capacity: usize,
     bytes: &[u8],
 ) -> Result<(), NoFit> {
-    let place = image.get_mut(at..at + capacity + prefix(data_type)).filter(|_| bytes.len() <= capacity);
-    store_string(place.ok_or(NoFit)?, data_type, bytes);
+    let place = image.get_mut(at..at + capacity + prefix(string_type)).filter(|_| bytes.len() <= capacity);
+    store_string(place.ok_or(NoFit)?, string_type, bytes);
     Ok(())
 }
 
-/// A TIME_OF_DAY or TIME_DIFFERENCE (CiA 301 9.1.6.4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Time {
-    /// Days; of a TIME_OF_DAY, since 1984-01-01.
-    pub days: u16,
-    /// Milliseconds of the day; of a TIME_OF_DAY, since midnight. 28 bits travel.
-    pub milliseconds: u32,
+/// Puts a string that fits into its place, padded with zeros.
+#[inline(never)]
+pub(crate) fn store_string(place: &mut [u8], string_type: StringType, data: &[u8]) {
+    let length = u16::try_from(data.len()).unwrap_or_default().to_le_bytes();
+    let (head, rest) = place.split_at_mut(prefix(string_type).min(place.len()));
+    head.iter_mut().zip(length).for_each(|(byte, new)| *byte = new);
+    let (text, padding) = rest.split_at_mut(data.len().min(rest.len()));
+    text.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
+    padding.fill(0);
 }
 
-impl Time {
-    /// The time in 6 bytes.
-    pub const fn from_bytes(bytes: [u8; 6]) -> Self {
-        let [m0, m1, m2, m3, d0, d1] = bytes;
-        Self {
-            days: u16::from_le_bytes([d0, d1]),
-            milliseconds: u32::from_le_bytes([m0, m1, m2, m3]) & 0x0FFF_FFFF,
-        }
-    }
+/// A string without what pads it: up to the first 0 byte, or the first 0 unit of 16 bits.
+#[inline]
+pub(crate) fn trimmed(string_type: StringType, bytes: &[u8]) -> &[u8] {
+    let length = match string_type {
+        StringType::Visible => bytes.iter().position(|byte| *byte == 0),
+        StringType::Unicode => bytes.chunks(2).position(|unit| unit == [0, 0]).map(|units| units * 2),
+        StringType::Octet => return counted(bytes),
+    };
+    bytes.get(..length.unwrap_or(bytes.len())).unwrap_or(bytes)
+}
 
-    /// 6 bytes, as they travel.
-    pub const fn to_bytes(self) -> [u8; 6] {
-        let [m0, m1, m2, m3] = (self.milliseconds & 0x0FFF_FFFF).to_le_bytes();
-        let [d0, d1] = self.days.to_le_bytes();
-        [m0, m1, m2, m3, d0, d1]
+/// An OCTET_STRING in the image: its length in two bytes, then its bytes.
+fn counted(bytes: &[u8]) -> &[u8] {
+    let Some((length, rest)) = bytes.split_first_chunk::<2>() else { return &[] };
+    rest.get(..usize::from(u16::from_le_bytes(*length))).unwrap_or(rest)
+}
+
+/// Bytes in the image that a string has beside its capacity.
+pub(crate) const fn prefix(string_type: StringType) -> usize {
+    match string_type {
+        StringType::Octet => 2,
+        StringType::Visible | StringType::Unicode => 0,
     }
 }
 
@@ -166,12 +172,5 @@ mod tests {
         assert!(unicode(&image, 0, 6).chars().eq("aä".chars()));
         assert_eq!(put_unicode(&mut image, 0, 6, "𝄞𝄞"), Err(NoFit));
         assert!(unicode(&image, 0, 6).chars().eq("aä".chars()));
-    }
-
-    #[test]
-    fn times_have_28_bits_of_milliseconds() {
-        let time = Time { days: 0x1234, milliseconds: 86_399_999 };
-        assert_eq!(Time::from_bytes(time.to_bytes()), time);
-        assert_eq!(Time { days: 0, milliseconds: u32::MAX }.to_bytes(), [0xFF, 0xFF, 0xFF, 0x0F, 0, 0]);
     }
 }

@@ -2,8 +2,8 @@
 
 use core::ops::Deref;
 
-use crate::image::{signed, unsigned};
-use crate::table::DataType;
+use crate::data_type::DataType;
+use crate::number::{signed, unsigned};
 
 /// The value of an entry as it travels: the least significant byte first, strings without padding.
 #[derive(Debug, Clone, Copy)]
@@ -56,27 +56,4 @@ pub(crate) fn number(data_type: DataType, bytes: &[u8]) -> i64 {
     }
     let value = unsigned(bytes);
     if data_type == DataType::Unsigned64 { (value ^ 1 << 63).cast_signed() } else { value.cast_signed() }
-}
-
-/// A string without what pads it: up to the first 0 byte, or the first 0 unit of 16 bits.
-#[inline]
-pub(crate) fn trimmed(data_type: DataType, bytes: &[u8]) -> &[u8] {
-    let length = match data_type {
-        DataType::VisibleString => bytes.iter().position(|byte| *byte == 0),
-        DataType::UnicodeString => bytes.chunks(2).position(|unit| unit == [0, 0]).map(|units| units * 2),
-        DataType::OctetString => return octets(bytes),
-        _ => None,
-    };
-    bytes.get(..length.unwrap_or(bytes.len())).unwrap_or(bytes)
-}
-
-/// An OCTET_STRING in the image: its length in two bytes, then its bytes.
-fn octets(bytes: &[u8]) -> &[u8] {
-    let Some((length, rest)) = bytes.split_first_chunk::<2>() else { return &[] };
-    rest.get(..usize::from(u16::from_le_bytes(*length))).unwrap_or(rest)
-}
-
-/// Bytes in the image that a string of a data type has beside its capacity.
-pub(crate) const fn prefix(data_type: DataType) -> usize {
-    if matches!(data_type, DataType::OctetString) { 2 } else { 0 }
 }

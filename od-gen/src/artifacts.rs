@@ -3,7 +3,8 @@
 use od_spec::Commissioning;
 use od_spec::model::{Devices, Dictionary, System};
 
-use crate::{Artifact, eds, json};
+use crate::artifact::Artifact;
+use crate::{eds, json};
 
 /// What [`artifacts`] makes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -5,7 +5,8 @@ pub use docs_gen::{Format, Options, TemplateError, Templates};
 use od_spec::model::{Devices, System};
 use serde::Serialize;
 
-use crate::{Artifact, rust};
+use crate::artifact::Artifact;
+use crate::rust;
 
 /// What documents of these devices show; no key means all devices.
 pub fn options(system: &System, devices: &[String], language: Option<&str>) -> Options {
@@ -20,6 +21,9 @@ pub fn options(system: &System, devices: &[String], language: Option<&str>) -> O
 }
 
 /// The documents of a specification by the name of `stem`, below `root`, and `tables.json` where it describes a manual.
+///
+/// # Errors
+/// A template has a mistake, or asks for something that the context does not have.
 pub fn artifacts(
     system: &System,
     root: &str,

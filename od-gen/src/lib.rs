@@ -3,6 +3,7 @@
 //! Every backend is a pure function from the model to bytes, so that the same specification gives the same files on every
 //! machine. Files are written in one place, [`files`]: all of them or none.
 
+mod artifact;
 #[cfg(all(feature = "eds", feature = "json"))]
 mod artifacts;
 #[cfg(feature = "format")]
@@ -19,22 +20,12 @@ mod plan;
 pub mod rust;
 pub mod source;
 
+pub use artifact::Artifact;
 #[cfg(all(feature = "eds", feature = "json"))]
 pub use artifacts::{Selection, artifacts};
 #[cfg(feature = "format")]
 pub use builder::{BuildError, Builder};
 pub use expand::{Expansion, expand};
-
-/// A file to be written.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Artifact {
-    /// Path below the output directory, with `/` between its parts.
-    pub path: String,
-    /// Contents.
-    pub bytes: Vec<u8>,
-    /// What the file is for, in a few words.
-    pub purpose: String,
-}
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

@@ -30,7 +30,10 @@ pub struct Compiled {
 
 /// Gives the compiler the library files that a specification names by path.
 pub trait Loader {
-    /// The bytes of `path`, which stands in the file named `from`. The error is a few words such as "no such file".
+    /// The bytes of `path`, which stands in the file named `from`.
+    ///
+    /// # Errors
+    /// Why there are none, in a few words such as "no such file".
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
 }
 
@@ -90,7 +93,7 @@ fn libraries(
     let (mut libraries, mut complete) = (Vec::new(), true);
     let from = sources.file(root.file).name().to_owned();
     for (at, name) in root.uses.iter().enumerate() {
-        if let Some(first) = root.uses[..at].iter().find(|other| other.value == name.value) {
+        if let Some(first) = root.uses[..at].iter().find(|before| before.value == name.value) {
             diagnostics.push(
                 Diagnostic::new(
                     rule_codes::DUPLICATE_NAME,
@@ -170,6 +173,9 @@ fn load(
 }
 
 /// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.
+///
+/// # Errors
+/// A message without a place: the file is larger than 64 MiB (OD0103), or is not UTF-8 (OD0102).
 pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> {
     if bytes.len() > LARGEST_FILE {
         return Err(Box::new(

@@ -9,6 +9,8 @@
 //! reference  = [ device ":" ] "0x" hex digits [ "." sub-index ]
 //! ```
 
+use std::ops::Range;
+
 use crate::diag::shorten;
 pub use crate::model::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outcome, Term, Values};
 use crate::model::{EntryId, Index, Ratio, SubIndex};
@@ -19,9 +21,24 @@ const MAX_DEPTH: usize = 32;
 /// Terms of one condition that are read.
 const MAX_TERMS: usize = 500;
 
+/// Why a text is no condition.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConditionError {
+    /// Bytes of the text.
+    pub range: Range<usize>,
+    /// What was found there, and what was expected.
+    pub message: String,
+}
+
+/// What reading a condition gives.
+pub type Parsed<T> = Result<T, ConditionError>;
+
 impl Expr {
-    /// Reads a condition. An error is a byte range in `text` and what is wrong there.
-    pub fn parse(text: &str) -> Result<Expr, (std::ops::Range<usize>, String)> {
+    /// Reads a condition.
+    ///
+    /// # Errors
+    /// What cannot be read: the place in `text`, what was found there and what was expected.
+    pub fn parse(text: &str) -> Parsed<Expr> {
         let mut parser = Parser { text, at: 0, depth: 0, terms: 0, places: Vec::new() };
         let mut comparisons = vec![parser.comparison()?];
         while parser.word("and") {
@@ -35,7 +52,10 @@ impl Expr {
     }
 
     /// Reads a term alone, such as `0x6092.1 / 0x6092.2`: a condition that compares it with nothing.
-    pub fn parse_term(text: &str) -> Result<Expr, (std::ops::Range<usize>, String)> {
+    ///
+    /// # Errors
+    /// As [`Expr::parse`].
+    pub fn parse_term(text: &str) -> Parsed<Expr> {
         let mut parser = Parser { text, at: 0, depth: 0, terms: 0, places: Vec::new() };
         let first = parser.sum()?;
         parser.blank();
@@ -52,10 +72,8 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     terms: usize,
-    places: Vec<std::ops::Range<usize>>,
+    places: Vec<Range<usize>>,
 }
-
-type Parsed<T> = Result<T, (std::ops::Range<usize>, String)>;
 
 impl<'a> Parser<'a> {
     fn rest(&self) -> &'a str {
@@ -92,7 +110,7 @@ impl<'a> Parser<'a> {
         if rest.starts_with(|c: char| c.is_alphabetic()) { &rest[..end] } else { "" }
     }
 
-    fn unexpected(&self, expected: &str) -> (std::ops::Range<usize>, String) {
+    fn unexpected(&self, expected: &str) -> ConditionError {
         let rest = self.rest();
         let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.');
         let word = rest.starts_with(is_word);
@@ -100,11 +118,17 @@ impl<'a> Parser<'a> {
             rest.find(|c: char| if word { !is_word(c) } else { c.is_whitespace() }).unwrap_or(rest.len());
         let found =
             if length == 0 { "the end".to_owned() } else { format!("`{}`", shorten(&rest[..length])) };
-        (self.at..self.at + length, format!("found {found}, expected {expected}"))
+        let range = self.at..self.at + length;
+        ConditionError { range, message: format!("found {found}, expected {expected}") }
+    }
+
+    /// An error about everything from here on.
+    fn too_much(&self, message: String) -> ConditionError {
+        ConditionError { range: self.at..self.text.len(), message }
     }
 
     /// The same about a token that began earlier.
-    fn unexpected_from(&mut self, start: usize, expected: &str) -> (std::ops::Range<usize>, String) {
+    fn unexpected_from(&mut self, start: usize, expected: &str) -> ConditionError {
         self.at = start;
         self.unexpected(expected)
     }
@@ -167,10 +191,10 @@ impl<'a> Parser<'a> {
         self.depth += 1;
         self.terms += 1;
         if self.terms > MAX_TERMS {
-            return Err((self.at..self.text.len(), format!("more than {MAX_TERMS} terms")));
+            return Err(self.too_much(format!("more than {MAX_TERMS} terms")));
         }
         if self.depth > MAX_DEPTH {
-            return Err((self.at..self.text.len(), "too many parentheses".to_owned()));
+            return Err(self.too_much("too many parentheses".to_owned()));
         }
         let term = self.factor_inner();
         self.depth -= 1;
@@ -312,7 +336,7 @@ mod tests {
             ("bit(0x1000) == 1", 10, "`,`"),
             ("bit(0x1000, 64) == 1", 12, "below 64"),
         ] {
-            let (range, message) = Expr::parse(text).unwrap_err();
+            let ConditionError { range, message } = Expr::parse(text).unwrap_err();
             assert_eq!(range.start, start, "{text}: {message}");
             assert!(message.contains(expected), "{text}: {message}");
         }

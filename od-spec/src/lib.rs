@@ -42,6 +42,8 @@ mod parameters;
 #[cfg(feature = "reference")]
 mod reference;
 mod resolve;
+#[cfg(test)]
+mod rule_examples;
 pub mod scalar;
 pub mod source;
 pub mod wording;

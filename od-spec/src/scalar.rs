@@ -27,6 +27,9 @@ impl NumberError {
 }
 
 /// An integer: decimal, `0x`, `0b` or `0o`, with `_` between digits, with an optional sign.
+///
+/// # Errors
+/// The text is no number, begins with a zero that CiA 306 reads as octal, or has more than 64 bits.
 pub fn integer(text: &str) -> Result<i128, NumberError> {
     let (negative, digits) = match text.strip_prefix('-') {
         Some(rest) => (true, rest),
@@ -63,8 +66,13 @@ pub fn decimal(text: &str) -> Option<Ratio> {
         None => (false, text),
     };
     let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    let fine = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
-    if whole.is_empty() || whole.len() > 18 || fraction.len() > 12 || !fine(whole) || !fine(fraction) {
+    let is_digits = |part: &str| part.bytes().all(|b| b.is_ascii_digit());
+    if whole.is_empty()
+        || whole.len() > 18
+        || fraction.len() > 12
+        || !is_digits(whole)
+        || !is_digits(fraction)
+    {
         return None;
     }
     if digits.contains('.') && fraction.is_empty() {

@@ -1,7 +1,7 @@
 // Accesses with their expected outcome, and how a dictionary is tried with them. `no_std`: the same code runs in tests on the
 // host and on an emulated Cortex-M. The cases are bytes, made by `od_tests::access_cases` from the JSON dump:
 //
-//     kind u8 | index u16 | sub u8 | length u8 | data | abort code u32 (0: fine) | length u8 | expected bytes
+//     kind u8 | index u16 | sub u8 | length u8 | data | abort code u32 (0: none) | length u8 | expected bytes
 //
 // numbers least significant byte first. Every case begins with a dictionary as it is after a factory reset of node 5.
 
@@ -19,7 +19,7 @@ pub(crate) const NODE: u8 = 5;
 /// An application that is unlocked.
 struct Unlocked;
 
-impl<D: firmware_glue::Dictionary> firmware_glue::Application<D> for Unlocked {
+impl<D: firmware_glue::Entries> firmware_glue::Application<D> for Unlocked {
     fn is_unlocked(&self) -> bool {
         true
     }
@@ -29,7 +29,7 @@ impl<D: firmware_glue::Dictionary> firmware_glue::Application<D> for Unlocked {
 pub(crate) type Failure = (usize, (u8, u16, u8), u32);
 
 /// Tries a dictionary with all cases; returns their number.
-pub(crate) fn run<D: firmware_glue::Dictionary>(
+pub(crate) fn run<'t, D: firmware_glue::Dictionary<'t>>(
     dictionary: &mut D,
     mut cases: &[u8],
 ) -> Result<usize, Failure> {
@@ -59,12 +59,12 @@ pub(crate) fn run<D: firmware_glue::Dictionary>(
                 value.map(|value| expected.is_none_or(|bytes| *bytes == *value))
             }
         });
-        let fine = match outcome {
+        let as_expected = match outcome {
             Ok(equal) => code == 0 && equal,
             // A refused write changes nothing.
-            Err(abort) => abort.0 == code && is_reset::<D>(dictionary),
+            Err(abort) => abort.0 == code && is_reset(dictionary),
         };
-        if !fine {
+        if !as_expected {
             return Err((count, (kind, index, sub), outcome.err().map_or(0, |abort| abort.0)));
         }
         count += 1;
@@ -72,17 +72,17 @@ pub(crate) fn run<D: firmware_glue::Dictionary>(
     Ok(count)
 }
 
-fn is_reset<D: firmware_glue::Dictionary>(dictionary: &D) -> bool {
-    let node_bytes = |at: usize| {
-        D::TABLE
-            .node_id_places
-            .iter()
-            .any(|place| (place.offset as usize..place.offset as usize + place.size as usize).contains(&at))
-    };
+fn is_reset<'t, D: firmware_glue::Dictionary<'t>>(dictionary: &D) -> bool {
+    let node_bytes =
+        |at: usize| {
+            dictionary.table().parts().node_id_places.iter().any(|place| {
+                (place.offset as usize..place.offset as usize + place.size as usize).contains(&at)
+            })
+        };
     dictionary
         .image()
         .iter()
-        .zip(D::TABLE.factory)
+        .zip(dictionary.table().parts().factory)
         .enumerate()
         .all(|(at, (byte, factory))| byte == factory || node_bytes(at))
 }

@@ -10,17 +10,26 @@ enum Transfer {
     Download { index: u16, sub: u8, offset: u32, toggle: u8 },
 }
 
-/// A server for one client.
-pub(crate) struct Server<D, A> {
+/// A server for one client. `BUFFER` bytes hold the largest value of the dictionary: `LARGEST_VALUE` of generated ones.
+pub(crate) struct Server<D, A, const BUFFER: usize> {
     pub(crate) dictionary: D,
     pub(crate) application: A,
     transfer: Transfer,
-    buffer: [u8; 256],
+    buffer: [u8; BUFFER],
 }
 
-impl<D: Dictionary, A: Application<D>> Server<D, A> {
+impl<'t, D: Dictionary<'t>, A: Application<D>, const BUFFER: usize> Server<D, A, BUFFER> {
+    /// # Panics
+    /// When the dictionary has larger values than the buffer takes.
     pub(crate) fn new(dictionary: D, application: A) -> Self {
-        Self { dictionary, application, transfer: Transfer::None, buffer: [0; 256] }
+        assert!(dictionary.table().largest_value() <= BUFFER, "the buffer is too small for the dictionary");
+        Self { dictionary, application, transfer: Transfer::None, buffer: [0; BUFFER] }
+    }
+
+    /// Whether an entry is a DOMAIN, which the application has.
+    fn is_domain(&self, index: u16, sub: u8) -> Result<bool, AbortCode> {
+        let entry = self.dictionary.find(index, sub)?;
+        Ok(self.dictionary.info(entry).data_type() == DataType::Domain)
     }
 
     /// The answer to a request.
@@ -54,16 +63,14 @@ impl<D: Dictionary, A: Application<D>> Server<D, A> {
         if command & 2 != 0 {
             let length = if command & 1 == 0 { 4 } else { 4 - usize::from(command >> 2 & 3) };
             let data = data.get(..length).unwrap_or(&data);
-            let is_domain =
-                D::find(index, sub).is_ok_and(|entry| D::info(entry).data_type() == DataType::Domain);
-            let written = if is_domain {
+            let written = if self.is_domain(index, sub) == Ok(true) {
                 self.dictionary.download_domain(index, sub, 0, data, true, &mut self.application)
             } else {
                 self.dictionary.write(index, sub, data, &mut self.application).map(drop)
             };
             written.map_err(|code| (index, sub, code))?;
         } else {
-            D::find(index, sub).map_err(|code| (index, sub, code))?;
+            self.dictionary.find(index, sub).map_err(|code| (index, sub, code))?;
             self.transfer = Transfer::Download { index, sub, offset: 0, toggle: 0 };
         }
         Ok(frame(0x60, index, sub, [0; 4]))
@@ -80,17 +87,15 @@ impl<D: Dictionary, A: Application<D>> Server<D, A> {
         let (last, length) = (command & 1 != 0, 7 - usize::from(command >> 1 & 7));
         let data = data.get(..length).unwrap_or(&data);
         let next = offset + u32::try_from(data.len()).unwrap_or_default();
-        let entry = D::find(index, sub).map_err(refuse)?;
-        if D::info(entry).data_type() == DataType::Domain {
+        if self.is_domain(index, sub).map_err(refuse)? {
             self.dictionary
                 .download_domain(index, sub, offset, data, last, &mut self.application)
                 .map_err(refuse)?;
         } else {
             let at = usize::try_from(offset).unwrap_or(usize::MAX);
-            let place = self
-                .buffer
-                .get_mut(at..at.saturating_add(data.len()))
-                .ok_or(refuse(AbortCode::OUT_OF_MEMORY))?;
+            // What the buffer does not hold is longer than every value.
+            let place =
+                self.buffer.get_mut(at..at.saturating_add(data.len())).ok_or(refuse(AbortCode::TOO_LONG))?;
             place.copy_from_slice(data);
             if last {
                 let whole = self.buffer.get(..at + data.len()).unwrap_or_default();
@@ -107,17 +112,16 @@ impl<D: Dictionary, A: Application<D>> Server<D, A> {
 
     fn begin_upload(&mut self, index: u16, sub: u8) -> Result<[u8; 8], Refusal> {
         let refuse = |code| (index, sub, code);
-        let entry = D::find(index, sub).map_err(refuse)?;
-        let (command, data) = if D::info(entry).data_type() == DataType::Domain {
+        let (command, data) = if self.is_domain(index, sub).map_err(refuse)? {
             (0x40, [0; 4])
         } else {
             let value = self.dictionary.upload(index, sub, &mut self.application).map_err(refuse)?;
-            let length = u8::try_from(value.len()).unwrap_or(u8::MAX);
+            let length = u32::try_from(value.len()).unwrap_or(u32::MAX).to_le_bytes();
             let mut data = [0; 4];
             data.iter_mut().zip(value.iter()).for_each(|(byte, new)| *byte = *new);
             match length {
-                1..=4 => return Ok(frame(0x43 | (4 - length) << 2, index, sub, data)),
-                _ => (0x41, [length, 0, 0, 0]),
+                [bytes @ 1..=4, 0, 0, 0] => return Ok(frame(0x43 | (4 - bytes) << 2, index, sub, data)),
+                _ => (0x41, length),
             }
         };
         self.transfer = Transfer::Upload { index, sub, offset: 0, toggle: 0 };
@@ -133,8 +137,7 @@ impl<D: Dictionary, A: Application<D>> Server<D, A> {
             return Err(refuse(AbortCode::TOGGLE_BIT));
         }
         let (mut segment, at) = ([0; 7], usize::try_from(offset).unwrap_or(usize::MAX));
-        let entry = D::find(index, sub).map_err(refuse)?;
-        let (length, last) = if D::info(entry).data_type() == DataType::Domain {
+        let (length, last) = if self.is_domain(index, sub).map_err(refuse)? {
             let length = self
                 .dictionary
                 .upload_domain(index, sub, offset, &mut segment, &mut self.application)

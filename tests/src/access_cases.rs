@@ -26,6 +26,9 @@ const WRITE_UNLOCKED: u8 = 2;
 const ANYTHING: u8 = 0xFF;
 
 /// The cases of one device of a dump.
+///
+/// # Errors
+/// The dump has no such device, or lacks a fact.
 pub fn of_device<'a>(dump: &'a Json, key: &str) -> Result<Cases<'a>, Failure> {
     let devices = dump["devices"].as_array().ok_or("the dump has no devices")?;
     let device = devices.iter().find(|device| device["key"] == key).ok_or("no such device")?;
@@ -258,8 +261,8 @@ fn inside(entry: &Entry<'_>, value: i128) -> bool {
 
 /// The limits without the special values.
 fn limits(json: &Json) -> (Option<i128>, Option<i128>) {
-    let end = |own: &str, wide: &str| {
-        json.get(own).or_else(|| json.get(wide)).filter(|value| !value.is_null()).map(number)
+    let end = |stated: &str, of_the_type: &str| {
+        json.get(stated).or_else(|| json.get(of_the_type)).filter(|value| !value.is_null()).map(number)
     };
     (end("min", "low"), end("max", "high"))
 }

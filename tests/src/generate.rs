@@ -22,6 +22,9 @@ const COMMAND: &str = "cargo xtask generate";
 pub type GeneratedFile = (String, Vec<u8>);
 
 /// All generated files.
+///
+/// # Errors
+/// A specification does not compile, or a file that examples are put into cannot be read.
 pub fn all() -> Result<Vec<GeneratedFile>, Failure> {
     Ok(shipped()?.into_iter().chain(texts()?).collect())
 }
@@ -40,6 +43,9 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
 }
 
 /// What is generated from the compiler itself, and the README.
+///
+/// # Errors
+/// As [`all`].
 pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
     Ok(vec![
         ("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()),
@@ -67,6 +73,9 @@ fn modules(system: &System, sources: &SourceMap) -> Result<Vec<Artifact>, Failur
 }
 
 /// Writes what changed; tells for each file whether it did.
+///
+/// # Errors
+/// As [`all`], or a file cannot be written.
 pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
     let mut report = Vec::new();
     for (path, bytes) in all()? {

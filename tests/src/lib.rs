@@ -19,11 +19,17 @@ pub fn root() -> PathBuf {
 }
 
 /// Compiles a file of the workspace that is expected to be without any message.
+///
+/// # Errors
+/// The file cannot be read, or the compiler has something to say.
 pub fn compile_clean(path: &str) -> Result<System, Failure> {
     compile_with_sources(path).map(|(system, _)| system)
 }
 
 /// [`compile_clean`], with the texts that were read.
+///
+/// # Errors
+/// As [`compile_clean`].
 pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> {
     let text = std::fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
     let mut sources = SourceMap::new();

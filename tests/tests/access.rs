@@ -9,7 +9,7 @@ use firmware_glue::Dictionary;
 use od_generated::{fullmo, pmc, pmm};
 use od_tests::{access_cases, root};
 
-fn try_device<D: Dictionary>(stem: &str, key: &str, dictionary: &mut D, least: usize) {
+fn try_device(stem: &str, key: &str, dictionary: &mut impl Dictionary<'static>, least: usize) {
     let dump = std::fs::read(root().join(format!("generated/{stem}.json"))).unwrap();
     let dump = serde_json::from_slice(&dump).unwrap();
     let made = access_cases::of_device(&dump, key).unwrap();

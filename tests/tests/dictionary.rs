@@ -2,8 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use firmware_glue::pdo::{self, PdoError};
-use firmware_glue::{AbortCode, Application, Constrained, Dictionary, Quantity, Special, Storage, Time};
+use firmware_glue::pdo::{self, PdoError, Refused};
+use firmware_glue::{
+    AbortCode, Application, Constrained, Dictionary, Entries, EntryId, OtherLayout, Quantity, Special,
+    Storage, Time,
+};
 use od_generated::pmc::{self, Pmc, types, units};
 use od_generated::pmm::{self, Pmm};
 
@@ -35,7 +38,7 @@ struct Log<E> {
     veto: Option<AbortCode>,
 }
 
-impl<D: Dictionary> Application<D> for Log<D::Entry> {
+impl<D: Entries> Application<D> for Log<D::Entry> {
     fn is_unlocked(&self) -> bool {
         self.unlocked
     }
@@ -51,7 +54,7 @@ fn log<E>() -> Log<E> {
     Log { unlocked: false, changed: Vec::new(), veto: None }
 }
 
-fn read<D: Dictionary>(dictionary: &D, index: u16, sub: u8) -> Result<i64, AbortCode> {
+fn read<'t, D: Dictionary<'t>>(dictionary: &D, index: u16, sub: u8) -> Result<i64, AbortCode> {
     let value = dictionary.read(index, sub)?;
     let mut bytes = [0; 8];
     bytes[..value.len()].copy_from_slice(&value);
@@ -118,9 +121,9 @@ fn writing_a_view_writes_its_target_and_tells_of_it() {
     assert_eq!(od.set_target_position_16bit(units::PositionUnit(-7)), Ok(()));
     assert_eq!(od.target_position(), units::PositionUnit(-7));
     // The view takes no memory: no row of an alias lies in the image.
-    let alias = Pmc::info(pmc::Entry::TargetPosition16bit);
+    let alias = od.info(pmc::Entry::TargetPosition16bit);
     assert!(alias.is_alias());
-    assert_eq!(alias.id(), (0x507A, 0));
+    assert_eq!(alias.id(), EntryId { index: 0x507A, sub: 0 });
     // A veto against the target is one against the view.
     application.veto = Some(AbortCode::LOCAL_CONTROL);
     assert_eq!(od.write(0x507A, 0, &[1, 0], &mut application), Err(AbortCode::LOCAL_CONTROL));
@@ -178,16 +181,17 @@ fn a_write_condition_is_asked_every_time() {
         assert_eq!(od.write(0x607C, 0, &[0; 4], &mut ()), expected);
     }
     // The first condition of the table: `bit(0x6040, 3) == 0 and bit(0x6041, 2) == 0`.
-    let conditional = (0..u16::MAX).find(|row| Pmc::TABLE.attributes(*row).condition == 0).unwrap();
-    let (index, sub) = Pmc::TABLE.id(conditional);
-    let size = usize::from(Pmc::TABLE.attributes(conditional).size);
+    let table = od.table();
+    let conditional = (0..u16::MAX).find(|row| table.attributes(*row).condition == 0).unwrap();
+    let EntryId { index, sub } = table.id(conditional);
+    let size = usize::from(table.attributes(conditional).size);
     let value = od.read(index, sub).unwrap().to_vec();
     assert_eq!(value.len(), size);
     for (control, status, open) in
         [(0, 0, true), (1 << 3, 0, false), (0, 1 << 2, false), (!(1 << 3), !(1 << 2), true)]
     {
         bits(&mut od, control, status);
-        let expected = if open { Ok(Pmc::entry(conditional).unwrap()) } else { Err(AbortCode::DEVICE_STATE) };
+        let expected = if open { Ok(od.entry(conditional).unwrap()) } else { Err(AbortCode::DEVICE_STATE) };
         assert_eq!(od.write(index, sub, &value, &mut ()), expected, "{control:#x} {status:#x}");
     }
 }
@@ -258,7 +262,10 @@ fn a_received_pdo_is_checked_value_by_value() {
     // What is refused is left out and reported; the rest is taken.
     let mut everything = Everything::new(1);
     let received = pdo::unpack(&mut everything, 1, &[0, 0x34, 0x12], &mut ()).unwrap();
-    assert_eq!(received.refused, Some((everything::Entry::AnUnsigned8, AbortCode::TOO_LOW)));
+    assert_eq!(
+        received.refused,
+        Some(Refused { entry: everything::Entry::AnUnsigned8, code: AbortCode::TOO_LOW })
+    );
     assert_eq!(everything.an_unsigned16(), 0x1234);
     assert_eq!(everything.an_unsigned8(), 255);
 }
@@ -294,8 +301,8 @@ fn a_mapping_is_changed_by_the_rules_of_cia_301() {
     assert_eq!(write(0x1A00, 0, 255, 1), Err(AbortCode::PDO_LENGTH));
     assert_eq!(write(0x1A00, 0, 2, 1), Ok(()));
     // Restricted, 29 bits; then a free identifier.
-    for bad in [0x000, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF, 1 << 29 | tpdo, 0x800] {
-        assert_eq!(write(0x1800, 1, bad, 4), Err(AbortCode::INVALID_VALUE), "{bad:X}");
+    for cob_id in [0x000, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7FF, 1 << 29 | tpdo, 0x800] {
+        assert_eq!(write(0x1800, 1, cob_id, 4), Err(AbortCode::INVALID_VALUE), "{cob_id:X}");
     }
     assert_eq!(write(0x1800, 1, 0x1FF, 4), Ok(()));
     od.set_position_actual_value(units::PositionUnit(-1));
@@ -535,14 +542,15 @@ fn state_machines_are_read_and_commanded() {
 
 #[test]
 fn names_and_ids_of_entries() {
-    assert_eq!(Pmc::find(0x6064, 0), Ok(pmc::Entry::PositionActualValue));
-    assert_eq!(Pmc::find(0x6510, 4).unwrap().name(), "drive data.min DC link voltage");
+    let od = Pmc::new(1);
+    assert_eq!(od.find(0x6064, 0), Ok(pmc::Entry::PositionActualValue));
+    assert_eq!(od.find(0x6510, 4).unwrap().name(), "drive data.min DC link voltage");
     assert_eq!(format!("{:?}", pmc::Entry::PositionActualValue), "6064h.0 position actual value");
     let mut rows = 0;
-    while let Some(entry) = Pmc::entry(rows) {
-        let (index, sub) = Pmc::info(entry).id();
-        assert_eq!(Pmc::find(index, sub), Ok(entry));
-        assert_eq!(Pmc::row(entry), rows);
+    while let Some(entry) = od.entry(rows) {
+        let EntryId { index, sub } = od.info(entry).id();
+        assert_eq!(od.find(index, sub), Ok(entry));
+        assert_eq!(od.row(entry), rows);
         rows += 1;
     }
     assert_eq!(rows, 264);
@@ -610,15 +618,15 @@ fn stored_groups_are_single_pieces_that_come_back() {
     let mut application = Log { unlocked: true, ..log() };
     od.write(0x6065, 0, &77u32.to_le_bytes(), &mut application).unwrap();
     let saved = od.stored(Storage::Application).to_vec();
-    let layout = Pmc::layout(Storage::Application);
+    let layout = od.layout(Storage::Application);
     assert!(!saved.is_empty());
     od.reset(1);
     assert_ne!(read(&od, 0x6065, 0), Ok(77));
-    assert!(!od.restore(Storage::Application, layout ^ 1, &saved));
-    assert!(!od.restore(Storage::Application, layout, &saved[1..]));
-    assert!(!od.restore(Storage::Manufacturer, layout, &saved));
+    assert_eq!(od.restore(Storage::Application, layout ^ 1, &saved), Err(OtherLayout));
+    assert_eq!(od.restore(Storage::Application, layout, &saved[1..]), Err(OtherLayout));
+    assert_eq!(od.restore(Storage::Manufacturer, layout, &saved), Err(OtherLayout));
     assert_ne!(read(&od, 0x6065, 0), Ok(77));
-    assert!(od.restore(Storage::Application, layout, &saved));
+    assert_eq!(od.restore(Storage::Application, layout, &saved), Ok(()));
     assert_eq!(read(&od, 0x6065, 0), Ok(77));
     // Restoring the defaults of one group leaves the others alone.
     od.set_position_actual_value(units::PositionUnit(5));

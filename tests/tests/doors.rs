@@ -81,14 +81,15 @@ fn without_formatting_it_is_the_same_code() {
 
 #[test]
 fn the_compiled_tables_are_equal() {
-    fn table<D: Dictionary>() -> String {
-        format!("{:?}", D::TABLE)
+    fn table(dictionary: &impl Dictionary<'static>) -> String {
+        format!("{:?}", dictionary.table())
     }
-    assert_eq!(table::<pmc_by_macro::Pmc>(), table::<pmc::Pmc>());
-    assert_eq!(table::<by_builder::Pmc>(), table::<pmc::Pmc>());
-    assert_eq!(table::<pmm_by_macro::Pmm>(), table::<pmm::Pmm>());
-    assert_eq!(table::<fullmo_by_macro::Fullmo>(), table::<fullmo::Fullmo>());
-    assert_eq!(table::<fullmo_by_builder::Fullmo>(), table::<fullmo::Fullmo>());
+    let (pmc, fullmo) = (table(&pmc::Pmc::new(1)), table(&fullmo::Fullmo::new(1)));
+    assert_eq!(table(&pmc_by_macro::Pmc::new(1)), pmc);
+    assert_eq!(table(&by_builder::Pmc::new(1)), pmc);
+    assert_eq!(table(&pmm_by_macro::Pmm::new(1)), table(&pmm::Pmm::new(1)));
+    assert_eq!(table(&fullmo_by_macro::Fullmo::new(1)), fullmo);
+    assert_eq!(table(&fullmo_by_builder::Fullmo::new(1)), fullmo);
     assert_eq!(pmc_by_macro::Pmc::new(7).image(), pmc::Pmc::new(7).image());
 }
 
@@ -96,6 +97,13 @@ fn the_compiled_tables_are_equal() {
 fn a_specification_with_mistakes_is_an_error_of_the_compiler() {
     let cases = trybuild::TestCases::new();
     cases.compile_fail("macros/*.rs");
+}
+
+#[test]
+fn a_file_for_another_layout_is_one_error() {
+    let cases = trybuild::TestCases::new();
+    cases.compile_fail("layouts/older.rs");
+    cases.pass("layouts/present.rs");
 }
 
 #[test]

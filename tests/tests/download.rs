@@ -55,12 +55,19 @@ fn configured(specification: &str, device: &str, settings: &[&str]) -> Configure
     Configured { device: device.clone(), node, writes }
 }
 
+/// Room for the largest value of the dictionaries under test.
+const BUFFER: usize = if Pmc::LARGEST_VALUE > Everything::LARGEST_VALUE {
+    Pmc::LARGEST_VALUE
+} else {
+    Everything::LARGEST_VALUE
+};
+
 /// The abort code of a refused transfer.
 type Abort = u32;
 
 /// A client: writes a value by expedited or segmented transfer.
-fn write<D: firmware_glue::Dictionary>(
-    server: &mut Server<D, ()>,
+fn write<D: firmware_glue::Dictionary<'static>>(
+    server: &mut Server<D, (), BUFFER>,
     id: EntryId,
     bytes: &[u8],
 ) -> Result<(), Abort> {
@@ -89,16 +96,16 @@ fn write<D: firmware_glue::Dictionary>(
 }
 
 /// Writes one after the other; the first that is refused, with its abort code.
-fn download<D: firmware_glue::Dictionary>(
-    server: &mut Server<D, ()>,
+fn download<D: firmware_glue::Dictionary<'static>>(
+    server: &mut Server<D, (), BUFFER>,
     writes: &[Write],
 ) -> Result<(), (EntryId, Abort)> {
     writes.iter().try_for_each(|step| write(server, step.id, &step.bytes).map_err(|code| (step.id, code)))
 }
 
 /// Downloads twice, as a master may find a node that has been configured before, and compares what the node holds then.
-fn is_taken<D: firmware_glue::Dictionary>(dictionary: D, configured: &Configured) {
-    let mut server = Server::new(dictionary, ());
+fn is_taken<D: firmware_glue::Dictionary<'static>>(dictionary: D, configured: &Configured) {
+    let mut server = Server::<_, _, BUFFER>::new(dictionary, ());
     for _ in 0..2 {
         assert_eq!(download(&mut server, &configured.writes), Ok(()));
     }
@@ -110,14 +117,14 @@ fn is_taken<D: firmware_glue::Dictionary>(dictionary: D, configured: &Configured
 }
 
 /// That a node refuses the values alone, ascending: what is to be changed was not switched off.
-fn is_refused_ascending<D: firmware_glue::Dictionary>(dictionary: D, configured: &Configured) {
+fn is_refused_ascending<D: firmware_glue::Dictionary<'static>>(dictionary: D, configured: &Configured) {
     let values: Vec<Write> = configured
         .node
         .values
         .keys()
         .map(|id| configured.writes.iter().rev().find(|step| step.id == *id).cloned().unwrap())
         .collect();
-    let outcome = download(&mut Server::new(dictionary, ()), &values);
+    let outcome = download(&mut Server::<_, _, BUFFER>::new(dictionary, ()), &values);
     assert!(outcome.is_err(), "{:?} are taken in any order", configured.node.values);
 }
 
@@ -168,7 +175,7 @@ fn a_device_with_everything_takes_its_configuration() {
     is_taken(Everything::new(NODE), &first);
     // Nodes to be watched change places.
     let second = configured(EVERYTHING, "everything", &["1016.1=0x000703E8", "1016.2=0x000603E8"]);
-    let mut server = Server::new(Everything::new(NODE), ());
+    let mut server = Server::<_, _, BUFFER>::new(Everything::new(NODE), ());
     assert_eq!(download(&mut server, &first.writes), Ok(()));
     assert_eq!(download(&mut server, &second.writes), Ok(()));
 }

@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use firmware_glue::quantity::Fraction;
 use firmware_glue::{Dictionary as _, Quantity as _};
 use od_generated::fullmo::types::{
     DriveControlword, DriveMode, EdgeFunctions, HomingSensors, RelativePositioningOption,
@@ -159,7 +160,7 @@ fn units_of_the_generated_rust_convert_as_the_manual_says() {
     assert_eq!(step.to_string(), "15.25000 U/s²");
     let voltage = units::Centivolt(4800_u16);
     assert_eq!(voltage.to_string(), "48.00 V");
-    assert_eq!(units::Centivolt::<u16>::SCALE, (1, 100));
+    assert_eq!(units::Centivolt::<u16>::SCALE, Fraction { numerator: 1, denominator: 100 });
 }
 
 /// Writes a value through the generated record and reads the raw bytes that an SDO client sees.

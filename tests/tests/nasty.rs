@@ -1,6 +1,6 @@
 //! Unusual specifications give code that compiles without a warning and does what they say.
 
-use firmware_glue::{AbortCode, Constrained, Dictionary, pdo, unpack_consistent};
+use firmware_glue::{AbortCode, Constrained, Dictionary, EntryId, pdo, unpack_consistent};
 
 #[deny(warnings)]
 mod nasty {
@@ -85,8 +85,8 @@ fn words_with_a_sign_have_states_and_commands() {
 
 #[test]
 fn rows_beyond_the_table_are_nothing() {
-    assert_eq!(Nasty::TABLE.id(u16::MAX), (0, 0));
-    assert_eq!(Nasty::entry(u16::MAX), None);
+    assert_eq!(Nasty::new(1).table().id(u16::MAX), EntryId { index: 0, sub: 0 });
+    assert_eq!(Nasty::new(1).entry(u16::MAX), None);
     assert_eq!(nasty::limits::LIMITED_BITS, types::SignedBits(0xFFF6)..=types::SignedBits(10));
     let mut od = Nasty::new(1);
     assert_eq!(od.set_gaps(2, 7), Some(()));

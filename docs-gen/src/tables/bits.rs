@@ -1,7 +1,8 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
 use od_spec::model::{
-    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EnumValue, NamedType, Object,
+    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EnumValue, ModeMeaning,
+    NamedType, Object,
 };
 
 use super::Columns;
@@ -68,7 +69,7 @@ impl Source<'_> {
                 cell = cell.text(": ").and_words(&value.about, self.language);
             }
         }
-        for (mode, name, about) in &field.modes {
+        for ModeMeaning { mode, name, about, .. } in &field.modes {
             cell = cell.line().text(format!("{mode}: {name}"));
             if !about.is_empty() {
                 cell = cell.text("; ").and_words(about, self.language);

@@ -1,6 +1,7 @@
 //! Values in EDS notation (CiA 306 4.3).
 
-use od_spec::model::{DataType, Entry, Object, TypeKind, Value, format_value};
+use od_spec::model::{DataType, Entry, Object, TypeKind, Value};
+use od_spec::wording::format_value;
 
 /// How the values of an entry are written.
 pub(super) struct Notation<'a> {

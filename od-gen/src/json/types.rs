@@ -107,7 +107,7 @@ fn bit_view(field: &BitField) -> BitView<'_> {
         modes: field
             .modes
             .iter()
-            .map(|(mode, name, about)| json!({"mode": mode, "name": name, "about": words(about)}))
+            .map(|one| json!({"mode": one.mode, "name": one.name, "about": words(&one.about)}))
             .collect(),
     }
 }

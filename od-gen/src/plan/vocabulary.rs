@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
-    BitField, BitUsage, DataType, Entry, EnumValue, NamedType, Ratio, Text, TypeKind, Unit,
+    BitField, BitUsage, DataType, Entry, EnumValue, ModeMeaning, NamedType, Ratio, TypeKind, Unit,
 };
 
 use super::language::{Companion, Role, ScopeKind};
@@ -126,9 +126,9 @@ impl<'a> Plan<'a> {
     ) -> Vec<PlannedBits<'a>> {
         let span = self.device.span;
         let general = [(field.name.clone(), &field.about)].into_iter().filter(|(name, _)| !name.is_empty());
-        let said = |mode: &&(String, String, Text)| !matches!(mode.1.as_str(), "reserved" | "unused");
+        let has_name = |meaning: &&ModeMeaning| !matches!(meaning.name.as_str(), "reserved" | "unused");
         let modes =
-            field.modes.iter().filter(said).map(|(mode, name, about)| (format!("{mode} {name}"), about));
+            field.modes.iter().filter(has_name).map(|one| (format!("{} {}", one.mode, one.name), &one.about));
         let labels = general.chain(modes);
         let planned = labels.map(|(label, about)| {
             let name = self.identifier(Role::Function, &label);

@@ -1,6 +1,8 @@
 //! All elements of an ARRAY have one data type.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, ObjectKind};
 

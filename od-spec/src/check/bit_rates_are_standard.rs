@@ -1,6 +1,8 @@
 //! A device supports bit rates of CiA 301.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::Fact;
 

@@ -1,7 +1,9 @@
 //! The COB-IDs of PDOs, SYNC, TIME, EMCY and SDO channels are 11-bit identifiers that no other service has for itself, on every node.
 
+use super::findings::Findings;
 use super::pdo::{NO_REMOTE_FRAMES, NOT_VALID, Parameter};
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };

@@ -1,8 +1,10 @@
 //! PDOs that exist after start-up, and the services SYNC, TIME and EMCY, have COB-IDs of their own.
 
+use super::findings::Findings;
 use super::pdo::{NOT_VALID, title};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use super::subject::entry_id;
-use super::{Check, Findings, Needs, Rule, Subject};
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, Value};
 use crate::source::Span;

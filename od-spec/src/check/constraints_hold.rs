@@ -1,6 +1,8 @@
 //! The values of a device meet the conditions between its entries.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::shorten;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{CompareOp, Constraint, EntryRef, Outcome, Ratio, Values};

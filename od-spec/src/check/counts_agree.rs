@@ -1,6 +1,8 @@
 //! Sub-index 0 tells the highest sub-index, where its value is fixed.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{DataType, Entry, Fact, Index, Object, Role, SubIndex, Value};
 

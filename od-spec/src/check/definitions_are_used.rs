@@ -1,6 +1,7 @@
 //! Every unit and type that the maker defines is used by an entry or a table.
 
-use super::{Check, Findings, Needs, Rule};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Author, Statement, System, TableContent};
 

@@ -1,6 +1,7 @@
 //! Error codes that bits refer to stand in `errors:`, where a specification has such a list.
 
-use super::{Check, Findings, Needs, Rule};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Author, System, TypeKind};
 

@@ -1,9 +1,12 @@
 //! 1000h and 1018h say what vendor and device say.
 
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use super::subject::entry_id;
-use super::{Check, Findings, Needs, Rule, Subject};
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, Value, format_value};
+use crate::model::{Fact, Value};
+use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 

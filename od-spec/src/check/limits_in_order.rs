@@ -1,8 +1,11 @@
 //! The low limit of an entry is not above the high one.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, Value, format_value};
+use crate::model::{Fact, Value};
+use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 

@@ -1,6 +1,8 @@
 //! A configuration leaves locked entries alone.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Settings(check) };

@@ -1,7 +1,9 @@
 //! What a PDO maps is there, can be mapped in its direction, and has the length that the mapping says.
 
+use super::findings::Findings;
 use super::pdo::{Parameter, target, title};
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity, codes};
 use crate::model::{Direction, EntryId, Object, Pdo, PdoMapping, PdoTarget};
 

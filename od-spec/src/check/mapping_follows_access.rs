@@ -1,6 +1,8 @@
 //! A TPDO carries what can be read, an RPDO what can be written; and the EDS promises nothing else.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Access, Direction, Entry, EntryId, Fact, PdoMapping};
 

@@ -4,10 +4,9 @@
 //! Rules see the model and nothing else: a value may have been written in a specification, in a library, or in a setting
 //! laid over both; the place of a message comes from the fact that it is about.
 
-#[cfg(test)]
-mod examples;
 mod findings;
 mod pdo;
+mod rule;
 mod subject;
 
 mod arrays_have_one_type;
@@ -62,49 +61,13 @@ pub mod codes {
     pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
 }
 
-use crate::diag::{Code, Diagnostics};
+use crate::diag::Diagnostics;
 use crate::model::{Dictionary, System};
 
 use findings::Findings;
-pub(crate) use subject::Subject;
-
-/// A rule: what it is about, when it can say something, and how it looks.
-pub(crate) struct Rule {
-    /// Its code, with severity, explanation and example.
-    pub code: &'static Code,
-    /// What has to be right before.
-    pub needs: Needs,
-    /// How it looks.
-    pub check: Check,
-}
-
-impl Rule {
-    /// Whether it asks what can be set, whatever the value.
-    pub(crate) const fn is_about_setting(&self) -> bool {
-        matches!(self.check, Check::Settings(_))
-    }
-}
-
-/// What a rule presupposes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Needs {
-    /// Nothing: it looks at what is there.
-    Nothing,
-    /// That nothing was left out as wrong: it looks at what is missing, or at what was derived, and would blame what is only
-    /// a consequence.
-    Everything,
-}
-
-/// What a rule looks at.
-#[derive(Clone, Copy)]
-pub(crate) enum Check {
-    /// What the devices share.
-    System(fn(&System, &mut Findings)),
-    /// One device, as a type or as a configured node.
-    Device(fn(&Subject<'_>, &mut Findings)),
-    /// One configured node: what is set, and whether it can be set.
-    Settings(fn(&Subject<'_>, &mut Findings)),
-}
+pub(crate) use rule::Rule;
+use rule::{Check, Needs};
+use subject::Subject;
 
 /// All rules, by code.
 pub(crate) static RULES: &[Rule] = &[

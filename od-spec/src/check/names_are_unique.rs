@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{DataType, Entry, Fact, Object};

@@ -1,7 +1,9 @@
 //! Names can be written into an EDS that every tool reads alike.
 
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use super::texts_fit_eds::unfit;
-use super::{Check, Findings, Needs, Rule, Subject};
 use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{Dictionary, Fact};

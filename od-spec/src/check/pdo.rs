@@ -1,6 +1,6 @@
 //! A PDO as its parameter objects say it: what the rules about PDOs read.
 
-use super::Subject;
+use super::subject::Subject;
 use super::subject::entry_id;
 use crate::model::{DataType, Entry, EntryId, Fact, Mapped, Pdo, PdoTarget, Value};
 use crate::source::Span;

@@ -1,8 +1,10 @@
 //! The parameters of a PDO do not contradict each other: what is mapped is there and fits what the PDO offers, an RPDO has no
 //! flag of a TPDO, and the SYNC counter can reach the start value.
 
+use super::findings::Findings;
 use super::pdo::{NO_REMOTE_FRAMES, target, title};
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Direction, Fact, Pdo};
 

@@ -1,7 +1,9 @@
 //! A PDO maps no more than 64 bits.
 
+use super::findings::Findings;
 use super::pdo::{target, title};
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Dictionary, Mapped, PdoTarget};
 

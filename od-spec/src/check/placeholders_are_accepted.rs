@@ -1,7 +1,9 @@
 //! Placeholders stand in RPDOs, and are of types that the device accepts there.
 
+use super::findings::Findings;
 use super::pdo::{placeholder, target, title};
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::Direction;
 

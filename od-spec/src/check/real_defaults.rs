@@ -1,6 +1,8 @@
 //! Tools disagree about how a REAL value is written in an EDS.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, Value};
 

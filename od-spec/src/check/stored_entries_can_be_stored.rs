@@ -1,7 +1,9 @@
 //! What is stored has a command that stores it: 1010h.2, .3 or .4.
 
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use super::subject::entry_id;
-use super::{Check, Findings, Needs, Rule, Subject};
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, Storage};
 

@@ -81,8 +81,11 @@ impl<'a> Subject<'a> {
         set.map(move |(id, _, entry)| (id, entry, subject.place(entry, Fact::Default)))
     }
 
-    /// The files in which settings stand.
+    /// The files in which settings stand; none for a type.
     pub(super) fn settings(&self) -> BTreeSet<FileId> {
+        if self.node.is_none() {
+            return BTreeSet::new();
+        }
         self.set_entries().map(|(.., place)| place.file).collect()
     }
 

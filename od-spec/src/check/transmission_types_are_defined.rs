@@ -1,7 +1,9 @@
 //! The transmission type of a PDO is one that CiA 301 defines for its direction.
 
+use super::findings::Findings;
 use super::pdo::title;
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::Direction;
 

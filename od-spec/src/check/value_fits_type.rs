@@ -1,8 +1,11 @@
 //! A value is one of the entry's data type, for every node-ID, and no longer than the string may be.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{DataType, Entry, EntryId, Fact, Value, format_value};
+use crate::model::{DataType, Entry, EntryId, Fact, Value};
+use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 

@@ -1,9 +1,11 @@
 //! A value lies inside the limits of its entry, for every node-ID, or is a special one.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Entry, EntryId, Fact, Value, format_value};
-use crate::wording::allowed;
+use crate::model::{Entry, EntryId, Fact, Value};
+use crate::wording::{allowed, format_value};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 

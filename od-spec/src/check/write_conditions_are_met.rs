@@ -1,6 +1,8 @@
 //! The device accepts what a configuration sets in the state that the configuration makes.
 
-use super::{Check, Findings, Needs, Rule, Subject};
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::Outcome;
 

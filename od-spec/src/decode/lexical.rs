@@ -1,7 +1,32 @@
 //! Notations inside scalars: indices, entries, bits, dates, access, patterns.
 
-use crate::model::{Access, BitPattern, Date, DateTime, EntryId, Index, PatternBit, SubIndex};
+use crate::ast::{BaseDecl, BitRange, CodeRange};
+use crate::model::{
+    Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
+};
 use crate::scalar;
+
+/// Indices from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct IndexRange {
+    pub first: Index,
+    pub last: Index,
+}
+
+/// An entry by index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NumberedEntry {
+    pub index: Index,
+    /// The sub-index, if one is written.
+    pub sub: Option<SubIndex>,
+}
+
+impl NumberedEntry {
+    /// The entry; without a sub-index, that at 0.
+    pub(crate) fn id(self) -> EntryId {
+        EntryId { index: self.index, sub: self.sub.unwrap_or(SubIndex(0)) }
+    }
+}
 
 /// An index from 0001h to FFFFh.
 pub(crate) fn index(text: &str) -> Option<Index> {
@@ -9,18 +34,18 @@ pub(crate) fn index(text: &str) -> Option<Index> {
     u16::try_from(value).ok().filter(|index| *index != 0).map(Index)
 }
 
-/// `0x30FA.3`: an entry by index. The flag tells whether a sub-index was written.
-pub(crate) fn entry_by_index(text: &str) -> Option<(EntryId, bool)> {
+/// `0x30FA.3`, or `0x6064`.
+pub(crate) fn entry_by_index(text: &str) -> Option<NumberedEntry> {
     let (object, sub) = match text.split_once('.') {
         Some((object, sub)) => (object, Some(sub)),
         None => (text, None),
     };
     let index = index(object)?;
-    let number = match sub {
-        Some(sub) => u8::try_from(scalar::integer(sub).ok()?).ok()?,
-        None => 0,
+    let sub = match sub {
+        Some(sub) => Some(SubIndex(u8::try_from(scalar::integer(sub).ok()?).ok()?)),
+        None => None,
     };
-    Some((EntryId { index, sub: SubIndex(number) }, sub.is_some()))
+    Some(NumberedEntry { index, sub })
 }
 
 /// Whether a reference is meant as a number rather than as a name.
@@ -33,33 +58,33 @@ pub(crate) fn looks_like_index(text: &str) -> bool {
 }
 
 /// `5` or `0..3`.
-pub(crate) fn bits(text: &str) -> Option<(u8, u8)> {
+pub(crate) fn bits(text: &str) -> Option<BitRange> {
     let number = |text: &str| u8::try_from(scalar::integer(text.trim()).ok()?).ok().filter(|bit| *bit < 64);
     let (first, last) = text.split_once("..").unwrap_or((text, text));
     let (first, last) = (number(first)?, number(last)?);
-    (first <= last).then_some((first, last))
+    (first <= last).then_some(BitRange { first, last })
 }
 
 /// `0x3280` or `0x3281..0x3288`.
-pub(crate) fn error_codes(text: &str) -> Option<(u16, u16)> {
+pub(crate) fn error_codes(text: &str) -> Option<CodeRange> {
     let number = |text: &str| u16::try_from(scalar::integer(text.trim()).ok()?).ok();
     let (first, last) = text.split_once("..").unwrap_or((text, text));
     let (first, last) = (number(first)?, number(last)?);
-    (first <= last).then_some((first, last))
+    (first <= last).then_some(CodeRange { first, last })
 }
 
 /// Whether a text can be the key of a device, which names its files: up to 32 lower-case letters, digits and hyphens, no hyphen
 /// first.
 pub fn is_device_key(text: &str) -> bool {
-    let fine = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    (1..=32).contains(&text.len()) && !text.starts_with('-') && text.chars().all(fine)
+    let allowed = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    (1..=32).contains(&text.len()) && !text.starts_with('-') && text.chars().all(allowed)
 }
 
 /// `0x6040`, or `0x3511..0x3519`.
-pub(crate) fn indices(text: &str) -> Option<(Index, Index)> {
+pub(crate) fn indices(text: &str) -> Option<IndexRange> {
     let (first, last) = text.split_once("..").unwrap_or((text, text));
     let (first, last) = (index(first.trim())?, index(last.trim())?);
-    (first <= last).then_some((first, last))
+    (first <= last).then_some(IndexRange { first, last })
 }
 
 /// `2009-05-27`, a day that exists.
@@ -87,19 +112,32 @@ pub(crate) fn date_time(text: &str) -> Option<DateTime> {
     let (day, time) = text.split_once([' ', 'T'])?;
     let (hour, minute) = time.split_once(':')?;
     let number = |digits: &str, below: u8| {
-        let fine = digits.len() == 2 && digits.bytes().all(|b| b.is_ascii_digit());
-        digits.parse::<u8>().ok().filter(|value| fine && *value < below)
+        let two_digits = digits.len() == 2 && digits.bytes().all(|b| b.is_ascii_digit());
+        digits.parse::<u8>().ok().filter(|value| two_digits && *value < below)
     };
     Some(DateTime { date: date(day)?, hour: number(hour, 24)?, minute: number(minute, 60)? })
 }
 
 /// `rw`, `rw locked`.
-pub(crate) fn access(text: &str) -> Option<(Access, bool)> {
+pub(crate) fn access(text: &str) -> Option<AccessRight> {
     let (word, locked) = match text.strip_suffix(" locked") {
         Some(word) => (word.trim_end(), true),
         None => (text, false),
     };
-    Some((Access::from_word(word)?, locked))
+    Some(AccessRight { access: Access::from_word(word)?, locked })
+}
+
+/// `1/10`; positive.
+pub(crate) fn positive_ratio(text: &str) -> Option<Ratio> {
+    scalar::ratio(text).filter(|ratio| ratio.numerator() > 0)
+}
+
+/// `1/1000 V`.
+pub(crate) fn base(text: &str) -> Option<BaseDecl> {
+    let (ratio, symbol) = text.rsplit_once(' ')?;
+    let factor = positive_ratio(ratio)?;
+    let symbol = symbol.trim();
+    (!symbol.is_empty()).then(|| BaseDecl { factor, symbol: symbol.to_owned() })
 }
 
 /// `xxxx xxxx x01x 0001`: 8, 16 or 32 bits, most significant first.
@@ -128,17 +166,18 @@ mod tests {
         assert_eq!(index("0x6040"), Some(Index(0x6040)));
         assert_eq!(index("4120"), Some(Index(0x1018)));
         assert_eq!((index("0"), index("0x10000"), index("x")), (None, None, None));
-        let id = EntryId { index: Index(0x30FA), sub: SubIndex(10) };
-        assert_eq!(entry_by_index("0x30FA.10"), Some((id, true)));
-        assert_eq!(entry_by_index("0x30FA.0x0A"), Some((id, true)));
+        let entry = NumberedEntry { index: Index(0x30FA), sub: Some(SubIndex(10)) };
+        assert_eq!(entry_by_index("0x30FA.10"), Some(entry));
+        assert_eq!(entry_by_index("0x30FA.0x0A"), Some(entry));
+        assert_eq!(entry_by_index("0x30FA").unwrap().id(), EntryId { sub: SubIndex(0), ..entry.id() });
         assert_eq!(entry_by_index("0x30FA."), None);
-        assert_eq!(bits("0..3"), Some((0, 3)));
+        assert_eq!(bits("0..3"), Some(BitRange { first: 0, last: 3 }));
         assert_eq!((bits("3..0"), bits("64")), (None, None));
         assert_eq!(date("2008-02-29"), Some(Date { year: 2008, month: 2, day: 29 }));
         assert_eq!((date("2009-02-29"), date("09-05-27"), date("2009-5-27")), (None, None, None));
         assert!(date_time("2009-05-27 09:00").is_some());
         assert!(date_time("2009-05-27 24:00").is_none());
-        assert_eq!(access("rw locked"), Some((Access::Rw, true)));
+        assert_eq!(access("rw locked"), Some(AccessRight { access: Access::Rw, locked: true }));
         assert_eq!(access("locked"), None);
         assert_eq!(pattern("xxxx xxxx x01x 0001").unwrap().mask_and_value(), (0b0110_1111, 0b0010_0001));
         assert_eq!(pattern("xxxx"), None);

@@ -3,12 +3,20 @@
 //! First [`shape`] compares the whole tree with the key tables and reports everything that does not fit; then
 //! [`spec`] reads what does fit and silently leaves out the rest, so that each mistake is reported once.
 
+mod devices;
+mod entry;
 mod languages;
 pub(crate) mod lexical;
+mod machines;
+mod manual;
 mod nearest;
+mod numbered;
+mod objects;
+mod pdos;
 mod read;
 mod shape;
 mod spec;
+mod types;
 
 pub use lexical::is_device_key;
 pub(crate) use nearest::nearest;

@@ -1,7 +1,12 @@
 //! Typed reading of nodes whose shape was checked: what does not fit is left out without a word.
 
-use crate::ast::{Name, Words};
-use crate::model::{Index, Text};
+use crate::ast::{BaseDecl, Formula, MappingKind, Name, Words};
+use crate::diag::Diagnostics;
+use crate::expr::Expr;
+use crate::keys::Keys;
+use crate::model::{
+    AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio, Storage, Text,
+};
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{MERGE, Node, NodeKind};
@@ -41,9 +46,13 @@ impl<'a> Reader<'a> {
     }
 
     /// The entries of a map with data in its keys.
-    pub(super) fn entries(self, key: &str) -> impl Iterator<Item = (Spanned<&'a str>, Self)> {
-        let entries = self.node.get(key).map(Node::entries).unwrap_or_default();
-        let entries = entries.iter().filter(|(name, _)| name.value != MERGE);
+    pub(super) fn entries(self, key: &str) -> impl Iterator<Item = (Spanned<&'a str>, Self)> + use<'a> {
+        self.child(key).into_iter().flat_map(Self::pairs)
+    }
+
+    /// The entries of the map itself.
+    pub(super) fn pairs(self) -> impl Iterator<Item = (Spanned<&'a str>, Self)> {
+        let entries = self.node.entries().iter().filter(|(name, _)| name.value != MERGE);
         entries.map(move |(name, node)| (Spanned::new(name.value.as_str(), name.span), self.at(node)))
     }
 
@@ -86,13 +95,26 @@ impl<'a> Reader<'a> {
         self.items(key).filter_map(|item| item.scalar(lexical::index)).collect()
     }
 
+    /// The scalar itself, or the text under a key: the short form of a map.
+    pub(super) fn short(self, key: &str) -> Option<Name> {
+        self.scalar(|text| Some(text.to_owned())).or_else(|| self.text(key))
+    }
+
+    /// Whether a key was refused, or the node is no map at all.
+    pub(super) fn has_unknown_key(self, keys: &Keys) -> bool {
+        let known = |name: &str| keys.keys.iter().any(|key| key.name == name);
+        let mut names = self.node.entries().iter().map(|(name, _)| name.value.as_str());
+        !matches!(self.node.kind, NodeKind::Map(_)) || names.any(|name| !known(name))
+    }
+
     /// A text, or a map from language to text.
     pub(super) fn words(self, key: &str) -> Words {
         let child = self.child(key)?;
-        child.own_words().map(|text| Spanned::new(text, child.node.span))
+        child.translated().map(|text| Spanned::new(text, child.node.span))
     }
 
-    pub(super) fn own_words(self) -> Option<Text> {
+    /// The text itself, in one language or by language.
+    pub(super) fn translated(self) -> Option<Text> {
         let text = |node: &'a Node| node.text().map(|text| text.value.trim());
         let text = match &self.node.kind {
             NodeKind::Map(entries) => {
@@ -102,4 +124,97 @@ impl<'a> Reader<'a> {
         };
         (!text.is_empty()).then_some(text)
     }
+}
+
+/// How the value of a key becomes what the specification says by it.
+pub(super) trait FromNode: Sized {
+    /// `None` for what does not fit.
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self>;
+}
+
+macro_rules! scalars {
+    ($($type:ty = $read:expr,)+) => {
+        $(impl FromNode for $type {
+            fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+                reader.scalar($read).map(|read| read.value)
+            }
+        })+
+    };
+}
+
+scalars! {
+    String = |text| Some(text.to_owned()),
+    i128 = |text| scalar::integer(text).ok(),
+    bool = scalar::yes_no,
+    Date = lexical::date,
+    DateTime = lexical::date_time,
+    AccessRight = lexical::access,
+    PdoMapping = PdoMapping::from_word,
+    Storage = Storage::from_word,
+    Category = Category::from_word,
+    ErratumKind = ErratumKind::from_word,
+    MappingKind = MappingKind::from_word,
+    Ratio = lexical::positive_ratio,
+    BaseDecl = lexical::base,
+    Expr = |text| Expr::parse(text).ok(),
+    Formula = |text| Expr::parse_term(text).ok().map(Formula),
+    BitPattern = lexical::pattern,
+}
+
+impl FromNode for Text {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        reader.translated()
+    }
+}
+
+/// A field of a declaration, which one key fills.
+pub(super) trait Field: Sized {
+    /// Reads what stands under the key, if it does.
+    fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self;
+}
+
+impl<T: FromNode> Field for Option<Spanned<T>> {
+    fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
+        let child = reader.child(key)?;
+        T::from_node(child, diagnostics).map(|value| Spanned::new(value, child.node.span))
+    }
+}
+
+/// One value, or a list of them.
+impl<T: FromNode> Field for Vec<Spanned<T>> {
+    fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
+        let values = reader.items(key).filter_map(|item| {
+            T::from_node(item, diagnostics).map(|value| Spanned::new(value, item.node.span))
+        });
+        values.collect()
+    }
+}
+
+impl<T: FromNode> Field for Option<Vec<Spanned<T>>> {
+    fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
+        reader.child(key).map(|_| Field::read(reader, key, diagnostics))
+    }
+}
+
+/// A function that reads the keys of a table of [`crate::keys`] into its declaration; what is known without the keys
+/// comes first.
+macro_rules! reader {
+    ($visibility:vis fn $function:ident($($head:ident: $head_type:ty),*) -> $name:ident {
+        $($key:literal $($required:ident)?: $shape:expr => $field:ident: $type:ty, $about:literal
+            $(, $example:literal)?;)+
+    }) => {
+        $visibility fn $function(
+            $($head: $head_type,)*
+            reader: Reader<'_>,
+            diagnostics: &mut Diagnostics,
+        ) -> $name {
+            $name { $($head,)* $($field: Field::read(reader, $key, diagnostics),)+ }
+        }
+    };
+}
+pub(super) use reader;
+
+/// The name as a text of its own.
+pub(super) fn owned(name: Spanned<&str>) -> Name {
+    name.map(ToOwned::to_owned)
 }

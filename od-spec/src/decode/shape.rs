@@ -2,7 +2,7 @@
 
 use super::{lexical, nearest};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::expr::Expr;
+use crate::expr::{ConditionError, Expr, Parsed};
 use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::model::Access;
 use crate::scalar;
@@ -200,12 +200,12 @@ const fn expected(shape: Shape) -> &'static str {
 /// Reports what cannot be read in a condition or formula.
 fn unreadable(
     text: Spanned<&str>,
-    read: Result<Expr, (std::ops::Range<usize>, String)>,
+    read: Parsed<Expr>,
     what: &str,
     help: &str,
     diagnostics: &mut Diagnostics,
 ) {
-    if let Err((range, message)) = read {
+    if let Err(ConditionError { range, message }) = read {
         diagnostics.push(
             Diagnostic::new(
                 codes::BAD_NOTATION,
@@ -274,8 +274,8 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                 Shape::DateTime => lexical::date_time(value).is_some(),
                 Shape::Index => lexical::index(value).is_some(),
                 Shape::Entry => lexical::entry_by_index(value).is_some() || !lexical::looks_like_index(value),
-                Shape::Ratio => scalar::ratio(value).is_some_and(|ratio| ratio.numerator() > 0),
-                Shape::Base => base(value).is_some(),
+                Shape::Ratio => lexical::positive_ratio(value).is_some(),
+                Shape::Base => lexical::base(value).is_some(),
                 Shape::Pattern => lexical::pattern(value).is_some(),
                 _ => true,
             };
@@ -301,14 +301,6 @@ pub(crate) fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> Spa
         Some(2) => text.span.part(range.start + 1, range.end.max(range.start + 1) + 1),
         _ => text.span,
     }
-}
-
-/// `1/1000 V`.
-pub(super) fn base(text: &str) -> Option<(crate::model::Ratio, &str)> {
-    let (ratio, symbol) = text.rsplit_once(' ')?;
-    let ratio = scalar::ratio(ratio).filter(|ratio| ratio.numerator() > 0)?;
-    let symbol = symbol.trim();
-    (!symbol.is_empty()).then_some((ratio, symbol))
 }
 
 fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnostics) {

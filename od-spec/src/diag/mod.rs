@@ -41,6 +41,7 @@ pub struct Label {
 
 /// One message to the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Stable code, such as `OD0301`.
     pub code: &'static Code,
@@ -175,8 +176,8 @@ impl Diagnostics {
     }
 
     /// Takes the messages of another run.
-    pub fn append(&mut self, other: Diagnostics) {
-        self.list.extend(other.list);
+    pub fn append(&mut self, more: Diagnostics) {
+        self.list.extend(more.list);
     }
 }
 

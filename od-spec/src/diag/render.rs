@@ -92,12 +92,12 @@ fn snippet<'a>(
     sources: &'a SourceMap,
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let file = sources.file(id);
-    let here = || labels.iter().enumerate().filter(move |(_, label)| label.span.file == id);
-    let first = here().map(|(_, label)| file.line_index(label.span.start)).min().unwrap_or(0);
-    let last = here().map(|(_, label)| file.line_index(shown_end(label, file))).max().unwrap_or(0);
+    let in_file = || labels.iter().enumerate().filter(move |(_, label)| label.span.file == id);
+    let first = in_file().map(|(_, label)| file.line_index(label.span.start)).min().unwrap_or(0);
+    let last = in_file().map(|(_, label)| file.line_index(shown_end(label, file))).max().unwrap_or(0);
     let (start, end) = file.lines(first, last);
     let text = &file.text()[start..end];
-    let annotations = here().map(|(at, label)| {
+    let annotations = in_file().map(|(at, label)| {
         let clamp = |offset: u32| (offset as usize).saturating_sub(start).min(text.len());
         let range = clamp(label.span.start)..clamp(shown_end(label, file));
         let kind = if at == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };

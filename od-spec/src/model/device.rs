@@ -7,6 +7,7 @@ use crate::source::Span;
 
 /// The object dictionary of one device, with what an EDS says about the device.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Dictionary {
     /// The device's key in the specification, such as `pmc`.
     pub key: String,
@@ -67,6 +68,7 @@ impl Dictionary {
 
 /// What `[DeviceInfo]` says about a device.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DeviceInfo {
     /// Product name.
     pub product_name: String,
@@ -96,6 +98,7 @@ pub struct DeviceInfo {
 
 /// What `[FileInfo]` says about the EDS.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FileInfo {
     /// Description.
     pub description: String,

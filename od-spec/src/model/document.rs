@@ -7,6 +7,7 @@ use super::{Date, Devices, Direction, EntryId, Index, Text};
 
 /// The printed manual that a specification stands for.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Document {
     /// Title of the manual.
     pub source: Option<String>,
@@ -53,6 +54,7 @@ impl Document {
 
 /// One issue of the manual.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Issue {
     /// Its number, as printed.
     pub number: String,
@@ -64,6 +66,7 @@ pub struct Issue {
 
 /// A chapter or section.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Section {
     /// Number, as printed: `4.1.1`; empty for parts without one.
     pub number: String,
@@ -75,6 +78,7 @@ pub struct Section {
 
 /// A table of the manual.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Table {
     /// Number, as printed; `None` for tables without one.
     pub number: Option<u16>,
@@ -133,6 +137,7 @@ pub struct PdoTable {
 
 /// A place where the printed manual says something else than the specification, or nothing at all.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Erratum {
     /// Objects or entries it is about; empty for none in particular.
     pub at: Vec<ErratumPlace>,

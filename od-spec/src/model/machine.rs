@@ -4,6 +4,7 @@ use super::{Devices, EntryId, Text};
 
 /// A state machine that a command entry drives and a status entry shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StateMachine {
     /// Name.
     pub name: String,
@@ -23,6 +24,7 @@ pub struct StateMachine {
 
 /// A state and how the status entry shows it.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct State {
     /// Name.
     pub name: String,
@@ -34,6 +36,7 @@ pub struct State {
 
 /// A transition between states.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Transition {
     /// Number in the standard or the manual.
     pub number: u8,
@@ -49,6 +52,7 @@ pub struct Transition {
 
 /// A command and its coding in the command entry.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Command {
     /// Name.
     pub name: String,

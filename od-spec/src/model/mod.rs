@@ -31,7 +31,7 @@ pub use document::{
 pub use download::{NoSuchValue, Write, download};
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
-pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, NamedType, TypeKind};
+pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use ratio::Ratio;
@@ -45,12 +45,11 @@ pub use unit::{Base, Unit};
 pub use value::{Value, convert};
 pub use views::{Carrier, Devices, PdoField, View};
 
-pub use crate::wording::format_value;
-
 use crate::source::Span;
 
 /// Everything that one specification describes.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct System {
     /// Title of the product or family.
     pub title: String,
@@ -90,6 +89,7 @@ impl System {
 
 /// The maker of a device.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Vendor {
     /// Company name.
     pub name: String,
@@ -101,6 +101,7 @@ pub struct Vendor {
 
 /// An emergency and error code (603Fh, 1003h).
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ErrorCode {
     /// The code.
     pub code: u16,
@@ -118,6 +119,7 @@ pub struct ErrorCode {
 
 /// A condition between entries that every configuration must meet.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Constraint {
     /// Name.
     pub name: String,

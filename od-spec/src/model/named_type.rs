@@ -5,6 +5,7 @@ use crate::source::Spanned;
 
 /// An enum or a bit field with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NamedType {
     /// Name.
     pub name: String,
@@ -29,6 +30,7 @@ pub enum TypeKind {
 
 /// One value of an enum.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EnumValue {
     /// Raw value.
     pub value: i128,
@@ -42,6 +44,7 @@ pub struct EnumValue {
 
 /// One bit, or a run of bits that belong together.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BitField {
     /// Lowest bit.
     pub first: u8,
@@ -65,8 +68,20 @@ pub struct BitField {
     pub priority: Option<String>,
     /// Named values of a run of bits.
     pub values: Vec<EnumValue>,
-    /// Meanings that apply only in one mode of operation: mode, name, meaning.
-    pub modes: Vec<(String, String, Text)>,
+    /// Meanings that apply only in one mode of operation.
+    pub modes: Vec<ModeMeaning>,
+}
+
+/// What bits mean in one mode of operation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ModeMeaning {
+    /// The mode.
+    pub mode: String,
+    /// Name of the bits in this mode.
+    pub name: String,
+    /// Meaning.
+    pub about: Text,
 }
 
 impl BitField {
@@ -78,6 +93,7 @@ impl BitField {
 
 /// Error codes that one entry adds to a bit of its shared type.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct BitErrors {
     /// Lowest bit of the field.
     pub bit: u8,

@@ -68,6 +68,7 @@ impl Origin {
 
 /// One object of a dictionary.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Object {
     /// Index.
     pub index: Index,
@@ -114,6 +115,7 @@ impl Object {
 
 /// One addressable value.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Entry {
     /// Sub-index.
     pub sub: SubIndex,
@@ -166,6 +168,36 @@ pub struct Entry {
 }
 
 impl Entry {
+    /// An entry about which nothing more is said: without value, limits, mapping and storage, and in an EDS as it is.
+    pub(crate) fn new(sub: SubIndex, name: String, data_type: DataType, access: Access, span: Span) -> Self {
+        Self {
+            sub,
+            name,
+            data_type,
+            named_type: None,
+            access,
+            locked: false,
+            pdo: PdoMapping::None,
+            default: None,
+            low: None,
+            high: None,
+            unit: None,
+            special: Vec::new(),
+            stored: Storage::No,
+            alias: None,
+            category: None,
+            since: None,
+            writable_when: None,
+            capacity: None,
+            identifier: None,
+            bit_errors: Vec::new(),
+            eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
+            facts: Facts::none(),
+            about: Text::default(),
+            span,
+        }
+    }
+
     /// Smallest and largest value that an EDS or a server can state as plain limits: the declared
     /// limits, widened to take in the special values. `None` where nothing limits that side.
     pub fn hull(&self) -> (Option<i128>, Option<i128>) {
@@ -221,6 +253,7 @@ impl Entry {
 
 /// A raw value with a meaning of its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SpecialValue {
     /// Raw value.
     pub value: i128,
@@ -232,6 +265,7 @@ pub struct SpecialValue {
 
 /// A view of another entry in a narrower type or another unit; it has no storage of its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Alias {
     /// The entry that holds the value.
     pub target: EntryId,
@@ -245,6 +279,7 @@ pub struct Alias {
 
 /// What the EDS shows of an entry beyond its own facts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct EdsPolicy {
     /// Access written into the EDS.
     pub access: Access,

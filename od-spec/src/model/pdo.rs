@@ -7,6 +7,7 @@ use crate::source::Span;
 
 /// A PDO with its default communication and mapping parameters.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Pdo {
     /// Direction, seen from the device.
     pub direction: Direction,

@@ -4,6 +4,7 @@ use super::{Expr, Ratio, Statement, Text};
 
 /// A physical unit: what one raw step is worth.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Unit {
     /// Name in the specification, such as `decicelsius`.
     pub name: String,
@@ -23,6 +24,7 @@ pub struct Unit {
 
 /// The relation of a unit's symbol to a more basic one.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Base {
     /// The basic symbol.
     pub symbol: String,

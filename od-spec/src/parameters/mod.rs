@@ -33,6 +33,33 @@ struct Setting {
 
 /// Reads settings for the node of a device and checks them: entry, type, limits, locks, PDO parameters, constraints.
 /// What is wrong goes to `diagnostics`; use the values only if no error is among them.
+///
+/// ```
+/// use od_spec::diag::Diagnostics;
+/// use od_spec::source::{SourceMap, Spanned};
+/// use od_spec::{NoFiles, assign, compile};
+///
+/// let mut sources = SourceMap::new();
+/// let root = sources.add("lamp.od.yaml", "
+/// od-spec: 1
+/// title: Lamp
+/// uses: [cia301]
+/// devices:
+///   lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+/// objects:
+///   0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100}
+/// ");
+/// let system = compile(&mut sources, root, &mut NoFiles).system.expect("no errors");
+/// let mut set = |text: &str| {
+///     let file = sources.add("--set", text);
+///     let setting = Spanned::new(text.to_owned(), sources.whole(file));
+///     let mut diagnostics = Diagnostics::new();
+///     let values = assign(&system, &system.devices[0], 5, &[setting], &mut diagnostics);
+///     (values.len(), diagnostics.iter().map(|message| message.code.id).collect::<Vec<_>>())
+/// };
+/// assert_eq!(set("brightness=90"), (1, vec![]));
+/// assert_eq!(set("2000=101").1, ["OD0406"]); // outside the limits
+/// ```
 pub fn assign(
     system: &System,
     device: &Dictionary,

@@ -2,9 +2,10 @@
 
 use super::{Assignment, Setting};
 use crate::diag::{Diagnostic, codes};
-use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value, format_value};
+use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value};
 use crate::resolve::{self, values};
 use crate::source::Span;
+use crate::wording::format_value;
 
 /// Why a setting cannot be read.
 pub(super) struct Unread {

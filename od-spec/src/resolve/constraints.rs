@@ -19,9 +19,10 @@ pub(super) fn resolve(
     for decl in &root.objects {
         check_write_conditions(decl, devices, broken, diagnostics);
     }
-    for formula in root.units.iter().filter_map(|unit| unit.formula.as_ref()) {
-        check_known(formula, &devices.iter().collect::<Vec<_>>(), broken, diagnostics);
-        check_operands(formula, devices, diagnostics);
+    for formula in root.units.iter().filter_map(|unit| unit.formula.clone()) {
+        let formula = formula.map(|formula| formula.0);
+        check_known(&formula, &devices.iter().collect::<Vec<_>>(), broken, diagnostics);
+        check_operands(&formula, devices, diagnostics);
     }
     root.constraints.iter().filter_map(|decl| constraint(decl, devices, broken, diagnostics)).collect()
 }
@@ -38,8 +39,8 @@ fn check_write_conditions(
     let common = decl.array.iter().map(|array| &array.entry);
     let entries = members.chain(elements).map(|(_, entry)| entry).chain(common).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
-        let here = |device: &&Dictionary| device.objects.contains_key(&decl.index.value);
-        for device in devices.iter().filter(here) {
+        let has_object = |device: &&Dictionary| device.objects.contains_key(&decl.index.value);
+        for device in devices.iter().filter(has_object) {
             check_known(condition, std::slice::from_ref(&device), broken, diagnostics);
         }
         check_names_entries(condition, diagnostics);
@@ -129,14 +130,18 @@ fn check_units(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &
         let mut left = unit(&comparison.first);
         for (_, term) in &comparison.rest {
             let right = unit(term);
-            if let (Some((one, own)), Some((other, its))) = (&left, &right)
-                && own.base_symbol() != its.base_symbol()
+            if let (Some((left_term, left_unit)), Some((right_term, right_unit))) = (&left, &right)
+                && left_unit.base_symbol() != right_unit.base_symbol()
             {
                 diagnostics.push(
                     Diagnostic::new(
                         codes::UNITS_DIFFER,
                         condition.span,
-                        format!("{one} is in `{}`, {other} in `{}`", own.base_symbol(), its.base_symbol()),
+                        format!(
+                            "{left_term} is in `{}`, {right_term} in `{}`",
+                            left_unit.base_symbol(),
+                            right_unit.base_symbol()
+                        ),
                     )
                     .help("compare entries of one base unit, or correct a unit"),
                 );
@@ -170,12 +175,12 @@ fn constraint(
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();
     let unprefixed = || entries.iter().filter(|entry| entry.device.is_none());
     // Entries without a device are those of each device that has all of them.
-    let own: Vec<&Dictionary> = devices
+    let with_all_entries: Vec<&Dictionary> = devices
         .iter()
         .filter(|device| decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key)))
         .filter(|device| unprefixed().all(|entry| device.entry(entry.id).is_some()))
         .collect();
-    if own.is_empty() && unprefixed().next().is_some() {
+    if with_all_entries.is_empty() && unprefixed().next().is_some() {
         let known = |key: &Name| devices.iter().any(|device| device.key == key.value);
         let unknown_device = decl.on.as_ref().is_some_and(|on| !on.iter().all(known));
         if unknown_device || unprefixed().any(|entry| broken.has(entry.id.index)) {
@@ -194,7 +199,7 @@ fn constraint(
     let prefixed = entries.iter().filter_map(|entry| entry.device.clone());
     let mut keys: Vec<String> = prefixed.collect();
     if unprefixed().next().is_some() {
-        keys.extend(own.iter().map(|device| device.key.clone()));
+        keys.extend(with_all_entries.iter().map(|device| device.key.clone()));
     }
     keys.sort();
     keys.dedup();

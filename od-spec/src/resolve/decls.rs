@@ -27,10 +27,10 @@ pub(super) fn of_device<'a>(
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    let here = |decl: &ObjectDecl| {
+    let is_for_device = |decl: &ObjectDecl| {
         decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value))
     };
-    let mut declared = own(root, libraries, here, scope, diagnostics);
+    let mut declared = of_specification(root, libraries, is_for_device, scope, diagnostics);
     for (library, feature, axis) in features(libraries, device, diagnostics) {
         for index in &feature.objects {
             let Some(decl) = library.objects.iter().find(|decl| decl.index == *index) else {
@@ -70,11 +70,11 @@ pub(super) fn of_library<'a>(
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    own(root, libraries, |_| true, scope, diagnostics)
+    of_specification(root, libraries, |_| true, scope, diagnostics)
 }
 
 /// The declarations that stand in the specification itself.
-fn own<'a>(
+fn of_specification<'a>(
     root: &'a Spec,
     libraries: &'a [Spec],
     wanted: impl Fn(&ObjectDecl) -> bool,

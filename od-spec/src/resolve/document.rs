@@ -2,19 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use super::numbers::to_u16;
 use super::places;
 use super::refs::{Broken, Names};
-use super::scope::unknown;
-use super::to_u16;
+use super::table_content::Contents;
 use super::types::words;
-use crate::ast::{ContentDecl, IssueDecl, Name, Spec, TableDecl};
-use crate::check::codes as rule_codes;
+use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
-use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
     Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
-    TableContent, TypeKind,
+    TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -62,11 +60,11 @@ fn table(decl: &TableDecl) -> Option<Table> {
         ContentDecl::Transitions(name) => TableContent::Transitions(name.value.clone()),
         ContentDecl::Commands(name) => TableContent::Commands(name.value.clone()),
         ContentDecl::Ladder(name) => TableContent::Ladder(name.value.clone()),
-        ContentDecl::Pdos(device, direction) => {
+        ContentDecl::Pdos { device, direction } => {
             let (device, direction) = (device.as_ref()?.value.clone(), direction.as_ref()?.value);
             TableContent::Pdos(PdoTable { device, direction })
         }
-        ContentDecl::Rows(columns, rows) => TableContent::Rows {
+        ContentDecl::Rows { columns, rows } => TableContent::Rows {
             columns: columns.clone(),
             rows: rows.iter().map(|row| row.value.clone()).collect(),
         },
@@ -79,10 +77,7 @@ fn table(decl: &TableDecl) -> Option<Table> {
 
 /// Codes of a list; `all` is the empty list.
 fn error_codes(list: &[Name]) -> Vec<u16> {
-    list.iter()
-        .filter_map(|code| lexical::error_codes(&code.value))
-        .flat_map(|(first, last)| first..=last)
-        .collect()
+    list.iter().filter_map(|code| lexical::error_codes(&code.value)).flat_map(CodeRange::codes).collect()
 }
 
 pub(super) fn errata(
@@ -135,12 +130,16 @@ fn place(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErratumPlace> {
-    if let Some((id, has_sub)) = lexical::entry_by_index(&reference.value) {
-        let known = devices.iter().any(|device| {
-            if has_sub { device.entry(id).is_some() } else { device.objects.contains_key(&id.index) }
-        });
-        if known {
-            return Some(if has_sub { ErratumPlace::Entry(id) } else { ErratumPlace::Object(id.index) });
+    if let Some(entry) = lexical::entry_by_index(&reference.value) {
+        let is_known = |device: &&Dictionary| match entry.sub {
+            Some(_) => device.entry(entry.id()).is_some(),
+            None => device.objects.contains_key(&entry.index),
+        };
+        if devices.iter().any(is_known) {
+            return Some(match entry.sub {
+                Some(_) => ErratumPlace::Entry(entry.id()),
+                None => ErratumPlace::Object(entry.index),
+            });
         }
     }
     // By name, or wrong: the name lookup reports it.
@@ -168,7 +167,7 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
             );
         }
         match decl.contents.as_slice() {
-            [content] => check_content(&content.value, root, system, broken, diagnostics),
+            [content] => Contents { root, system, broken }.check(&content.value, diagnostics),
             [first, second, ..] => diagnostics.push(
                 Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a table is filled by one key only")
                     .with(first.span, "filled here")
@@ -180,105 +179,5 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
                     .help("write one of `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
             ),
         }
-    }
-}
-
-fn check_content(
-    content: &ContentDecl,
-    root: &Spec,
-    system: &System,
-    broken: &Broken,
-    diagnostics: &mut Diagnostics,
-) {
-    // What is declared, but did not make it into the model, was reported there.
-    let lost = |name: &str| match content {
-        ContentDecl::Bits(_) | ContentDecl::Values(_) => {
-            !system.types.contains_key(name) && root.types.iter().any(|decl| decl.name.value == name)
-        }
-        ContentDecl::Ladder(_) => root.constraints.iter().any(|decl| decl.name.value == name),
-        ContentDecl::States(_) | ContentDecl::Transitions(_) | ContentDecl::Commands(_) => {
-            root.machines.iter().any(|decl| decl.name.value == name)
-        }
-        _ => false,
-    };
-    let mut known = |name: &Name, what: &str, names: Vec<&str>, help: &str| {
-        if !names.contains(&name.value.as_str()) && !lost(&name.value) {
-            diagnostics.push(unknown(codes::UNKNOWN_REFERENCE, name, what, names, help));
-        }
-    };
-    match content {
-        ContentDecl::Overview(list) | ContentDecl::Objects(list) => {
-            for index in list {
-                let known = system.devices.iter().any(|device| device.objects.contains_key(&index.value));
-                if !known && !broken.has(index.value) {
-                    diagnostics.push(
-                        Diagnostic::new(
-                            codes::UNKNOWN_ENTRY,
-                            index.span,
-                            format!("there is no object {}", index.value),
-                        )
-                        .help("correct the index, or define the object"),
-                    );
-                }
-            }
-        }
-        ContentDecl::Bits(name) => {
-            let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Bits(_)));
-            known(
-                name,
-                "bit field",
-                types.map(|named| named.name.as_str()).collect(),
-                "define it under `types:`",
-            );
-        }
-        ContentDecl::Values(name) => {
-            let types = system.types.values().filter(|named| matches!(named.kind, TypeKind::Enum(_)));
-            known(name, "enum", types.map(|named| named.name.as_str()).collect(), "define it under `types:`");
-        }
-        ContentDecl::States(name) | ContentDecl::Transitions(name) | ContentDecl::Commands(name) => {
-            let machines = system.machines.keys().map(String::as_str).collect();
-            known(name, "state machine", machines, "define it under `state-machines:`");
-        }
-        ContentDecl::Ladder(name) => {
-            let constraints = system.constraints.iter().map(|constraint| constraint.name.as_str()).collect();
-            known(name, "constraint", constraints, "define it under `constraints:`");
-        }
-        ContentDecl::Pdos(Some(name), _) => {
-            let devices = system.devices.iter().map(|device| device.key.as_str()).collect();
-            known(name, "device", devices, "define it under `devices:`");
-        }
-        ContentDecl::Errors(list) | ContentDecl::Reactions(list) => {
-            for code in list.iter().filter(|code| code.value != "all") {
-                let range = lexical::error_codes(&code.value);
-                let has = |code: u16| system.errors.binary_search_by_key(&code, |error| error.code).is_ok();
-                if !range.is_some_and(|(first, last)| (first..=last).all(has)) {
-                    diagnostics.push(
-                        Diagnostic::new(
-                            codes::UNKNOWN_REFERENCE,
-                            code.span,
-                            format!("there is no error code `{}`", shorten(&code.value)),
-                        )
-                        .help("define it under `errors:`, or write `all`"),
-                    );
-                }
-            }
-        }
-        ContentDecl::Rows(columns, rows) => {
-            for row in rows.iter().filter(|row| row.value.len() != columns.len()) {
-                diagnostics.push(
-                    Diagnostic::new(
-                        rule_codes::COUNT_MISMATCH,
-                        row.span,
-                        format!(
-                            "this row has {} cells, the table has {} columns",
-                            row.value.len(),
-                            columns.len()
-                        ),
-                    )
-                    .help("write one cell per column; `\"\"` for an empty one"),
-                );
-            }
-        }
-        ContentDecl::Pdos(None, _) | ContentDecl::Glossary | ContentDecl::History => {}
     }
 }

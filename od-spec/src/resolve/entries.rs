@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{BitErrorDecl, EntryDecl, Name, SpecialDecl};
+use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -53,7 +53,7 @@ pub(super) fn resolve(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Entry> {
-    let (data_type, named_type) = entry_type(decl, around.scope, diagnostics)?;
+    let EntryType { data_type, named_type } = entry_type(decl, around.scope, diagnostics)?;
     let Some(access) = &decl.access else {
         if decl.unsure {
             return None;
@@ -126,7 +126,7 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
         );
         return None;
     }
-    let bytes = super::to_u16(capacity.value);
+    let bytes = super::numbers::to_u16(capacity.value);
     if data_type == DataType::UnicodeString && bytes % 2 == 1 {
         diagnostics.push(
             Diagnostic::new(
@@ -160,12 +160,18 @@ pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Opt
     None
 }
 
-/// The data type and the named type of an entry.
+/// The data type of an entry, and the enum or bit field that gives its values a meaning.
+pub(super) struct EntryType {
+    pub data_type: DataType,
+    pub named_type: Option<Arc<NamedType>>,
+}
+
+/// The type of an entry.
 pub(super) fn entry_type(
     decl: &EntryDecl,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
-) -> Option<(DataType, Option<Arc<NamedType>>)> {
+) -> Option<EntryType> {
     let Some(name) = &decl.type_name else {
         if decl.unsure {
             return None;
@@ -177,10 +183,10 @@ pub(super) fn entry_type(
         return None;
     };
     if let Some(data_type) = DataType::from_name(&name.value) {
-        return Some((data_type, None));
+        return Some(EntryType { data_type, named_type: None });
     }
     if let Some(named) = scope.types.get(&name.value) {
-        return Some((named.base, Some(Arc::clone(named))));
+        return Some(EntryType { data_type: named.base, named_type: Some(Arc::clone(named)) });
     }
     if !scope.is_broken(&name.value) {
         let named = scope.types.keys().map(String::as_str);
@@ -266,7 +272,7 @@ fn bit_errors(
     };
     let mut errors = Vec::new();
     for decl in &list.value {
-        let (first, last) = decl.bits.value;
+        let BitRange { first, last } = decl.bits.value;
         if !fields.iter().any(|field| (field.first, field.last) == (first, last)) {
             diagnostics.push(
                 Diagnostic::new(
@@ -288,7 +294,7 @@ fn bit_errors(
             );
             continue;
         }
-        let codes = decl.codes.iter().map(|code| code.map(super::to_u16)).collect();
+        let codes = decl.codes.iter().map(|code| code.map(super::numbers::to_u16)).collect();
         errors.push(BitErrors { bit: first, codes });
     }
     errors.sort_by_key(|errors: &BitErrors| errors.bit);
@@ -307,7 +313,7 @@ fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPoli
         (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
         (access, _) => access,
     };
-    let own = decl.eds.as_ref().map(|eds| &eds.value);
+    let stated = decl.eds.as_ref().map(|eds| &eds.value);
     let protected = kept && entry.access.is_writable();
     let default = match defaults {
         EdsDefaults::All => true,
@@ -315,10 +321,10 @@ fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPoli
         EdsDefaults::Own => !protected && !entry.is_only_standard(Fact::Default),
     };
     EdsPolicy {
-        access: own.and_then(|eds| eds.access).unwrap_or(access),
-        default: own.and_then(|eds| eds.default).unwrap_or(default),
-        no_write: entry.locked || own.is_some_and(|eds| eds.no_write),
-        no_scan: own.is_some_and(|eds| eds.no_scan),
+        access: stated.and_then(|eds| eds.access).unwrap_or(access),
+        default: stated.and_then(|eds| eds.default).unwrap_or(default),
+        no_write: entry.locked || stated.is_some_and(|eds| eds.no_write),
+        no_scan: stated.is_some_and(|eds| eds.no_scan),
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::libraries;
 use super::types::words;
-use crate::ast::{ErrorDecl, Spec};
+use crate::ast::{CodeRange, ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Devices, ErrorCode, Text};
 use crate::source::Span;
@@ -12,7 +12,7 @@ use crate::source::Span;
 pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Vec<ErrorCode> {
     let mut codes: BTreeMap<u16, (Span, ErrorCode)> = BTreeMap::new();
     for decl in &root.errors {
-        let (first, last) = decl.codes.value;
+        let CodeRange { first, last } = decl.codes.value;
         if let Some((code, (before, _))) = codes.range(first..=last).next() {
             diagnostics.push(
                 Diagnostic::new(
@@ -48,7 +48,7 @@ fn error(
     library: Option<&Spec>,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErrorCode> {
-    let covers = |decl: &&ErrorDecl| (decl.codes.value.0..=decl.codes.value.1).contains(&code);
+    let covers = |decl: &&ErrorDecl| decl.codes.value.codes().contains(&code);
     let below = library.and_then(|library| library.errors.iter().find(covers));
     if let (Some(from), Some(_), None) = (&decl.from, library, below) {
         let missing = libraries::not_there(from, &format!("error code {code:04X}h"));
@@ -56,7 +56,7 @@ fn error(
         return None;
     }
     let name = |decl: &ErrorDecl| {
-        let number = u32::from(code.saturating_sub(decl.codes.value.0)) + 1;
+        let number = u32::from(code.saturating_sub(decl.codes.value.first)) + 1;
         Some(decl.name.as_ref()?.value.replace("{n}", &number.to_string()))
     };
     let Some(name) = name(decl).or_else(|| name(below?)).or_else(|| decl.unsure.then(String::new)) else {
@@ -70,7 +70,9 @@ fn error(
         );
         return None;
     };
-    let text = |own: Text, below: Option<Text>| if own.is_empty() { below.unwrap_or_default() } else { own };
+    let text = |written: Text, below: Option<Text>| {
+        if written.is_empty() { below.unwrap_or_default() } else { written }
+    };
     Some(ErrorCode {
         code,
         name,

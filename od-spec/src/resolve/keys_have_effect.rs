@@ -1,6 +1,6 @@
 //! No key is read and then ignored: what stands in a specification has an effect where it stands.
 
-use crate::ast::{EntryDecl, ObjectDecl, Spec};
+use crate::ast::{ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::PatternBit;
 use crate::source::Span;
@@ -28,9 +28,9 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
         let help = "add `profile:` to make the file a library, or remove it";
         refuse("axes", axes.span, "only a library has axes", help, diagnostics);
     }
-    for (_, pattern, _) in root.machines.iter().flat_map(|machine| &machine.states) {
+    for state in root.machines.iter().flat_map(|machine| &machine.states) {
         let edge = |bit: &PatternBit| matches!(bit, PatternBit::Rising | PatternBit::Falling);
-        if let Some(pattern) = pattern.as_ref().filter(|pattern| pattern.value.0.iter().any(edge)) {
+        if let Some(pattern) = state.pattern.as_ref().filter(|pattern| pattern.value.0.iter().any(edge)) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::BAD_NOTATION,
@@ -67,20 +67,9 @@ pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
         refuse("omit", sub.span, "nothing is taken from a library", help, diagnostics);
     }
     if array.is_some() || record.is_some() {
-        let EntryDecl { default, min, max, special, bit_errors, capacity, .. } = entry;
-        let keys = [
-            ("default", default.as_ref().map(|key| key.span)),
-            ("min", min.as_ref().map(|key| key.span)),
-            ("max", max.as_ref().map(|key| key.span)),
-            ("special", special.as_ref().map(|key| key.span)),
-            ("bit-errors", bit_errors.as_ref().map(|key| key.span)),
-            ("capacity", capacity.as_ref().map(|key| key.span)),
-        ];
-        for (key, span) in keys {
-            if let Some(span) = span {
-                let help = format!("move `{key}` to the entries that it is meant for");
-                refuse(key, span, "the object has several values", &help, diagnostics);
-            }
+        for key in entry.about_one_value() {
+            let help = format!("move `{}` to the entries that it is meant for", key.value);
+            refuse(key.value, key.span, "the object has several values", &help, diagnostics);
         }
     }
 }

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::libraries;
+use super::numbers::{to_u8, to_u32};
 use super::refs::{Broken, Names};
 use super::scope::unknown;
 use super::types::words;
-use super::{to_u8, to_u32};
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
@@ -64,41 +64,41 @@ fn whole<'a>(
         return None;
     };
     let mut states = below.states.clone();
-    for (name, pattern, about) in &decl.states {
-        match states.iter_mut().find(|(below, ..)| below.value == name.value) {
+    for over in &decl.states {
+        match states.iter_mut().find(|below| below.name.value == over.name.value) {
             Some(state) => {
-                state.1 = pattern.clone().or_else(|| state.1.clone());
-                state.2 = about.clone().or_else(|| state.2.clone());
+                state.pattern = over.pattern.clone().or_else(|| state.pattern.clone());
+                state.about = over.about.clone().or_else(|| state.about.clone());
             }
-            None => states.push((name.clone(), pattern.clone(), about.clone())),
+            None => states.push(over.clone()),
         }
     }
     let mut transitions = below.transitions.clone();
-    for own in &decl.transitions {
-        match transitions.iter_mut().find(|below| below.number.value == own.number.value) {
+    for over in &decl.transitions {
+        match transitions.iter_mut().find(|below| below.number.value == over.number.value) {
             Some(transition) => {
-                if !own.from.is_empty() {
-                    transition.from.clone_from(&own.from);
+                if !over.from.is_empty() {
+                    transition.from.clone_from(&over.from);
                 }
-                transition.to = own.to.clone().or_else(|| transition.to.clone());
-                transition.event = own.event.clone().or_else(|| transition.event.clone());
-                transition.action = own.action.clone().or_else(|| transition.action.clone());
+                transition.to = over.to.clone().or_else(|| transition.to.clone());
+                transition.event = over.event.clone().or_else(|| transition.event.clone());
+                transition.action = over.action.clone().or_else(|| transition.action.clone());
             }
-            None => transitions.push(own.clone()),
+            None => transitions.push(over.clone()),
         }
     }
     let mut commands = below.commands.clone();
-    for own in &decl.commands {
-        match commands.iter_mut().find(|below| below.name.value == own.name.value) {
+    for over in &decl.commands {
+        match commands.iter_mut().find(|below| below.name.value == over.name.value) {
             Some(command) => {
-                command.pattern = own.pattern.clone().or_else(|| command.pattern.clone());
-                command.send = own.send.or(command.send);
-                command.about = own.about.clone().or_else(|| command.about.clone());
-                if !own.transitions.is_empty() {
-                    command.transitions.clone_from(&own.transitions);
+                command.pattern = over.pattern.clone().or_else(|| command.pattern.clone());
+                command.send = over.send.or(command.send);
+                command.about = over.about.clone().or_else(|| command.about.clone());
+                if !over.transitions.is_empty() {
+                    command.transitions.clone_from(&over.transitions);
                 }
             }
-            None => commands.push(own.clone()),
+            None => commands.push(over.clone()),
         }
     }
     Some(Cow::Owned(MachineDecl {
@@ -152,14 +152,16 @@ fn machine(
     let states: Vec<State> = decl
         .states
         .iter()
-        .filter_map(|(name, pattern, about)| {
-            check_width(pattern.as_ref()?, status, device, diagnostics)?;
-            Some(State { name: name.value.clone(), pattern: pattern.clone()?.value, about: words(about) })
+        .filter_map(|state| {
+            let pattern = state.pattern.as_ref()?;
+            check_width(pattern, status, device, diagnostics)?;
+            let (name, pattern) = (state.name.value.clone(), pattern.value.clone());
+            Some(State { name, pattern, about: words(&state.about) })
         })
         .collect();
     check_states_differ(decl, &states, diagnostics);
     let known = |name: &Name, diagnostics: &mut Diagnostics| {
-        let names = decl.states.iter().map(|(name, ..)| name.value.as_str());
+        let names = decl.states.iter().map(|state| state.name.value.as_str());
         let found = names.clone().any(|state| state == name.value);
         if !found {
             let otherwise = "name one of the machine's states";
@@ -171,7 +173,7 @@ fn machine(
     for one in &decl.transitions {
         let from = match one.from.as_slice() {
             [start] if start.value == "start" => Vec::new(),
-            [any] if any.value == "any" => decl.states.iter().map(|(name, ..)| name.value.clone()).collect(),
+            [any] if any.value == "any" => decl.states.iter().map(|state| state.name.value.clone()).collect(),
             list => {
                 list.iter().filter(|name| known(name, diagnostics)).map(|name| name.value.clone()).collect()
             }
@@ -256,8 +258,8 @@ fn check_complete(decl: &MachineDecl, diagnostics: &mut Diagnostics) {
                 .help(format!("add `{key}:`")),
         );
     };
-    for (name, ..) in decl.states.iter().filter(|(_, pattern, _)| pattern.is_none()) {
-        missing(name.span, "a state", "pattern");
+    for state in decl.states.iter().filter(|state| state.pattern.is_none()) {
+        missing(state.name.span, "a state", "pattern");
     }
     for one in &decl.transitions {
         let keys = [("from", one.from.is_empty()), ("to", one.to.is_none()), ("event", one.event.is_none())];
@@ -297,22 +299,25 @@ fn check_width(
 fn check_states_differ(decl: &MachineDecl, states: &[State], diagnostics: &mut Diagnostics) {
     for (at, state) in states.iter().enumerate() {
         let (mask, value) = state.pattern.mask_and_value();
-        for other in &states[at + 1..] {
-            let (other_mask, other_value) = other.pattern.mask_and_value();
-            let common = mask & other_mask;
-            if value & common != other_value & common {
+        for later in &states[at + 1..] {
+            let (later_mask, later_value) = later.pattern.mask_and_value();
+            let common = mask & later_mask;
+            if value & common != later_value & common {
                 continue;
             }
-            let span = |name: &str| decl.states.iter().find(|(n, ..)| n.value == name).map(|(n, ..)| n.span);
-            let (Some(here), Some(there)) = (span(&other.name), span(&state.name)) else { continue };
+            let named = |name: &str| decl.states.iter().find(|state| state.name.value == name);
+            let span = |name: &str| named(name).map(|state| state.name.span);
+            let (Some(later_place), Some(earlier_place)) = (span(&later.name), span(&state.name)) else {
+                continue;
+            };
             diagnostics.push(
                 Diagnostic::new(
                     codes::AMBIGUOUS_STATES,
-                    here,
-                    format!("`{}` and `{}` can look the same in the status entry", state.name, other.name),
+                    later_place,
+                    format!("`{}` and `{}` can look the same in the status entry", state.name, later.name),
                 )
                 .label("this state")
-                .with(there, "and this one")
+                .with(earlier_place, "and this one")
                 .help("give the patterns a bit that is 0 in one state and 1 in the other"),
             );
         }

@@ -1,7 +1,9 @@
 //! From what is written to what is meant: names looked up, defaults filled in, arrays expanded, values typed.
 
+mod aliases;
 mod constraints;
 mod decls;
+mod device_info;
 mod devices;
 mod document;
 mod entries;
@@ -9,12 +11,14 @@ mod errors;
 mod keys_have_effect;
 mod libraries;
 mod machines;
+mod numbers;
 mod objects;
 mod pdo_objects;
 mod pdos;
 mod places;
 mod refs;
 mod scope;
+mod table_content;
 mod types;
 pub(crate) mod values;
 
@@ -23,6 +27,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{System, Vendor};
 use crate::source::Span;
 
+use numbers::to_u32;
 pub(crate) use refs::lookup;
 use scope::Scope;
 
@@ -77,19 +82,4 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
 /// The first line of a file-wide span: enough to show where the file starts.
 fn start(span: Span) -> Span {
     span.part(0, 1)
-}
-
-/// A number that its key table limits to 32 bits.
-fn to_u32(value: i128) -> u32 {
-    u32::try_from(value).unwrap_or_default()
-}
-
-/// A number that its key table limits to 16 bits.
-fn to_u16(value: i128) -> u16 {
-    u16::try_from(value).unwrap_or_default()
-}
-
-/// A number that its key table limits to 8 bits.
-fn to_u8(value: i128) -> u8 {
-    u8::try_from(value).unwrap_or_default()
 }

@@ -7,8 +7,7 @@ use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, DataType, EdsPolicy, Entry, Fact, Object, ObjectKind, PdoMapping, Statement,
-    Storage, SubIndex, Text, Value,
+    Access, AccessRight, DataType, Entry, Fact, Object, ObjectKind, Statement, SubIndex, Value,
 };
 use crate::source::Spanned;
 
@@ -71,21 +70,6 @@ pub(super) fn resolve(
     })
 }
 
-/// What elements and members take from their object.
-fn inherited(object: &EntryDecl) -> EntryDecl {
-    EntryDecl {
-        type_name: object.type_name.clone(),
-        unit: object.unit.clone(),
-        access: object.access,
-        pdo: object.pdo,
-        stored: object.stored,
-        writable_when: object.writable_when.clone(),
-        eds: object.eds.clone(),
-        unsure: object.unsure,
-        ..EntryDecl::empty(object.span)
-    }
-}
-
 fn elements(
     decl: &ObjectDecl,
     array: &ArrayDecl,
@@ -107,7 +91,7 @@ fn elements(
             );
             return None;
         }
-        (Some(count), _) => super::to_u8(count.value),
+        (Some(count), _) => super::numbers::to_u8(count.value),
         (None, Some(highest)) => highest,
         (None, None) => {
             if !array.entry.unsure {
@@ -124,11 +108,11 @@ fn elements(
         }
     };
     let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
-    let common = EntryDecl { name: None, ..array.entry.over(&inherited(&decl.entry)) };
+    let common = EntryDecl { name: None, ..array.entry.over(&decl.entry.inherited()) };
     let (mut list, mut broken) = (Vec::new(), false);
     for sub in (1..=count).filter(|sub| !omitted(*sub)) {
-        let own = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
-        let merged = own.map_or_else(|| common.clone(), |own| own.over(&common));
+        let element = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
+        let merged = element.map_or_else(|| common.clone(), |element| element.over(&common));
         let pattern = array.entry.name.as_ref().map(|pattern| pattern.value.replace("{n}", &sub.to_string()));
         let own_name = merged.name.as_ref().map(|name| name.value.replace("{n}", &sub.to_string()));
         let Some(name) = own_name.or(pattern) else {
@@ -161,7 +145,7 @@ fn members(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    let common = inherited(&decl.entry);
+    let common = decl.entry.inherited();
     let (mut list, mut broken) = (Vec::new(), false);
     for (sub, member) in &record.members {
         if decl.omit.iter().any(|omit| omit.value == i128::from(sub.value.0)) {
@@ -194,9 +178,9 @@ fn members(
 }
 
 /// A condition that the object states for all its members concerns those that can be written.
-fn with_fitting_condition(merged: EntryDecl, own: &EntryDecl) -> EntryDecl {
+fn with_fitting_condition(merged: EntryDecl, member: &EntryDecl) -> EntryDecl {
     let writable = merged.access.is_some_and(|access| access.value.access.is_writable());
-    let writable_when = if writable { merged.writable_when } else { own.writable_when.clone() };
+    let writable_when = if writable { merged.writable_when } else { member.writable_when.clone() };
     EntryDecl { writable_when, ..merged }
 }
 
@@ -218,42 +202,21 @@ fn finish(
         );
         return None;
     };
-    let own = decl.sub0.as_ref();
-    let span = own.map_or(decl.index.span, |own| own.span);
+    let count = decl.sub0.as_ref();
+    let span = count.map_or(decl.index.span, |count| count.span);
     let mut sub0 = Entry {
-        sub: SubIndex(0),
-        name: "number of elements".to_owned(),
-        data_type: DataType::Unsigned8,
-        named_type: None,
-        access: Access::Ro,
-        locked: false,
-        pdo: PdoMapping::None,
         default: Some(Value::Integer(i128::from(highest.0))),
-        low: None,
-        high: None,
-        unit: None,
-        special: Vec::new(),
-        stored: Storage::No,
-        alias: None,
-        category: None,
-        since: None,
-        writable_when: None,
-        capacity: None,
-        identifier: None,
-        bit_errors: Vec::new(),
-        eds: EdsPolicy { access: Access::Ro, default: true, no_write: false, no_scan: false },
         facts: [(Fact::Default, Statement::derived(span))].into_iter().collect(),
-        about: Text::default(),
-        span,
+        ..Entry::new(SubIndex(0), "number of elements".to_owned(), DataType::Unsigned8, Access::Ro, span)
     };
-    if let Some(own) = own {
+    if let Some(count) = count {
         let usual = EntryDecl {
             type_name: Some(Spanned::new("unsigned8".to_owned(), span)),
             access: Some(Spanned::new(AccessRight { access: Access::Ro, locked: false }, span)),
             ..EntryDecl::empty(span)
         };
-        let name = own.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());
-        let given = entries::resolve(&own.over(&usual), SubIndex(0), name, around, diagnostics)?;
+        let name = count.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());
+        let given = entries::resolve(&count.over(&usual), SubIndex(0), name, around, diagnostics)?;
         let count = sub0.default;
         sub0 = given;
         if sub0.default.is_none() {

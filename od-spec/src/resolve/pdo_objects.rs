@@ -2,8 +2,8 @@
 
 use crate::ast::PdoDecl;
 use crate::model::{
-    Access, DataType, EdsPolicy, Entry, Fact, Index, Mapped, Object, ObjectKind, Origin, Pdo, PdoMapping,
-    Statement, Storage, SubIndex, Text, Value,
+    Access, DataType, Entry, Fact, Index, Mapped, Object, ObjectKind, Origin, Pdo, Statement, Storage,
+    SubIndex, Text, Value,
 };
 use crate::source::{Span, Spanned};
 
@@ -23,30 +23,11 @@ impl Parameter {
     fn into_entry(self, span: Span) -> Entry {
         let access = if self.writable { Access::Rw } else { Access::Ro };
         Entry {
-            sub: SubIndex(self.sub),
-            name: self.name,
-            data_type: self.data_type,
-            named_type: None,
-            access,
-            locked: false,
-            pdo: PdoMapping::None,
             default: Some(self.default),
-            low: None,
-            high: None,
-            unit: None,
-            special: Vec::new(),
             stored: if self.writable { Storage::Communication } else { Storage::No },
-            alias: None,
-            category: None,
-            since: None,
-            writable_when: None,
-            capacity: None,
-            identifier: None,
-            bit_errors: Vec::new(),
-            eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
             facts: [(Fact::Default, self.stated)].into_iter().collect(),
             about: english(self.about),
-            span,
+            ..Entry::new(SubIndex(self.sub), self.name, self.data_type, access, span)
         }
     }
 }

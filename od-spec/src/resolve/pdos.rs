@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::numbers::{to_u8, to_u16};
 use super::pdo_objects::{communication_object, mapping_object};
 use super::refs::{Broken, Names};
 use super::types::words;
 use super::values::{self, Expected};
-use super::{to_u8, to_u16};
 use crate::ast::{Name, PdoDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
@@ -55,7 +55,7 @@ fn pdo(
     let valid = decl.valid.is_none_or(|valid| valid.value);
     let used = to_u8(i128::try_from(map.len()).unwrap_or(i128::MAX));
     let capacity = match &decl.capacity {
-        _ if decl.fixed => used,
+        _ if decl.is_fixed() => used,
         Some(capacity) => to_u8(capacity.value),
         None => 64 / info.granularity.max(1),
     };
@@ -68,7 +68,7 @@ fn pdo(
         inhibit_time: decl.inhibit_time.map(|value| to_u16(value.value)),
         event_timer: decl.event_timer.map(|value| to_u16(value.value)),
         sync_start: decl.sync_start.map(|value| to_u8(value.value)),
-        variable_mapping: !decl.fixed,
+        variable_mapping: !decl.is_fixed(),
         capacity,
         map: map.iter().map(|mapped| mapped.value.clone()).collect(),
         about: words(&decl.about),

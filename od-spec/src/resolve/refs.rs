@@ -21,9 +21,9 @@ impl Broken {
         self.names.extend(name.map(|name| name.value.clone()));
     }
 
-    pub(super) fn append(&mut self, other: Broken) {
-        self.indices.extend(other.indices);
-        self.names.extend(other.names);
+    pub(super) fn append(&mut self, more: Broken) {
+        self.indices.extend(more.indices);
+        self.names.extend(more.names);
     }
 
     pub(super) fn has(&self, index: Index) -> bool {
@@ -69,7 +69,7 @@ impl Names {
     ) -> Option<EntryId> {
         let text = reference.value.as_str();
         if lexical::looks_like_index(text) {
-            let (id, _) = lexical::entry_by_index(text)?;
+            let id = lexical::entry_by_index(text)?.id();
             if exists(id) {
                 return Some(id);
             }

@@ -121,8 +121,11 @@ fn unit(decl: &UnitDecl, maker: FileId) -> Option<Unit> {
         name: decl.name.value.clone(),
         symbol: decl.symbol.as_ref()?.value.clone(),
         scale: decl.scale.as_ref().map_or(Ratio::ONE, |scale| scale.value),
-        base: decl.base.as_ref().map(|base| Base { symbol: base.value.1.clone(), factor: base.value.0 }),
-        formula: decl.formula.as_ref().map(|formula| formula.value.clone()),
+        base: decl
+            .base
+            .as_ref()
+            .map(|base| Base { symbol: base.value.symbol.clone(), factor: base.value.factor }),
+        formula: decl.formula.as_ref().map(|formula| formula.value.0.clone()),
         about: decl.about.as_ref().map(|about| about.value.clone()).unwrap_or_default(),
         stated: Statement::written(decl.name.span, maker),
     })

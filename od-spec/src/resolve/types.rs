@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::to_u16;
-use crate::ast::{BitDecl, TypeDecl, ValueDecl, Words};
+use super::numbers::to_u16;
+use crate::ast::{BitDecl, BitRange, TypeDecl, ValueDecl, Words};
 use crate::check::codes as rule_codes;
 use crate::decode::nearest;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{BitField, BitUsage, DataType, EnumValue, NamedType, Statement, Text, TypeKind};
+use crate::model::{
+    BitField, BitUsage, DataType, EnumValue, ModeMeaning, NamedType, Statement, Text, TypeKind,
+};
 use crate::source::{FileId, Span, Spanned};
 
 /// Resolves a type; `None` when it is too broken to be used.
@@ -146,7 +148,7 @@ fn bits(
     let mut names: BTreeMap<&str, Span> = BTreeMap::new();
     let mut fields = Vec::new();
     for bit in list {
-        let Spanned { value: (first, last), span } = bit.bits;
+        let Spanned { value: BitRange { first, last }, span } = bit.bits;
         if last >= width {
             diagnostics.push(
                 Diagnostic::new(rule_codes::VALUE_DOES_NOT_FIT, span, format!("{base} has no bit {last}"))
@@ -179,7 +181,7 @@ fn bits(
 }
 
 fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
-    let (first, last) = bit.bits.value;
+    let BitRange { first, last } = bit.bits.value;
     if bit.usage == BitUsage::Used && bit.name.is_none() && bit.modes.is_empty() {
         diagnostics.push(
             Diagnostic::new(codes::MISSING_KEY, bit.bits.span, "a bit needs the key `name`")
@@ -202,8 +204,9 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
         modes: bit
             .modes
             .iter()
-            .filter_map(|(mode, name, about)| {
-                Some((mode.value.clone(), name.as_ref()?.value.clone(), words(about)))
+            .filter_map(|bit| {
+                let (mode, name) = (bit.mode.value.clone(), bit.name.as_ref()?.value.clone());
+                Some(ModeMeaning { mode, name, about: words(&bit.about) })
             })
             .collect(),
     }

@@ -17,9 +17,9 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let node = arguments.get(1).and_then(|node| node.parse().ok());
     match (arguments.first().map(String::as_str), node) {
-        (Some("fullmo"), Some(node)) => serve(Fullmo::new(node)),
-        (Some("pmc"), Some(node)) => serve(Pmc::new(node)),
-        (Some("pmm"), Some(node)) => serve(Pmm::new(node)),
+        (Some("fullmo"), Some(node)) => serve::<{ Fullmo::LARGEST_VALUE }>(Fullmo::new(node)),
+        (Some("pmc"), Some(node)) => serve::<{ Pmc::LARGEST_VALUE }>(Pmc::new(node)),
+        (Some("pmm"), Some(node)) => serve::<{ Pmm::LARGEST_VALUE }>(Pmm::new(node)),
         _ => {
             eprintln!("usage: sdo-server fullmo|pmc|pmm NODE");
             return ExitCode::from(2);
@@ -28,8 +28,8 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn serve<D: Dictionary>(dictionary: D) {
-    let mut server = server::Server::new(dictionary, ());
+fn serve<const BUFFER: usize>(dictionary: impl Dictionary<'static>) {
+    let mut server = server::Server::<_, _, BUFFER>::new(dictionary, ());
     for line in std::io::stdin().lock().lines().map_while(Result::ok) {
         let Some(request) = parse(line.trim()) else {
             eprintln!("not eight bytes: {line}");

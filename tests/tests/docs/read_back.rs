@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use od_spec::model::{
-    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index, NamedType,
-    Object, PatternBit, PdoMapping, PdoTarget, Ratio, StateMachine, Storage, SubIndex, System, TableContent,
-    TypeKind, Unit, Value,
+    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index,
+    ModeMeaning, NamedType, Object, PatternBit, PdoMapping, PdoTarget, Ratio, StateMachine, Storage,
+    SubIndex, System, TableContent, TypeKind, Unit, Value,
 };
 use od_tests::compile_clean;
 
@@ -233,7 +233,7 @@ fn check_bits(table: &Table, kind: &TypeKind) {
         for value in &field.values {
             assert!(meaning.contains(&format!("{} = {}", value.value, value.name)), "{meaning}");
         }
-        for (mode, name, _) in &field.modes {
+        for ModeMeaning { mode, name, .. } in &field.modes {
             assert!(meaning.contains(&format!("{mode}: {name}")), "{meaning}");
         }
         let active = match (field.edge, field.active) {

@@ -16,6 +16,8 @@ impl Plan<'_> {
         let name = format_ident!("{}", self.name);
         let (size, align) = (self.layout.factory.len(), self.layout.align);
         let (size_literal, align) = (Literal::usize_unsuffixed(size), Literal::usize_unsuffixed(align));
+        let largest = self.attributes.iter().map(|attributes| attributes.size).max().unwrap_or_default();
+        let largest = Literal::usize_unsuffixed(largest);
         let about = self.words(&self.device.about);
         let facts = format!(
             "Object dictionary of the {}: {size} bytes of values, {} objects, {} entries.",
@@ -36,6 +38,10 @@ impl Plan<'_> {
             impl #name {
                 /// Bytes of all values.
                 pub const SIZE: usize = #size_literal;
+
+                /// Bytes of the largest value that SDO reads or writes as a whole, DOMAINs left out: what a server's buffer
+                /// has to hold.
+                pub const LARGEST_VALUE: usize = #largest;
 
                 /// The values after a factory reset, for a node-ID from 1 to 127.
                 pub const fn new(node_id: u8) -> Self {
@@ -153,7 +159,7 @@ impl Plan<'_> {
             values.store(&plain, target.size, at, &quote!(#offset), &quote!(number));
         let store = if error.is_some() { quote!(#store) } else { quote!(#store; Ok(())) };
         let about = doc(&format!(
-            "Sets the entry that [`{name}`](Self::{name}) shows; an error if it has no such value."
+            "Sets the entry that [`{name}`](Self::{name}) shows.\n\n# Errors\nThe entry has no such value."
         ));
         let set = format_ident!("{}", setter(name));
         quote! {

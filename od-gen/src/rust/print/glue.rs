@@ -1,6 +1,6 @@
 //! The enums of `firmware-glue`, by name.
 
-use od_spec::model::{DataType, Outside, Rounding};
+use od_spec::model::{DataType, Outside, Rounding, Storage};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -51,5 +51,16 @@ pub(super) fn rounding(rounding: Rounding) -> TokenStream {
         Rounding::Up => quote!(glue::Rounding::Up),
         Rounding::Nearest => quote!(glue::Rounding::Nearest),
         Rounding::Zero => quote!(glue::Rounding::Zero),
+    }
+}
+
+/// `glue::Storage::Communication`.
+pub(super) fn storage(storage: Storage) -> TokenStream {
+    match storage {
+        Storage::No => quote!(glue::Storage::No),
+        Storage::Communication => quote!(glue::Storage::Communication),
+        Storage::Application => quote!(glue::Storage::Application),
+        Storage::Manufacturer => quote!(glue::Storage::Manufacturer),
+        Storage::Remanent => quote!(glue::Storage::Remanent),
     }
 }

@@ -73,7 +73,7 @@ impl Plan<'_> {
                 }
             }
 
-            super::glue::defmt_text!(#name);
+            ::firmware_glue::defmt_text!(#name);
         }
     }
 
@@ -113,7 +113,7 @@ impl Plan<'_> {
                 }
             }
 
-            super::glue::defmt_text!(#name);
+            ::firmware_glue::defmt_text!(#name);
         }
     }
 

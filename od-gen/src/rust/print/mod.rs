@@ -1,6 +1,7 @@
 //! A plan as Rust.
 
 mod accessors;
+mod attributes;
 mod docs;
 mod glue;
 mod literal;
@@ -11,10 +12,13 @@ mod types;
 mod value;
 mod values;
 
-use proc_macro2::TokenStream;
-use quote::quote;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
 
 use crate::plan::Plan;
+
+/// The layout of `firmware-glue` that is printed for: `firmware_glue::table::Table::generated` tells when it changes.
+const LAYOUT: u32 = 1;
 
 /// The items of a dictionary's module.
 pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
@@ -35,8 +39,12 @@ pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
         plan.lookup_tables(),
         plan.tables(),
     ];
+    let glue = format_ident!("generated_for_layout_{LAYOUT}");
+    let (layout, dictionary) = (Literal::u32_unsuffixed(LAYOUT), format_ident!("{}", plan.name));
     quote! {
-        use ::firmware_glue as glue;
+        use ::firmware_glue::#glue as glue;
+
+        ::firmware_glue::stand_in!(#layout, #dictionary, Entry);
 
         #(#parts)*
     }

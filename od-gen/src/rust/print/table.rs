@@ -3,14 +3,16 @@
 use std::fmt::Write as _;
 
 use od_spec::expr::{ArithmeticOp, CompareOp};
-use od_spec::model::{DataType, EntryId, Index, Storage, SubIndex};
+use od_spec::model::{DataType, EntryId, Index, SubIndex};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::attributes::attributes;
 use super::docs::{doc, escape};
+use super::glue;
 use super::literal::{decimal, hex};
 use super::value::{At, Values, view_name};
-use crate::plan::{Attributes, Compare, Condition, Flags, NONE, Place, PlaceKind, Plan, PlannedEntry, Sum};
+use crate::plan::{Compare, Condition, NONE, Place, Plan, PlannedEntry, Sum};
 
 /// Bytes in a line of a byte string.
 const LINE: usize = 16;
@@ -45,12 +47,12 @@ impl Plan<'_> {
             /// Index, sub-index and name.
             impl core::fmt::Debug for Entry {
                 fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                    let (index, sub) = TABLE.id(*self as u16);
-                    write!(f, "{index:04X}h.{sub} {}", self.name())
+                    let id = TABLE.id(*self as u16);
+                    write!(f, "{id} {}", self.name())
                 }
             }
 
-            glue::defmt_text!(Entry);
+            ::firmware_glue::defmt_text!(Entry);
         }
     }
 
@@ -78,13 +80,19 @@ impl Plan<'_> {
             quote!(#row => Some(Entry::#variant),)
         });
         quote! {
-            impl glue::Dictionary for #name {
+            impl glue::Entries for #name {
                 type Entry = Entry;
-                const TABLE: &'static glue::Table = &TABLE;
+            }
+
+            impl glue::Dictionary<'static> for #name {
+                #[inline]
+                fn table(&self) -> &'static glue::Table<'static> {
+                    &TABLE
+                }
 
                 #[allow(clippy::too_many_lines)]
                 #[inline]
-                fn entry(row: u16) -> Option<Entry> {
+                fn entry(&self, row: u16) -> Option<Entry> {
                     // The compiler sees that row and entry are the same number.
                     match row {
                         #(#rows)*
@@ -93,7 +101,7 @@ impl Plan<'_> {
                 }
 
                 #[inline]
-                fn row(entry: Entry) -> u16 {
+                fn row(&self, entry: Entry) -> u16 {
                     entry as u16
                 }
 
@@ -238,7 +246,7 @@ impl Plan<'_> {
         });
         let aliases = self.aliases.iter().filter_map(|alias| {
             let (target, view) = (Literal::u16_unsuffixed(alias.target), view_name(self.entry(alias.row)?));
-            Some(quote!(glue::Alias { target: #target, view: #view }))
+            Some(quote!(glue::table::Alias { target: #target, view: #view }))
         });
         let limits = self.limits.iter().map(|(low, high)| {
             let (low, high) = (decimal((*low).into()), decimal((*high).into()));
@@ -249,7 +257,7 @@ impl Plan<'_> {
             quote!(&[#(#list),*])
         });
         let regions = self.layout.regions.iter().map(|region| {
-            let storage = storage(region.storage);
+            let storage = glue::storage(region.storage);
             let (start, end) =
                 (Literal::usize_unsuffixed(region.start), Literal::usize_unsuffixed(region.end));
             let layout = hex(region.layout.into(), 8);
@@ -269,9 +277,8 @@ impl Plan<'_> {
             [self.attributes.len(), self.layout.node_ids.len(), self.layout.factory.len()]
                 .map(Literal::usize_unsuffixed);
         let granularity = Literal::u8_unsuffixed(self.device.info.granularity);
-        let dummies =
-            self.device.info.dummies.iter().fold(0u8, |bits, data_type| bits | 1 << (data_type.code() & 7));
-        let dummies = hex(dummies.into(), 2);
+        let dummies = self.device.info.dummies.iter().map(|data_type| glue::data_type(*data_type));
+        let dummies = quote!(glue::table::Dummies::NONE #(.with(#dummies))*);
         let pdos = self.pdos.iter().map(|planned| {
             let row = |index: u16, sub: u8| {
                 let row = self.row(EntryId { index: Index(index), sub: SubIndex(sub) });
@@ -293,7 +300,7 @@ impl Plan<'_> {
         let application = Literal::usize_unsuffixed(application);
         quote! {
             /// What every entry is.
-            static TABLE: glue::Table = glue::Table {
+            static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
                 runs: &RUNS,
                 pdos: &[#(#pdos),*],
                 first_application_row: #application,
@@ -310,7 +317,7 @@ impl Plan<'_> {
                 regions: &[#(#regions),*],
                 granularity: #granularity,
                 dummies: #dummies,
-            };
+            });
 
             /// What entries have in common.
             static ATTRIBUTES: [glue::table::Attributes; #attribute_count] = [#(#attributes),*];
@@ -325,57 +332,6 @@ impl Plan<'_> {
             static NAMES: &str = #names;
         }
     }
-}
-
-fn attributes(attributes: &Attributes) -> TokenStream {
-    let data_type = format_ident!("{}", format!("{:?}", attributes.data_type));
-    let flags = Literal::u8_unsuffixed(flag_bits(attributes.flags));
-    let place = match attributes.place {
-        PlaceKind::Image => quote!(Image),
-        PlaceKind::Constant => quote!(Constant),
-        PlaceKind::Alias => quote!(Alias),
-        PlaceKind::Application => quote!(Application),
-    };
-    let storage = storage(attributes.storage);
-    let (page, size) =
-        (Literal::usize_unsuffixed(attributes.page), Literal::usize_unsuffixed(attributes.size));
-    let reference = |at: u16| {
-        if at == NONE {
-            quote!(glue::table::NONE)
-        } else {
-            let at = Literal::u16_unsuffixed(at);
-            quote!(#at)
-        }
-    };
-    let (limits, values, condition) =
-        (reference(attributes.limits), reference(attributes.values), reference(attributes.condition));
-    quote! {
-        glue::table::Attributes {
-            data_type: glue::DataType::#data_type,
-            flags: glue::table::Flags(#flags),
-            place: glue::table::Place::#place,
-            storage: #storage,
-            page: #page,
-            size: #size,
-            limits: #limits,
-            values: #values,
-            condition: #condition,
-        }
-    }
-}
-
-/// Bits of `firmware_glue::table::Flags`.
-fn flag_bits(flags: Flags) -> u8 {
-    let Flags { read, write, locked, receive, transmit, sparse, only_values } = flags;
-    [read, write, locked, receive, transmit, sparse, only_values]
-        .into_iter()
-        .enumerate()
-        .fold(0, |bits, (at, flag)| bits | u8::from(flag) << at)
-}
-
-fn storage(storage: Storage) -> TokenStream {
-    let name = format_ident!("{}", format!("{storage:?}"));
-    quote!(glue::Storage::#name)
 }
 
 /// A byte string with 16 bytes a line.

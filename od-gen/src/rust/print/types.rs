@@ -52,7 +52,7 @@ impl Plan<'_> {
         let [n, d, sn, sd] = [scale.numerator, scale.denominator, step.numerator, step.denominator]
             .map(|number| decimal(number.into()));
         quote! {
-            super::glue::unit! {
+            ::firmware_glue::unit! {
                 #about
                 pub struct #name = #symbol, scale #n / #d, step #sn / #sd of #base;
             }
@@ -100,7 +100,7 @@ impl Plan<'_> {
                         #(#constants)*
                     }
 
-                    super::glue::enumeration! {
+                    ::firmware_glue::enumeration! {
                         #name(#raw) = #label { #(#names)* }
                     }
                 }
@@ -122,7 +122,7 @@ impl Plan<'_> {
                         #(#accessors)*
                     }
 
-                    super::glue::bit_field! {
+                    ::firmware_glue::bit_field! {
                         #name = #label { #(#fields)* }
                     }
                 }
@@ -320,7 +320,7 @@ fn special(planned: &PlannedSpecial, entry: &Entry) -> TokenStream {
             }
         }
 
-        super::glue::defmt_text!(#name);
+        ::firmware_glue::defmt_text!(#name);
     }
 }
 

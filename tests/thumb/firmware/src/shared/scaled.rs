@@ -34,9 +34,11 @@ impl Application<Controller> for Channel {
     }
 }
 
+static REQUEST: server::Request<{ Controller::LARGEST_VALUE }> = server::Request::new();
+
 #[entry]
 fn main() -> ! {
     // `entry` hands it out as `&'static mut`.
     static mut DICTIONARY: Controller = Controller::new(1);
-    server::serve(DICTIONARY, &mut Channel)
+    server::serve(DICTIONARY, &mut Channel, &REQUEST)
 }

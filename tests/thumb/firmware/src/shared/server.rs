@@ -5,35 +5,43 @@ use core::hint::black_box;
 
 use firmware_glue::{AbortCode, Application, Dictionary};
 
-/// A request. The optimiser does not see what is in it.
-struct Request {
+/// A request with up to `BUFFER` bytes, those of the largest value. The optimiser does not see what is in it.
+pub(crate) struct Request<const BUFFER: usize> {
     index: u16,
     sub: u8,
     kind: u8,
     length: u8,
-    data: [u8; 16],
+    data: [u8; BUFFER],
+}
+
+impl<const BUFFER: usize> Request<BUFFER> {
+    pub(crate) const fn new() -> Self {
+        Self { index: 0, sub: 0, kind: 0, length: 0, data: [0; BUFFER] }
+    }
 }
 
 const UPLOAD: u8 = 0;
 const DOWNLOAD: u8 = 1;
 
-static REQUEST: Request = Request { index: 0, sub: 0, kind: 0, length: 0, data: [0; 16] };
-
-pub(crate) fn serve<D: Dictionary, A: Application<D>>(dictionary: &mut D, application: &mut A) -> ! {
+pub(crate) fn serve<D: Dictionary<'static>, A: Application<D>, const BUFFER: usize>(
+    dictionary: &mut D,
+    application: &mut A,
+    request: &'static Request<BUFFER>,
+) -> ! {
     loop {
-        let request = black_box(&REQUEST);
+        let request = black_box(request);
         let outcome = match request.kind {
             UPLOAD => upload(dictionary, request, application),
             DOWNLOAD => download(dictionary, request, application),
-            _ => info::<D>(request),
+            _ => info(dictionary, request),
         };
         black_box(outcome.map_or_else(|abort| abort.0, |()| 0));
     }
 }
 
-fn upload<D: Dictionary, A: Application<D>>(
+fn upload<D: Dictionary<'static>, A: Application<D>, const BUFFER: usize>(
     dictionary: &mut D,
-    request: &Request,
+    request: &Request<BUFFER>,
     application: &mut A,
 ) -> Result<(), AbortCode> {
     let value = dictionary.upload(request.index, request.sub, application)?;
@@ -41,9 +49,9 @@ fn upload<D: Dictionary, A: Application<D>>(
     Ok(())
 }
 
-fn download<D: Dictionary, A: Application<D>>(
+fn download<D: Dictionary<'static>, A: Application<D>, const BUFFER: usize>(
     dictionary: &mut D,
-    request: &Request,
+    request: &Request<BUFFER>,
     application: &mut A,
 ) -> Result<(), AbortCode> {
     let data = request.data.get(..request.length.into()).ok_or(AbortCode::TOO_LONG)?;
@@ -51,8 +59,11 @@ fn download<D: Dictionary, A: Application<D>>(
     Ok(())
 }
 
-fn info<D: Dictionary>(request: &Request) -> Result<(), AbortCode> {
-    let info = D::info(D::find(request.index, request.sub)?);
+fn info<D: Dictionary<'static>, const BUFFER: usize>(
+    dictionary: &D,
+    request: &Request<BUFFER>,
+) -> Result<(), AbortCode> {
+    let info = dictionary.info(dictionary.find(request.index, request.sub)?);
     black_box((info.data_type(), info.size(), info.is_readable(), info.is_writable()));
     Ok(())
 }

@@ -44,9 +44,11 @@ impl Application<Pmc> for Drive {
     }
 }
 
+static REQUEST: server::Request<{ Pmc::LARGEST_VALUE }> = server::Request::new();
+
 #[entry]
 fn main() -> ! {
     // `entry` hands it out as `&'static mut`.
     static mut DICTIONARY: Pmc = Pmc::new(1);
-    server::serve(DICTIONARY, &mut Drive)
+    server::serve(DICTIONARY, &mut Drive, &REQUEST)
 }

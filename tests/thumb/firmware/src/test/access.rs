@@ -28,7 +28,7 @@ fn main() -> ! {
 }
 
 /// `made`: how many cases there are, in digits.
-fn try_device<D: Dictionary>(name: &str, dictionary: &mut D, bytes: &[u8], made: &str) -> bool {
+fn try_device(name: &str, dictionary: &mut impl Dictionary<'static>, bytes: &[u8], made: &str) -> bool {
     match cases::run(dictionary, bytes) {
         Ok(count) => {
             hprintln!("{}: {} of {} cases", name, count, made);

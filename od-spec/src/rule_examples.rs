@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::{RULES, Rule};
-use crate::NoFiles;
-use crate::compile::compile_with;
+use crate::check::{RULES, Rule};
+
+use crate::compile::{NoFiles, compile_with};
 use crate::diag::{Diagnostics, Example};
 use crate::parameters::assign_with;
 use crate::source::{SourceMap, Spanned};

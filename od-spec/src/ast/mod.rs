@@ -1,0 +1,360 @@
+//! A specification as written: every leaf with its place, `None` where nothing is written.
+
+mod entry;
+
+use std::ops::RangeInclusive;
+
+use crate::expr::Expr;
+use crate::keys::{
+    command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys, machine_keys, pdo_keys,
+    revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
+};
+use crate::model::{
+    BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio, Rounding,
+    SubIndex, Text,
+};
+use crate::source::{FileId, Span, Spanned};
+
+pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+
+pub(crate) type Words = Option<Spanned<Text>>;
+pub(crate) type Name = Spanned<String>;
+
+/// The structure of a table of [`crate::keys`]: first what is known without its keys, then a field for each key.
+macro_rules! declaration {
+    ($(#[$meta:meta])* $name:ident { $($(#[$head_meta:meta])* $head:ident: $head_type:ty,)* } {
+        $($key:literal $($required:ident)?: $shape:expr => $field:ident: $type:ty, $about:literal
+            $(, $example:literal)?;)+
+    }) => {
+        $(#[$meta])*
+        pub(crate) struct $name {
+            $($(#[$head_meta])* pub $head: $head_type,)*
+            $(pub $field: $type,)+
+        }
+    };
+}
+
+/// One file.
+#[derive(Debug)]
+pub(crate) struct Spec {
+    pub file: FileId,
+    pub span: Span,
+    /// A key of the top level was refused, or `devices:` is no map: devices may be meant by it.
+    pub unsure: bool,
+    pub profile: Option<Name>,
+    pub title: Option<Name>,
+    pub languages: Vec<Name>,
+    pub source: Option<SourceDecl>,
+    pub revision: Option<IssueDecl>,
+    pub history: Vec<IssueDecl>,
+    pub vendor: Option<VendorDecl>,
+    pub uses: Vec<Name>,
+    pub glossary: Vec<(Name, Text)>,
+    pub devices: Vec<DeviceDecl>,
+    pub units: Vec<UnitDecl>,
+    pub types: Vec<TypeDecl>,
+    pub axes: Option<Axes>,
+    pub features: Vec<FeatureDecl>,
+    pub objects: Vec<ObjectDecl>,
+    pub pdos: Vec<(Name, Vec<PdoDecl>)>,
+    pub errors: Vec<ErrorDecl>,
+    pub machines: Vec<MachineDecl>,
+    pub constraints: Vec<ConstraintDecl>,
+    pub errata: Vec<ErratumDecl>,
+    pub sections: Vec<SectionDecl>,
+}
+
+/// Objects of a library that repeat for every axis.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Axes {
+    pub span: Span,
+    pub first: Index,
+    pub last: Index,
+    pub count: u16,
+}
+
+impl Axes {
+    /// Axis (from 1) and index on axis 1 of an index on a further axis.
+    pub(crate) fn locate(self, index: Index) -> Option<(u16, Index)> {
+        let size = self.last.0.checked_sub(self.first.0)?.checked_add(1)?;
+        let offset = index.0.checked_sub(self.first.0)?;
+        let axis = offset / size + 1;
+        (2..=self.count).contains(&axis).then_some((axis, Index(self.first.0 + offset % size)))
+    }
+
+    /// The index on an axis (from 1) of an index on axis 1; indices outside the axes are the same on all.
+    pub(crate) fn shift(self, index: Index, axis: u16) -> Option<Index> {
+        if !(self.first..=self.last).contains(&index) {
+            return Some(index);
+        }
+        let size = self.last.0.checked_sub(self.first.0)?.checked_add(1)?;
+        Some(Index(index.0.checked_add(size.checked_mul(axis.checked_sub(1)?)?)?))
+    }
+}
+
+source_keys! { declaration
+    #[derive(Debug)]
+    SourceDecl {}
+}
+
+revision_keys! { declaration
+    #[derive(Debug)]
+    IssueDecl {}
+}
+
+vendor_keys! { declaration
+    #[derive(Debug)]
+    VendorDecl {}
+}
+
+device_keys! { declaration
+    #[derive(Debug)]
+    DeviceDecl {
+        key: Name,
+    }
+}
+
+file_keys! { declaration
+    #[derive(Debug)]
+    FileDecl {}
+}
+
+unit_keys! { declaration
+    #[derive(Debug)]
+    UnitDecl {
+        name: Name,
+    }
+}
+
+/// One symbol of a unit in a more basic one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct BaseDecl {
+    pub factor: Ratio,
+    pub symbol: String,
+}
+
+/// A term of a condition that stands alone.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Formula(pub Expr);
+
+#[derive(Debug)]
+pub(crate) struct TypeDecl {
+    /// A key of the type or of its bits was refused.
+    pub unsure: bool,
+    pub name: Name,
+    pub base: Option<Name>,
+    pub about: Words,
+    pub values: Option<Vec<ValueDecl>>,
+    pub bits: Option<Vec<BitDecl>>,
+    pub rest: Option<Spanned<BitUsage>>,
+}
+
+#[derive(Debug)]
+pub(crate) struct ValueDecl {
+    pub value: Spanned<i128>,
+    pub name: Option<Name>,
+    pub supported: Option<Spanned<bool>>,
+    pub about: Words,
+}
+
+#[derive(Debug)]
+pub(crate) struct BitDecl {
+    pub bits: Spanned<BitRange>,
+    pub usage: BitUsage,
+    pub name: Option<Name>,
+    pub about: Words,
+    pub errors: Vec<Spanned<i128>>,
+    pub clamp: Option<Name>,
+    pub active: Option<Spanned<i128>>,
+    pub edge: Option<Edge>,
+    pub priority: Option<Name>,
+    pub values: Vec<ValueDecl>,
+    pub modes: Vec<ModeBitDecl>,
+}
+
+/// A bit, or the bits from the lowest to the highest of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct BitRange {
+    pub first: u8,
+    pub last: u8,
+}
+
+/// What a bit means in one mode of operation.
+#[derive(Debug)]
+pub(crate) struct ModeBitDecl {
+    pub mode: Name,
+    pub name: Option<Name>,
+    pub about: Words,
+}
+
+#[derive(Debug)]
+pub(crate) struct FeatureDecl {
+    pub name: Name,
+    pub implied: bool,
+    pub objects: Vec<Spanned<Index>>,
+    pub needs: Vec<Name>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct ObjectDecl {
+    pub index: Spanned<Index>,
+    pub on: Option<Vec<Name>>,
+    pub from: Option<Name>,
+    pub alias: Option<Name>,
+    pub outside: Option<Spanned<Outside>>,
+    pub rounding: Option<Spanned<Rounding>>,
+    pub array: Option<ArrayDecl>,
+    pub record: Option<RecordDecl>,
+    pub sub0: Option<EntryDecl>,
+    pub omit: Vec<Spanned<i128>>,
+    pub entry: EntryDecl,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct ArrayDecl {
+    pub span: Span,
+    pub count: Option<Spanned<i128>>,
+    /// Element name, as a pattern with `{n}`, is `entry.name`.
+    pub entry: EntryDecl,
+    pub elements: Vec<(Spanned<SubIndex>, EntryDecl)>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct RecordDecl {
+    pub span: Span,
+    pub members: Vec<(Spanned<SubIndex>, EntryDecl)>,
+}
+
+pdo_keys! { declaration
+    #[derive(Debug)]
+    PdoDecl {
+        direction: Direction,
+        number: Spanned<u16>,
+        span: Span,
+    }
+}
+
+impl PdoDecl {
+    /// Whether the mapping cannot be changed over the bus.
+    pub(crate) fn is_fixed(&self) -> bool {
+        self.mapping.is_some_and(|mapping| mapping.value == MappingKind::Fixed)
+    }
+}
+
+/// Whether the mapping of a PDO can be changed over the bus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MappingKind {
+    Variable,
+    Fixed,
+}
+
+impl MappingKind {
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "variable" => Some(MappingKind::Variable),
+            "fixed" => Some(MappingKind::Fixed),
+            _ => None,
+        }
+    }
+}
+
+error_keys! { declaration
+    #[derive(Debug)]
+    ErrorDecl {
+        codes: Spanned<CodeRange>,
+        /// Something here was refused.
+        unsure: bool,
+    }
+}
+
+/// Error codes from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct CodeRange {
+    pub first: u16,
+    pub last: u16,
+}
+
+impl CodeRange {
+    /// The codes, ascending.
+    pub(crate) const fn codes(self) -> RangeInclusive<u16> {
+        self.first..=self.last
+    }
+}
+
+machine_keys! { declaration
+    #[derive(Debug, Clone)]
+    MachineDecl {
+        name: Name,
+        /// Something here was refused.
+        unsure: bool,
+    }
+}
+
+state_keys! { declaration
+    #[derive(Debug, Clone)]
+    StateDecl {
+        name: Name,
+    }
+}
+
+transition_keys! { declaration
+    #[derive(Debug, Clone)]
+    TransitionDecl {
+        number: Spanned<i128>,
+    }
+}
+
+command_keys! { declaration
+    #[derive(Debug, Clone)]
+    CommandDecl {
+        name: Name,
+    }
+}
+
+constraint_keys! { declaration
+    #[derive(Debug)]
+    ConstraintDecl {
+        name: Name,
+    }
+}
+
+erratum_keys! { declaration
+    #[derive(Debug)]
+    ErratumDecl {}
+}
+
+#[derive(Debug)]
+pub(crate) struct SectionDecl {
+    pub number: Option<Name>,
+    pub title: Words,
+    pub tables: Vec<TableDecl>,
+}
+
+#[derive(Debug)]
+pub(crate) struct TableDecl {
+    /// A key was refused.
+    pub unsure: bool,
+    pub span: Span,
+    pub number: Option<Spanned<i128>>,
+    pub title: Words,
+    /// The keys that say what fills the table; exactly one is right.
+    pub contents: Vec<Spanned<ContentDecl>>,
+}
+
+#[derive(Debug)]
+pub(crate) enum ContentDecl {
+    Overview(Vec<Spanned<Index>>),
+    Objects(Vec<Spanned<Index>>),
+    Bits(Name),
+    Values(Name),
+    Errors(Vec<Name>),
+    Reactions(Vec<Name>),
+    States(Name),
+    Transitions(Name),
+    Commands(Name),
+    Ladder(Name),
+    Pdos { device: Option<Name>, direction: Option<Spanned<Direction>> },
+    Rows { columns: Vec<Text>, rows: Vec<Spanned<Vec<Text>>> },
+    Glossary,
+    History,
+}

@@ -1,0 +1,44 @@
+//! What a rule is.
+
+use super::findings::Findings;
+use super::subject::Subject;
+use crate::diag::Code;
+use crate::model::System;
+
+/// A rule: what it is about, when it can say something, and how it looks.
+pub(crate) struct Rule {
+    /// Its code, with severity, explanation and example.
+    pub code: &'static Code,
+    /// What has to be right before.
+    pub needs: Needs,
+    /// How it looks.
+    pub check: Check,
+}
+
+impl Rule {
+    /// Whether it asks what can be set, whatever the value.
+    pub(crate) const fn is_about_setting(&self) -> bool {
+        matches!(self.check, Check::Settings(_))
+    }
+}
+
+/// What a rule presupposes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Needs {
+    /// Nothing: it looks at what is there.
+    Nothing,
+    /// That nothing was left out as wrong: it looks at what is missing, or at what was derived, and would blame what is only
+    /// a consequence.
+    Everything,
+}
+
+/// What a rule looks at.
+#[derive(Clone, Copy)]
+pub(crate) enum Check {
+    /// What the devices share.
+    System(fn(&System, &mut Findings)),
+    /// One device, as a type or as a configured node.
+    Device(fn(&Subject<'_>, &mut Findings)),
+    /// One configured node: what is set, and whether it can be set.
+    Settings(fn(&Subject<'_>, &mut Findings)),
+}

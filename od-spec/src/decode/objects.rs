@@ -1,0 +1,108 @@
+//! Objects, their elements and members.
+
+use std::collections::BTreeMap;
+
+use super::entry::entry;
+use super::lexical::{self, IndexRange};
+use super::numbered::{numbered, twice};
+use super::read::Reader;
+use crate::ast::{ArrayDecl, EntryDecl, Name, ObjectDecl, RecordDecl};
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::keys;
+use crate::model::{Index, Outside, Rounding, SubIndex};
+use crate::scalar;
+use crate::source::{Span, Spanned};
+
+/// Reads the objects; a run of indices makes one object for each of them.
+pub(super) fn objects<'a>(
+    entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ObjectDecl> {
+    let mut before: BTreeMap<Index, Spanned<&str>> = BTreeMap::new();
+    let mut list = Vec::new();
+    for (key, r) in entries {
+        let Some(IndexRange { first, last }) = lexical::indices(key.value) else { continue };
+        if let Some((index, earlier)) = before.range(first..=last).next() {
+            diagnostics.push(twice(codes::DUPLICATE_INDEX, &index.to_string(), key, *earlier));
+            continue;
+        }
+        before.extend((first.0..=last.0).map(|index| (Index(index), key)));
+        let one = object(Spanned::new(first, key.span), r, diagnostics);
+        if first == last {
+            list.push(one);
+            continue;
+        }
+        list.extend(run(&one, key.span, first, last, diagnostics));
+    }
+    list
+}
+
+/// The objects of a run of indices, all like the first but for their numbers.
+fn run(
+    one: &ObjectDecl,
+    key: Span,
+    first: Index,
+    last: Index,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ObjectDecl> {
+    if let Some(name) = one.entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
+        diagnostics.push(
+            Diagnostic::new(codes::BAD_NOTATION, name.span, "the objects of a run would all have this name")
+                .help("write `{n}` into the name; it stands for 1, 2, and so on"),
+        );
+    }
+    let copies = (1..).zip(first.0..=last.0).map(|(number, index)| {
+        let numbered = |text: &Option<Name>| {
+            let text = text.as_ref()?;
+            let whole = text.value.replace("{n}", &i32::to_string(&number));
+            // A name without `{n}` was reported; its copies do not have to be reported, too.
+            let whole = if whole == text.value { format!("{whole} {number}") } else { whole };
+            Some(Spanned::new(whole, text.span))
+        };
+        let mut copy = ObjectDecl { index: Spanned::new(Index(index), key), ..one.clone() };
+        copy.entry.name = numbered(&one.entry.name);
+        copy.entry.identifier = numbered(&one.entry.identifier);
+        copy
+    });
+    copies.collect()
+}
+
+fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
+    ObjectDecl {
+        index,
+        on: r.optional_texts("on"),
+        from: r.text("from"),
+        alias: r.text("alias"),
+        outside: r.value("outside", Outside::from_word),
+        rounding: r.value("rounding", Rounding::from_word),
+        array: r.keyed("array").map(|(key, child)| ArrayDecl {
+            span: key,
+            count: child.integer("count"),
+            entry: entry(child, &keys::ARRAY, key, diagnostics),
+            elements: members(child.entries("elements"), diagnostics),
+        }),
+        record: r
+            .keyed("record")
+            .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
+        sub0: r.keyed("sub0").map(|(key, child)| entry(child, &keys::SUB0, key, diagnostics)),
+        omit: r.integers("omit"),
+        entry: entry(r, &keys::OBJECT, index.span, diagnostics),
+    }
+}
+
+fn members<'a>(
+    entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<(Spanned<SubIndex>, EntryDecl)> {
+    let sub = |text: &str| {
+        let number = u8::try_from(scalar::integer(text).ok()?).ok()?;
+        (1..=254).contains(&number).then_some(SubIndex(number))
+    };
+    let mut members: Vec<_> =
+        numbered(entries, sub, diagnostics, codes::DUPLICATE_SUB_INDEX, |sub| format!("sub-index {sub}"))
+            .into_iter()
+            .map(|(sub, r)| (sub, entry(r, &keys::ENTRY, sub.span, diagnostics)))
+            .collect();
+    members.sort_by_key(|(sub, _)| sub.value);
+    members
+}

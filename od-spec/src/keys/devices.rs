@@ -1,0 +1,54 @@
+//! Devices.
+
+use super::shape::{Key, Keys, Shape, U8, U32};
+use super::table::keys;
+
+macro_rules! device_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "name" required: Shape::Text => name: Option<Name>, "full name";
+            "about": Shape::Words => about: Words, "what the device does";
+            "product-name": Shape::Text => product_name: Option<Name>, "product name in the EDS; the device's name unless given";
+            "product": U32 => product: Option<Spanned<i128>>, "product code (1018h.2)";
+            "product-revision": U32 => product_revision: Option<Spanned<i128>>, "product revision (1018h.3): upper half major, lower half minor", "0x0001_0002";
+            "order-code": Shape::Text => order_code: Option<Name>, "order code; the product name unless given";
+            "bit-rates": Shape::List(&Shape::Integer(10, 1000)) => bit_rates: Vec<Spanned<i128>>, "supported bit rates in kbit/s: 10, 20, 50, 125, 250, 500, 800, 1000", "[125, 250, 500, 1000]";
+            "device-type": U32 => device_type: Option<Spanned<i128>>, "device type (1000h): low word profile number, high word additional information", "0x0002_0192";
+            "granularity": Shape::Integer(0, 64) => granularity: Option<Spanned<i128>>, "smallest step of PDO mapping in bits; 8 unless given, 0 when no mapping can be changed";
+            "boot-up-master": Shape::YesNo => boot_up_master: Option<Spanned<bool>>, "simple boot-up master; no unless given";
+            "boot-up-slave": Shape::YesNo => boot_up_slave: Option<Spanned<bool>>, "simple boot-up slave; yes unless given";
+            "group-messaging": Shape::YesNo => group_messaging: Option<Spanned<bool>>, "multiplexed PDOs; no unless given";
+            "lss": Shape::YesNo => lss: Option<Spanned<bool>>, "LSS slave; no unless given";
+            "dummies": Shape::List(&Shape::Text) => dummies: Vec<Name>, "data types that may stand in an RPDO as placeholders", "[unsigned8, unsigned16]";
+            "features": Shape::List(&Shape::Text) => features: Vec<Name>, "features of the used libraries that the device has", "[heartbeat producer, emergency]";
+            "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself";
+            "eds-defaults": Shape::Choice(&["safe", "own", "all"]) => eds_defaults: Option<Name>, "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `own` withholds also those that only a library states; `all` writes every default; safe unless given";
+        } }
+    };
+}
+pub(crate) use device_keys;
+
+device_keys! { keys
+    /// A device.
+    DEVICE = "a device"
+}
+
+macro_rules! file_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "description": Shape::Text => description: Option<Name>, "description of the file; the device's name unless given";
+            "created" required: Shape::DateTime => created: Option<Spanned<DateTime>>, "when the file was first made", "2009-05-27 09:00";
+            "created-by": Shape::Text => created_by: Option<Name>, "who made it; the vendor unless given";
+            "modified": Shape::DateTime => modified: Option<Spanned<DateTime>>, "when it was last changed; `created` unless given";
+            "modified-by": Shape::Text => modified_by: Option<Name>, "who changed it; `created-by` unless given";
+            "file-version": U8 => version: Option<Spanned<i128>>, "version of the file; 1 unless given";
+            "file-revision": U8 => revision: Option<Spanned<i128>>, "revision of the file; 0 unless given";
+        } }
+    };
+}
+pub(crate) use file_keys;
+
+file_keys! { keys
+    /// `eds:` of a device.
+    FILE = "an EDS header"
+}

@@ -1,0 +1,88 @@
+//! The top level of a file.
+
+use super::constraints::CONSTRAINT;
+use super::devices::DEVICE;
+use super::errors::ERROR;
+use super::libraries::{AXES, FEATURE};
+use super::machines::MACHINE;
+use super::manual::{ERRATUM, SECTION};
+use super::objects::OBJECT;
+use super::pdos::PDOS;
+use super::shape::{Key, KeyKind, Keys, Shape, U32};
+use super::table::keys;
+use super::types::{TYPE, UNIT};
+
+keys! {
+    /// Top level of a specification.
+    SPEC = "a specification" {
+        "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
+        "title" required: Shape::Text, "title of the product or product family";
+        "profile": Shape::Text, "makes the file a library; the name by which `from:` refers to it", "cia4xx";
+        "languages": Shape::List(&Shape::Text), "language codes of the descriptions; the first is the default (`en`)", "[en, de]";
+        "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
+        "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
+        "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
+        "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
+        "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia402`, or the path of a library file", "[cia301, cia402]";
+        "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
+        "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
+        "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
+        "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
+        "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
+        "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
+        "objects": Shape::MapOf(KeyKind::Indices, &Shape::Map(&OBJECT)), "the objects, by index or indices";
+        "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
+        "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
+        "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";
+        "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
+        "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
+        "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
+    }
+}
+
+macro_rules! source_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "title" required: Shape::Text => title: Option<Name>, "title of the manual";
+            "edition": Shape::Text => edition: Option<Name>, "edition, as printed", "\"issue 1.09, English\"";
+            "about": Shape::Words => about: Words, "more about it";
+        } }
+    };
+}
+pub(crate) use source_keys;
+
+source_keys! { keys
+    /// `source:`.
+    SOURCE = "a source"
+}
+
+macro_rules! revision_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "number" required: Shape::Text => number: Option<Name>, "number of the issue, as printed", "\"1.09\"";
+            "date" required: Shape::Date => date: Option<Spanned<Date>>, "its date", "2009-05-27";
+            "about": Shape::Words => about: Words, "what changed";
+        } }
+    };
+}
+pub(crate) use revision_keys;
+
+revision_keys! { keys
+    /// An issue of the manual.
+    REVISION = "a revision"
+}
+
+macro_rules! vendor_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "name" required: Shape::Text => name: Option<Name>, "company name";
+            "number": U32 => number: Option<Spanned<i128>>, "vendor-ID assigned by CiA (1018h.1); 0 when it is not known", "0x0000_0123";
+        } }
+    };
+}
+pub(crate) use vendor_keys;
+
+vendor_keys! { keys
+    /// `vendor:`.
+    VENDOR = "a vendor"
+}

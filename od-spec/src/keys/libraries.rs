@@ -1,0 +1,23 @@
+//! What libraries offer.
+
+use super::shape::{INDICES, Key, Keys, Shape};
+use super::table::keys;
+
+keys! {
+    /// A feature of a library.
+    FEATURE = "a feature" {
+        "about": Shape::Words, "what the device can do with it";
+        "implied": Shape::YesNo, "every device has it; no unless given";
+        "objects" required: INDICES, "objects it brings", "[0x1003]";
+        "needs": Shape::List(&Shape::Text), "features it cannot be without", "[emergency]";
+    }
+}
+
+keys! {
+    /// `axes:`.
+    AXES = "axes" {
+        "first" required: Shape::Index, "first index of axis 1", "0x6000";
+        "last" required: Shape::Index, "last index of axis 1; axis 2 begins behind it", "0x67FF";
+        "count" required: Shape::Integer(2, 16), "number of axes";
+    }
+}

@@ -1,0 +1,73 @@
+//! State machines.
+
+use super::shape::{Key, KeyKind, Keys, NAMES, Shape, U8, U32};
+use super::table::keys;
+
+macro_rules! machine_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "from": Shape::Text => from: Option<Name>, "library that defines a machine of this name; states, transitions and commands of one name or number go before the library's", "cia402";
+            "on": NAMES => on: Option<Vec<Name>>, "devices that have it; all unless given";
+            "status": Shape::Entry => status: Option<Name>, "entry that shows the state; needed without `from`", "0x6041";
+            "command": Shape::Entry => command: Option<Name>, "entry that takes the commands; needed without `from`", "controlword";
+            "states": Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)) => states: Vec<StateDecl>, "states by name";
+            "transitions": Shape::MapOf(KeyKind::Number, &Shape::Map(&TRANSITION)) => transitions: Vec<TransitionDecl>, "transitions by number";
+            "commands": Shape::MapOf(KeyKind::Name, &Shape::Map(&COMMAND)) => commands: Vec<CommandDecl>, "commands by name";
+        } }
+    };
+}
+pub(crate) use machine_keys;
+
+machine_keys! { keys
+    /// A state machine.
+    MACHINE = "a state machine"
+}
+
+macro_rules! state_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "pattern": Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the status entry, most significant first; `x` either", "\"xxxx xxxx x01x 0001\"";
+            "about": Shape::Words => about: Words, "meaning";
+        } }
+    };
+}
+pub(crate) use state_keys;
+
+state_keys! { keys
+    /// A state.
+    STATE = "a state"
+}
+
+macro_rules! transition_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "from": Shape::OneOrMore(&Shape::Text) => from: Vec<Name>, "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
+            "to": Shape::Text => to: Option<Name>, "state it enters";
+            "event": Shape::Words => event: Words, "what causes it";
+            "action": Shape::Words => action: Words, "what the device does";
+        } }
+    };
+}
+pub(crate) use transition_keys;
+
+transition_keys! { keys
+    /// A transition.
+    TRANSITION = "a transition"
+}
+
+macro_rules! command_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "pattern": Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the command entry, most significant first; `x` either, `r` rising, `f` falling edge", "\"xxxx xxxx 0xxx x110\"";
+            "send": U32 => send: Option<Spanned<i128>>, "a value that gives the command", "0x0006";
+            "transitions": Shape::List(&U8) => transitions: Vec<Spanned<i128>>, "transitions it causes", "[2, 6, 8]";
+            "about": Shape::Words => about: Words, "meaning";
+        } }
+    };
+}
+pub(crate) use command_keys;
+
+command_keys! { keys
+    /// A command.
+    COMMAND = "a command"
+}

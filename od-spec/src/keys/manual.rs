@@ -1,0 +1,72 @@
+//! The printed manual.
+
+use super::shape::{INDICES, Key, Keys, NAMES, Shape};
+use super::table::keys;
+use crate::model::{Direction, ErratumKind};
+
+macro_rules! erratum_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "at": Shape::OneOrMore(&Shape::Entry) => at: Vec<Name>, "objects or entries it is about", "[0x3004, 0x30FA.3]";
+            "on": NAMES => on: Option<Vec<Name>>, "devices it is about; all unless given";
+            "kind" required: Shape::Choice(ErratumKind::WORDS) => kind: Option<Spanned<ErratumKind>>, "what kind of fact";
+            "place" required: Shape::Words => place: Words, "where the manual prints it", "\"4.1.1.5, detail table\"";
+            "prints" required: Shape::Words => prints: Words, "what it prints", "3003h";
+            "reads" required: Shape::Words => reads: Words, "what the specification says", "3004h";
+            "because" required: Shape::Words => because: Words, "why";
+        } }
+    };
+}
+pub(crate) use erratum_keys;
+
+erratum_keys! { keys
+    /// An erratum.
+    ERRATUM = "an erratum"
+}
+
+keys! {
+    /// A section of the manual.
+    SECTION = "a section" {
+        "section": Shape::Text, "number, as printed; parts such as the imprint have none", "\"4.1.1\"";
+        "title" required: Shape::Words, "heading";
+        "tables": Shape::List(&Shape::Map(&TABLE)), "tables in it, in order";
+    }
+}
+
+keys! {
+    /// A table of the manual.
+    TABLE = "a table" {
+        "number": Shape::Integer(1, 9999), "number, as printed";
+        "title": Shape::Words, "caption";
+        "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
+        "objects": INDICES, "the objects' entries in detail";
+        "bits": Shape::Text, "bits of a named type";
+        "values": Shape::Text, "values of a named type";
+        "errors": Shape::OneOrMore(&Shape::Text), "error codes, or `all`", "[0x2210, 0x3281..0x3288]";
+        "reactions": Shape::OneOrMore(&Shape::Text), "error codes with the device's reactions, or `all`";
+        "states": Shape::Text, "states of a state machine";
+        "transitions": Shape::Text, "transitions of a state machine";
+        "commands": Shape::Text, "commands of a state machine";
+        "ladder": Shape::Text, "entries of an ordering constraint with their defaults";
+        "pdos": Shape::Map(&TABLE_PDOS), "default PDOs of a device", "{device: pmc, direction: receive}";
+        "rows": Shape::Map(&TABLE_ROWS), "rows of text", "{columns: [Index, Use], rows: [[0000h, not used]]}";
+        "glossary": Shape::YesNo, "abbreviations";
+        "history": Shape::YesNo, "issues of the manual";
+    }
+}
+
+keys! {
+    /// `pdos:` of a table.
+    TABLE_PDOS = "a PDO table" {
+        "device" required: Shape::Text, "key of the device";
+        "direction" required: Shape::Choice(Direction::WORDS), "direction, seen from the device";
+    }
+}
+
+keys! {
+    /// `rows:` of a table.
+    TABLE_ROWS = "a table of text" {
+        "columns" required: Shape::List(&Shape::Words), "column headings";
+        "rows" required: Shape::List(&Shape::List(&Shape::Words)), "cells";
+    }
+}

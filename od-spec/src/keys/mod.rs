@@ -1,0 +1,39 @@
+//! The keys of the language, by chapter: one line for each key decodes specifications, suggests corrections, and prints the
+//! JSON Schema and the language reference.
+
+mod constraints;
+mod devices;
+mod entry;
+mod errors;
+mod file;
+mod libraries;
+mod machines;
+mod manual;
+mod objects;
+mod pdos;
+mod shape;
+mod table;
+mod types;
+
+pub use constraints::CONSTRAINT;
+pub use devices::{DEVICE, FILE};
+pub use entry::{ENTRY, ENTRY_EDS_KEYS, SPECIAL};
+pub use errors::ERROR;
+pub use file::{REVISION, SOURCE, SPEC, VENDOR};
+pub use libraries::{AXES, FEATURE};
+pub use machines::{COMMAND, MACHINE, STATE, TRANSITION};
+pub use manual::{ERRATUM, SECTION, TABLE, TABLE_PDOS, TABLE_ROWS};
+pub use objects::{ARRAY, OBJECT, SUB0};
+pub use pdos::{PDO, PDOS};
+pub use shape::{Key, KeyKind, Keys, Shape};
+pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
+
+pub(crate) use constraints::constraint_keys;
+pub(crate) use devices::{device_keys, file_keys};
+pub(crate) use entry::entry_keys;
+pub(crate) use errors::error_keys;
+pub(crate) use file::{revision_keys, source_keys, vendor_keys};
+pub(crate) use machines::{command_keys, machine_keys, state_keys, transition_keys};
+pub(crate) use manual::erratum_keys;
+pub(crate) use pdos::pdo_keys;
+pub(crate) use types::unit_keys;

@@ -1,0 +1,45 @@
+//! Objects and their shapes.
+
+use super::entry::{ENTRY, NAME_KEYS, SUB0_KEYS, VALUE_KEYS};
+use super::shape::{Key, KeyKind, Keys, NAMES, Shape};
+use super::table::{joined, key_list};
+use crate::model::{Outside, Rounding};
+
+/// Keys that only objects have.
+const OBJECT_KEYS: &[Key] = key_list! {
+    "on": NAMES, "devices that have the object; all unless given", "[pmm, pmc]";
+    "from": Shape::Text, "library that defines the object; the other keys say what differs", "cia301";
+    "alias": Shape::Entry, "makes it a view of another entry, in a narrower type or another unit, without storage of its own", "0x6064";
+    "outside": Shape::Choice(Outside::WORDS), "what an alias gives outside its range; saturate unless given";
+    "rounding": Shape::Choice(Rounding::WORDS), "how a rescaling alias rounds; down unless given";
+    "array": Shape::Map(&ARRAY), "makes it an ARRAY", "{count: 8, name: \"block {n}\", type: integer16, access: ro}";
+    "record": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "makes it a RECORD: members by sub-index", "{1: {name: type, type: unsigned8, access: ro}}";
+    "sub0": Shape::Map(&SUB0), "name and access of sub-index 0, where they are not the usual ones", "{access: rw}";
+    "omit": Shape::List(&Shape::Integer(1, 254)), "with `from:`: sub-indices that the device does not have", "[4]";
+};
+
+/// An object.
+pub static OBJECT: Keys = Keys {
+    name: "an object",
+    keys: &joined::<{ NAME_KEYS.len() + OBJECT_KEYS.len() + VALUE_KEYS.len() }>(&[
+        NAME_KEYS,
+        OBJECT_KEYS,
+        VALUE_KEYS,
+    ]),
+};
+
+/// Keys that only arrays have.
+const ARRAY_KEYS: &[Key] = key_list! {
+    "count": Shape::Integer(1, 254), "number of elements; the highest of `elements` unless given";
+    "name": Shape::Text, "name of the elements; `{n}` stands for the sub-index", "\"block {n}\"";
+    "elements": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "what single elements have of their own", "{1: {name: nominal value, default: 560 V}}";
+};
+
+/// `array:`.
+pub static ARRAY: Keys = Keys {
+    name: "an array",
+    keys: &joined::<{ ARRAY_KEYS.len() + VALUE_KEYS.len() }>(&[ARRAY_KEYS, VALUE_KEYS]),
+};
+
+/// `sub0:`.
+pub static SUB0: Keys = Keys { name: "sub-index 0", keys: SUB0_KEYS };

@@ -1,0 +1,105 @@
+//! Tables of keys, and what the values and keys of maps look like.
+
+/// The keys of one kind of map.
+#[derive(Debug)]
+pub struct Keys {
+    /// What such a map describes, with its article: `an object`.
+    pub name: &'static str,
+    /// The keys, in the order the reference shows them.
+    pub keys: &'static [Key],
+}
+
+/// One key.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// The key as written.
+    pub name: &'static str,
+    /// What its value looks like.
+    pub shape: Shape,
+    /// Whether it must be there.
+    pub required: bool,
+    /// What it means.
+    pub about: &'static str,
+    /// A value as it may be written, where the shape alone does not show it.
+    pub example: Option<&'static str>,
+}
+
+/// What a value looks like.
+#[derive(Debug, Clone, Copy)]
+pub enum Shape {
+    /// Any text.
+    Text,
+    /// A text, or a map from language code to text.
+    Words,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// `yes` or `no`.
+    YesNo,
+    /// An integer in a range.
+    Integer(i128, i128),
+    /// `2009-05-27`.
+    Date,
+    /// `2009-05-27 09:00`.
+    DateTime,
+    /// An index: `0x6040`.
+    Index,
+    /// An entry: `0x30FA.3`, or by name.
+    Entry,
+    /// An access type, `locked` may follow.
+    Access,
+    /// A data type or a named type.
+    Type,
+    /// A value of an entry: number, physical value, enum name, text or `$NODEID` formula.
+    Value,
+    /// A fraction: `1/10`.
+    Ratio,
+    /// A fraction and a symbol: `1/1000 V`.
+    Base,
+    /// A condition between entries.
+    Condition,
+    /// A term of a condition: `0x6092.1 / 0x6092.2`.
+    Formula,
+    /// Bits, most significant first: `xxxx xxxx x01x 0001`.
+    Pattern,
+    /// A map with fixed keys.
+    Map(&'static Keys),
+    /// A map whose keys are data.
+    MapOf(KeyKind, &'static Shape),
+    /// A list.
+    List(&'static Shape),
+    /// One value, or a list of them.
+    OneOrMore(&'static Shape),
+    /// A short form (a scalar) or a map.
+    ShortOr(&'static Shape, &'static Keys),
+}
+
+/// What the keys of a map are that carries data in its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeyKind {
+    /// A name.
+    Name,
+    /// A short key of lower-case letters, digits and `-`, which also names the device's files.
+    DeviceKey,
+    /// A language code.
+    Language,
+    /// An index, or a run of them: `0x3511..0x3519`.
+    Indices,
+    /// A sub-index from 1 to 254.
+    SubIndex,
+    /// A bit, or bits `0..3`.
+    Bits,
+    /// An integer.
+    Integer,
+    /// A 16-bit error code, or a range `0x3281..0x3288`.
+    ErrorCodes,
+    /// A number from 1 to 512.
+    PdoNumber,
+    /// A number from 0 to 255.
+    Number,
+}
+
+pub(super) const U8: Shape = Shape::Integer(0, 0xFF);
+pub(super) const U16: Shape = Shape::Integer(0, 0xFFFF);
+pub(super) const U32: Shape = Shape::Integer(0, 0xFFFF_FFFF);
+pub(super) const NAMES: Shape = Shape::OneOrMore(&Shape::Text);
+pub(super) const INDICES: Shape = Shape::List(&Shape::Index);

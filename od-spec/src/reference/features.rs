@@ -1,0 +1,38 @@
+//! The features of the built-in libraries, in the words of the libraries.
+
+use std::fmt::Write as _;
+
+use super::tables::cell;
+use crate::compile::LIBRARIES;
+use crate::diag::Diagnostics;
+use crate::source::SourceMap;
+use crate::yaml::{self, Node};
+
+/// One table for each library.
+pub(super) fn features() -> String {
+    let mut out = String::new();
+    for (name, text) in LIBRARIES {
+        out.push_str(if out.is_empty() { "" } else { "\n" });
+        let _ =
+            write!(out, "Of the library `{name}`:\n\n| Feature | Objects | Meaning |\n| --- | --- | --- |\n");
+        let mut sources = SourceMap::new();
+        let id = sources.add(*name, *text);
+        let library = yaml::parse(id, sources.file(id), &mut Diagnostics::new());
+        let features = library.as_ref().and_then(|library| library.get("features"));
+        for (feature, facts) in features.map(Node::entries).unwrap_or_default() {
+            let text = |key: &str| facts.get(key).and_then(Node::text).map_or("", |text| text.value);
+            let objects: Vec<&str> = facts
+                .get("objects")
+                .map(Node::items)
+                .unwrap_or_default()
+                .iter()
+                .filter_map(|index| index.text()?.value.strip_prefix("0x"))
+                .collect();
+            let objects = objects.iter().map(|index| format!("{index}h")).collect::<Vec<_>>().join(", ");
+            let implied = if text("implied") == "yes" { ", implied" } else { "" };
+            let _ = writeln!(out, "| `{}`{implied} | {objects} | {} |", feature.value, cell(text("about")));
+        }
+    }
+    out.truncate(out.trim_end().len());
+    out
+}

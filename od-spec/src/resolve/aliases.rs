@@ -1,0 +1,293 @@
+//! Aliases: entries that show another entry in a narrower type or another unit, with no storage of their own. What the
+//! declaration leaves open follows from the target.
+
+use std::collections::BTreeMap;
+
+use super::decls::Declared;
+use super::entries::{self, Surroundings};
+use super::refs::{Broken, Names};
+use super::types::words;
+use crate::ast::{EntryDecl, Name};
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::model::{
+    AccessRight, Alias, Entry, EntryId, Fact, Index, Object, ObjectKind, Outside, PdoMapping, Ratio,
+    Rounding, Statement, Storage, SubIndex, Value, convert,
+};
+use crate::source::Spanned;
+
+/// Adds the aliases of a device to its objects.
+pub(super) fn resolve(
+    declared: &BTreeMap<Index, Declared<'_>>,
+    around: Surroundings<'_>,
+    objects: &mut BTreeMap<Index, Object>,
+    broken: &mut Broken,
+    diagnostics: &mut Diagnostics,
+) {
+    let names = Names::new(objects.values());
+    for (index, one) in declared {
+        let Some(reference) = &one.decl.alias else { continue };
+        let object = target(reference, declared, &names, objects, broken, diagnostics)
+            .and_then(|target| alias(one, &target, around, diagnostics));
+        match object {
+            Some(object) => {
+                objects.insert(*index, object);
+            }
+            None => broken.add(*index, one.decl.entry.name.as_ref()),
+        }
+    }
+}
+
+/// The entry that an alias shows.
+struct Target<'a> {
+    /// How the specification names it.
+    reference: &'a Name,
+    id: EntryId,
+    object: &'a Object,
+    entry: &'a Entry,
+}
+
+impl Target<'_> {
+    /// Its name: the object's, with the entry's in an array or record.
+    fn name(&self) -> String {
+        if self.object.is_structured() {
+            format!("{} {}", self.object.name, self.entry.name)
+        } else {
+            self.object.name.clone()
+        }
+    }
+}
+
+/// Finds what a reference names, which may be no alias itself.
+fn target<'a>(
+    reference: &'a Name,
+    declared: &BTreeMap<Index, Declared<'_>>,
+    names: &Names,
+    objects: &'a BTreeMap<Index, Object>,
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<Target<'a>> {
+    if let Some(alias) = alias_named(reference, declared) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::ALIAS_OF_ALIAS,
+                reference.span,
+                format!("{} is an alias itself", alias.value),
+            )
+            .with(alias.span, "an alias")
+            .help("refer to the entry that holds the value"),
+        );
+        return None;
+    }
+    let find = |id: EntryId| objects.get(&id.index).and_then(|object| Some((object, object.entry(id.sub)?)));
+    let id = names.find(reference, |id| find(id).is_some(), broken, diagnostics)?;
+    let (object, entry) = find(id)?;
+    Some(Target { reference, id, object, entry })
+}
+
+/// The alias that a reference names, by index or by name.
+fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared<'_>>) -> Option<Spanned<Index>> {
+    let by_index = crate::decode::lexical::entry_by_index(&reference.value).map(|entry| entry.index);
+    let mut aliases = declared.values().map(|one| &one.decl).filter(|decl| decl.alias.is_some());
+    let is_named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.value == reference.value);
+    let named =
+        aliases.find(|decl| by_index.map_or(is_named(&decl.entry.name), |index| decl.index.value == index));
+    named.map(|decl| decl.index)
+}
+
+/// The object that a declaration makes with its target.
+fn alias(
+    one: &Declared<'_>,
+    target: &Target<'_>,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Object> {
+    let decl = &one.decl;
+    // An alias `from:` a library was reported where the library's object was laid under.
+    if decl.from.is_some() || has_value_of_its_own(one, target, diagnostics) {
+        return None;
+    }
+    let whole = completed(&decl.entry, target, diagnostics)?;
+    let typed = entries::entry_type(&whole, around.scope, diagnostics)?;
+    let bits = typed.data_type.bits().unwrap_or_default();
+    let name =
+        whole.name.as_ref().map_or_else(|| format!("{} {bits}bit", target.name()), |name| name.value.clone());
+    let mut entry = entries::resolve(&whole, SubIndex(0), name.clone(), around, diagnostics)?;
+    let alias = Alias {
+        target: target.id,
+        factor: factor(&entry, decl.entry.type_name.as_ref(), target, diagnostics)?,
+        rounding: decl.rounding.map_or(Rounding::Down, |rounding| rounding.value),
+        outside: decl.outside.map_or(Outside::Saturate, |outside| outside.value),
+    };
+    follow(&mut entry, &alias, &decl.entry, target);
+    entry.eds = entries::alias_policy(&entry, target.entry, &decl.entry, around.eds);
+    entry.alias = Some(alias);
+    entry.facts.state(Fact::Alias, Statement::written(target.reference.span, around.file));
+    Some(Object {
+        index: decl.index.value,
+        name,
+        identifier: entry.identifier.clone(),
+        kind: ObjectKind::Var,
+        origin: one.origin,
+        profile: one.profile.clone(),
+        departures: one.departures.clone(),
+        category: decl.entry.category.map(|category| category.value),
+        since: decl.entry.since.as_ref().map(|since| since.value.clone()),
+        about: words(&decl.entry.about),
+        entries: vec![entry],
+        span: decl.index.span,
+    })
+}
+
+/// Reports what an alias cannot have.
+fn has_value_of_its_own(one: &Declared<'_>, target: &Target<'_>, diagnostics: &mut Diagnostics) -> bool {
+    let decl = &one.decl;
+    let keys = [
+        decl.array.as_ref().map(|array| array.span),
+        decl.record.as_ref().map(|record| record.span),
+        decl.entry.stored.map(|stored| stored.span),
+        decl.entry.default.as_ref().map(|default| default.span),
+    ];
+    let Some(place) = keys.into_iter().flatten().next() else { return false };
+    diagnostics.push(
+        Diagnostic::new(codes::CONFLICTING_KEYS, place, "an alias has no storage or value of its own")
+            .with(target.reference.span, "its target")
+            .help("remove `array`, `record`, `stored` and `default`; they are the target's"),
+    );
+    true
+}
+
+/// The declaration with access, mapping and unit of the target where it says nothing about them.
+fn completed(decl: &EntryDecl, target: &Target<'_>, diagnostics: &mut Diagnostics) -> Option<EntryDecl> {
+    let (id, entry, place) = (target.id, target.entry, target.reference.span);
+    let mut whole = decl.clone();
+    let follows = AccessRight { access: entry.access, locked: entry.locked };
+    let right = whole.access.get_or_insert(Spanned::new(follows, place));
+    if right.value.access.is_writable() && !entry.access.is_writable() {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::BAD_ALIAS,
+                right.span,
+                format!("{id} is `{}`: its alias cannot be written", entry.access.word()),
+            )
+            .with(entry.span, "the target")
+            .help("remove `access:`; an alias follows its target"),
+        );
+        return None;
+    }
+    // A lock on the target also locks its views.
+    right.value.locked |= entry.locked && right.value.access.is_writable();
+    let mapping = match (right.value.access.is_writable(), entry.pdo) {
+        (false, PdoMapping::Both) => PdoMapping::Transmit,
+        (false, PdoMapping::Receive) => PdoMapping::None,
+        (_, mapping) => mapping,
+    };
+    whole.pdo.get_or_insert(Spanned::new(mapping, place));
+    if let Some(unit) = &entry.unit {
+        whole.unit.get_or_insert_with(|| Spanned::new(unit.name.clone(), place));
+    }
+    Some(whole)
+}
+
+/// Gives the alias what follows from its target: the default as it shows it, the condition of a write and, where the raw
+/// values are the same, limits and special values as far as its type can show them.
+fn follow(entry: &mut Entry, alias: &Alias, decl: &EntryDecl, target: &Target<'_>) {
+    let derived = Statement::derived(target.reference.span);
+    for (fact, is_written) in [
+        (Fact::Access, decl.access.is_some()),
+        (Fact::Mapping, decl.pdo.is_some()),
+        (Fact::Unit, decl.unit.is_some()),
+    ] {
+        if !is_written && entry.facts.get(fact).is_some() {
+            entry.facts.state(fact, derived);
+        }
+    }
+    if entry.writable_when.is_none() && entry.access.is_writable() {
+        entry.writable_when.clone_from(&target.entry.writable_when);
+    }
+    // A default that the alias cannot show as it is would be another value.
+    let show = |raw: i128| convert(raw, alias.factor, alias.rounding, Outside::Abort, entry.data_type);
+    let shown = match &target.entry.default {
+        Some(Value::Integer(raw)) => show(*raw).map(Value::Integer),
+        Some(Value::NodeId(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) | None => None,
+    };
+    entry.set_default(shown, derived);
+    if alias.factor == Ratio::ONE {
+        follow_values(entry, target.entry);
+    }
+    entry.stored = Storage::No;
+}
+
+fn follow_values(alias: &mut Entry, target: &Entry) {
+    let Some((low, high)) = alias.data_type.range() else { return };
+    let shows = |raw: &i128| (low..=high).contains(raw);
+    alias.low = alias.low.or(target.low.filter(shows));
+    alias.high = alias.high.or(target.high.filter(shows));
+    if alias.special.is_empty() {
+        alias.special = target.special.iter().filter(|special| shows(&special.value)).cloned().collect();
+    }
+}
+
+/// Checks that an alias can show its target, and gives the raw factor between them.
+fn factor(
+    alias: &Entry,
+    type_name: Option<&Name>,
+    target: &Target<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Ratio> {
+    let (id, shown) = (target.id, target.entry);
+    let place = type_name.map_or(target.reference.span, |name| name.span);
+    let mut refuse = |message: String, help: &str| {
+        diagnostics.push(
+            Diagnostic::new(codes::BAD_ALIAS, place, message)
+                .with(target.reference.span, "its target")
+                .help(help.to_owned()),
+        );
+        None
+    };
+    let (view_type, target_type) = (alias.data_type, shown.data_type);
+    if !view_type.is_integer() || !target_type.is_integer() {
+        return refuse(
+            format!("{view_type} cannot show {id}, which is {target_type}"),
+            "an alias and its target are integers",
+        );
+    }
+    if view_type.is_signed() != target_type.is_signed() {
+        return refuse(
+            format!(
+                "{view_type} cannot show {id}, which is {target_type}: one has a sign, the other has not"
+            ),
+            "take a type with the same sign as the target",
+        );
+    }
+    let rescaled = alias.unit.is_some() && alias.unit != shown.unit;
+    let (width, target_width) = (view_type.bits().unwrap_or(0), target_type.bits().unwrap_or(0));
+    if width > target_width || (width == target_width && !rescaled) {
+        return refuse(
+            format!("{view_type} is not narrower than {id}, which is {target_type}"),
+            "an alias shows its target in a narrower type, or in another unit",
+        );
+    }
+    if !rescaled {
+        return Some(Ratio::ONE);
+    }
+    let factor = match (entries::step(alias.unit.as_ref()), entries::step(shown.unit.as_ref())) {
+        (Some((symbol, step)), Some((target_symbol, target_step))) if symbol == target_symbol => {
+            target_step.checked_div(step)
+        }
+        _ => None,
+    };
+    factor.or_else(|| {
+        refuse(
+            format!(
+                "the alias is in {}, its target in {}: they do not convert",
+                unit_name(alias),
+                unit_name(shown)
+            ),
+            "give both units the same `base`, or leave out the alias' unit",
+        )
+    })
+}
+
+fn unit_name(entry: &Entry) -> String {
+    entry.unit.as_ref().map_or("no unit".to_owned(), |unit| format!("`{}`", unit.name))
+}

@@ -1,0 +1,79 @@
+//! What a device says about itself: facts for `[DeviceInfo]` and `[FileInfo]` of its EDS.
+
+use super::numbers::{to_u8, to_u16, to_u32};
+use super::scope::unknown;
+use crate::ast::{DeviceDecl, Name};
+use crate::diag::{Diagnostics, codes};
+use crate::model::{DataType, Date, DateTime, DeviceInfo, Fact, Facts, FileInfo, Statement, Vendor};
+use crate::source::{Span, Spanned};
+
+/// Where the facts about a device stand.
+pub(super) fn facts(device: &DeviceDecl) -> Facts {
+    let rates = device.bit_rates.iter().map(|rate| rate.span).reduce(Span::to);
+    let granularity = device.granularity.map(|granularity| granularity.span);
+    let stated = [(Fact::BitRates, rates), (Fact::Granularity, granularity)];
+    let written =
+        |(fact, span): (Fact, Option<Span>)| Some((fact, Statement::written(span?, device.key.span.file)));
+    stated.into_iter().filter_map(written).collect()
+}
+
+/// Facts for `[DeviceInfo]`.
+pub(super) fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> DeviceInfo {
+    let text = |name: &Option<Name>| name.as_ref().map(|name| name.value.clone());
+    let number = |value: &Option<Spanned<i128>>| value.as_ref().map_or(0, |value| to_u32(value.value));
+    let flag = |value: &Option<Spanned<bool>>, unless: bool| value.as_ref().map_or(unless, |v| v.value);
+    let product_name = text(&device.product_name).or_else(|| text(&device.name)).unwrap_or_default();
+    // A number outside the key's range was refused where it was read.
+    let readable = device.bit_rates.iter().filter(|rate| (10..=1000).contains(&rate.value));
+    let mut bit_rates: Vec<u16> = readable.map(|rate| to_u16(rate.value)).collect();
+    bit_rates.sort_unstable();
+    bit_rates.dedup();
+    let mut dummies = Vec::new();
+    for name in &device.dummies {
+        match DataType::from_name(&name.value).filter(|data_type| data_type.is_dummy()) {
+            Some(data_type) => dummies.push(data_type),
+            None => {
+                let known = DataType::ALL.into_iter().filter(|t| t.is_dummy()).map(DataType::name);
+                let otherwise = "placeholders are boolean, integer8/16/32 and unsigned8/16/32";
+                diagnostics.push(unknown(codes::UNKNOWN_TYPE, name, "placeholder type", known, otherwise));
+            }
+        }
+    }
+    dummies.sort_by_key(|data_type| data_type.code());
+    dummies.dedup();
+    DeviceInfo {
+        order_code: text(&device.order_code).unwrap_or_else(|| product_name.clone()),
+        product_name,
+        product: number(&device.product),
+        product_revision: number(&device.product_revision),
+        bit_rates,
+        device_type: number(&device.device_type),
+        granularity: device.granularity.as_ref().map_or(8, |value| to_u8(value.value)),
+        boot_up_master: flag(&device.boot_up_master, false),
+        boot_up_slave: flag(&device.boot_up_slave, true),
+        group_messaging: flag(&device.group_messaging, false),
+        lss: flag(&device.lss, false),
+        dummies,
+    }
+}
+
+/// Facts for `[FileInfo]`.
+pub(super) fn file(device: &DeviceDecl, vendor: &Vendor) -> FileInfo {
+    let eds = device.eds.as_ref();
+    let text = |name: Option<&Name>| name.map(|name| name.value.clone());
+    // An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
+    let epoch = DateTime { date: Date { year: 2000, month: 1, day: 1 }, hour: 0, minute: 0 };
+    let created = eds.and_then(|eds| eds.created).map_or(epoch, |created| created.value);
+    let created_by = text(eds.and_then(|eds| eds.created_by.as_ref())).unwrap_or_else(|| vendor.name.clone());
+    FileInfo {
+        description: text(eds.and_then(|eds| eds.description.as_ref()))
+            .or_else(|| text(device.name.as_ref()))
+            .unwrap_or_default(),
+        created,
+        modified: eds.and_then(|eds| eds.modified).map_or(created, |modified| modified.value),
+        modified_by: text(eds.and_then(|eds| eds.modified_by.as_ref())).unwrap_or_else(|| created_by.clone()),
+        created_by,
+        version: eds.and_then(|eds| eds.version).map_or(1, |version| to_u8(version.value)),
+        revision: eds.and_then(|eds| eds.revision).map_or(0, |revision| to_u8(revision.value)),
+    }
+}
