@@ -265,31 +265,6 @@ mod tests {
         assert_eq!(language.words().len(), Word::ALL.len() + wording::Word::ALL.len());
     }
 
-    /// A word that nothing shows is a leftover.
-    #[test]
-    fn every_word_is_used() {
-        let mut text = String::new();
-        let mut folders = vec![std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR"))];
-        while let Some(folder) = folders.pop() {
-            for entry in std::fs::read_dir(folder).unwrap() {
-                let path = entry.unwrap().path();
-                if path.is_dir() {
-                    folders.push(path);
-                } else if !path.ends_with("language.rs") {
-                    text.push_str(&std::fs::read_to_string(path).unwrap());
-                }
-            }
-        }
-        let used = |word: &&Word| {
-            let words =
-                text.split(|sign: char| !sign.is_alphanumeric() && sign != '_' && sign != '.' && sign != ':');
-            let names = [format!("Word::{word:?}"), format!("words.{}", word.key())];
-            words.into_iter().any(|one| names.iter().any(|name| one == name))
-        };
-        let unused: Vec<&Word> = Word::ALL.iter().filter(|word| !used(word)).collect();
-        assert!(unused.is_empty(), "{unused:?}");
-    }
-
     #[test]
     fn every_kind_of_table_has_a_german_name() {
         let german = Language { code: "de" };

@@ -18,11 +18,19 @@ pub const SPECS: [&str; 2] = ["fullmo-drive", "pitch-control-system"];
 /// The command that brings a stale file up to date.
 const COMMAND: &str = "cargo xtask generate";
 
-/// All generated files: path below the root, and contents.
+/// A generated file: path below the root, and contents.
+pub type GeneratedFile = (String, Vec<u8>);
+
+/// All generated files.
 ///
 /// # Errors
 /// A specification does not compile, or a file that examples are put into cannot be read.
-pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
+pub fn all() -> Result<Vec<GeneratedFile>, Failure> {
+    Ok(shipped()?.into_iter().chain(texts()?).collect())
+}
+
+/// What the shipped specifications become: what `odgen build --node 1 --rust --docs md` writes.
+fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
     let mut files = Vec::new();
     for stem in SPECS {
         let (system, sources) = compile_with_sources(&format!("od-spec/devices/{stem}.od.yaml"))?;
@@ -31,11 +39,20 @@ pub fn all() -> Result<Vec<(String, Vec<u8>)>, Failure> {
         let set = set.chain(documents(&system, stem)?);
         files.extend(set.map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
     }
-    files.push(("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()));
-    files.push(("docs/language.md".to_owned(), od_spec::reference().into_bytes()));
-    files.push(("docs/messages.md".to_owned(), messages().into_bytes()));
-    files.push(("README.md".to_owned(), readme()?.into_bytes()));
     Ok(files)
+}
+
+/// What is generated from the compiler itself, and the README.
+///
+/// # Errors
+/// As [`all`].
+pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
+    Ok(vec![
+        ("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()),
+        ("docs/language.md".to_owned(), od_spec::reference().into_bytes()),
+        ("docs/messages.md".to_owned(), messages().into_bytes()),
+        ("README.md".to_owned(), readme()?.into_bytes()),
+    ])
 }
 
 /// The reference documentation of a specification, as Markdown.
@@ -75,25 +92,22 @@ pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
     Ok(report)
 }
 
-/// The first generated file that is not current, with its first differing line.
-///
-/// # Errors
-/// As [`all`].
-pub fn first_difference() -> Result<Option<String>, Failure> {
-    for (path, bytes) in all()? {
+/// The first of these files that is not current, with its first differing line.
+pub fn first_difference(files: Vec<GeneratedFile>) -> Option<String> {
+    for (path, bytes) in files {
         let old = fs::read(root().join(&path)).unwrap_or_default();
         if old != bytes {
             let (old, new) = (String::from_utf8_lossy(&old), String::from_utf8_lossy(&bytes));
             let line = old.lines().zip(new.lines()).take_while(|(old, new)| old == new).count();
-            return Ok(Some(format!(
+            return Some(format!(
                 "{path} is not current from line {}:\n  - {}\n  + {}\nrun `{COMMAND}`",
                 line + 1,
                 old.lines().nth(line).unwrap_or("(end of file)"),
                 new.lines().nth(line).unwrap_or("(end of file)"),
-            )));
+            ));
         }
     }
-    Ok(None)
+    None
 }
 
 /// `docs/messages.md`: every code with its explanation.

@@ -120,7 +120,7 @@ fn write() -> Result<(), Failure> {
 }
 
 fn check() -> Result<(), Failure> {
-    match generate::first_difference()? {
+    match generate::first_difference(generate::all()?) {
         None => Ok(()),
         Some(difference) => Err(difference.into()),
     }

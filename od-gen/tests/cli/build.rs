@@ -1,0 +1,119 @@
+//! `odgen build`: which files it writes, and that it writes all or none.
+
+use std::fs;
+use std::process::Command;
+
+use insta::assert_snapshot;
+
+use crate::{LAMP, Scratch, code, files, odgen, stderr, stdout};
+
+#[test]
+fn build_writes_every_file_and_says_what_it_is_for() {
+    let scratch = Scratch::new("build");
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out", "--node", "5"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_snapshot!(stdout(&output));
+    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.dcf", "eds/lamp.eds", "lamp.json"]);
+    let again = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out", "--node", "5"]);
+    assert!(stdout(&again).contains("0 files changed, 3 unchanged"), "{}", stdout(&again));
+}
+
+#[test]
+fn build_makes_rust_when_asked() {
+    let scratch = Scratch::new("rust");
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "--rust", "lamp.od.yaml"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert_eq!(
+        files(&scratch.0),
+        ["generated/eds/lamp.eds", "generated/lamp.json", "generated/src/lamp.rs", "lamp.od.yaml"]
+    );
+    let code_of = fs::read_to_string(scratch.0.join("generated/src/lamp.rs")).unwrap();
+    assert!(code_of.starts_with("// Object dictionary `lamp` of lamp.od.yaml ("), "{code_of}");
+    assert!(code_of.contains("pub fn brightness(&self) -> units::Percent<u8> {"), "{code_of}");
+}
+
+#[test]
+fn what_cannot_be_rust_writes_nothing_at_all() {
+    let scratch = Scratch::new("no-rust");
+    let label = "objects:\n  0x2001: {name: label, type: visible-string, access: rw}\n";
+    scratch.file("lamp.od.yaml", LAMP.replace("objects:\n", label));
+    let output = odgen(&scratch.0, &["build", "--rust", "lamp.od.yaml"]);
+    assert_eq!(code(&output), 1);
+    assert!(!scratch.0.join("generated").exists());
+    assert_snapshot!(stderr(&output));
+    assert_eq!(code(&odgen(&scratch.0, &["check", "--rust", "lamp.od.yaml"])), 1);
+    assert_eq!(code(&odgen(&scratch.0, &["check", "lamp.od.yaml"])), 0);
+    // An EDS needs no capacity.
+    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml"])), 0);
+}
+
+#[test]
+fn an_error_in_one_specification_writes_nothing_at_all() {
+    let scratch = Scratch::new("nothing");
+    scratch.file("good.od.yaml", LAMP);
+    scratch.file("bad.od.yaml", LAMP.replace("access: rw", "acess: rw"));
+    let output = odgen(&scratch.0, &["build", "good.od.yaml", "bad.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert_eq!(stdout(&output), "");
+    assert!(!scratch.0.join("out").exists());
+    assert_snapshot!(stderr(&output));
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_written_leaves_the_old_files() {
+    let scratch = Scratch::new("unwritable");
+    scratch.file("lamp.od.yaml", LAMP);
+    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"])), 0);
+    let before = fs::read(scratch.0.join("out/eds/lamp.eds")).unwrap();
+    scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
+    // A directory where a file should go: the one obstacle that also stops the superuser.
+    fs::remove_file(scratch.0.join("out/lamp.json")).unwrap();
+    fs::create_dir(scratch.0.join("out/lamp.json")).unwrap();
+    let output = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("error[OD0709]: cannot write out/lamp.json"), "{}", stderr(&output));
+    assert_eq!(fs::read(scratch.0.join("out/eds/lamp.eds")).unwrap(), before);
+    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.eds"]);
+}
+
+#[test]
+fn a_full_disk_leaves_the_old_files() {
+    let scratch = Scratch::new("full");
+    scratch.file("lamp.od.yaml", LAMP);
+    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"])), 0);
+    let before = fs::read(scratch.0.join("out/lamp.json")).unwrap();
+    scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
+    // A limit on the size of written files stands for the full disk: the EDS fits, the JSON does not.
+    let limited = format!(
+        "ulimit -f 10; trap '' XFSZ; exec {} build lamp.od.yaml --out out",
+        env!("CARGO_BIN_EXE_odgen")
+    );
+    let output = Command::new("bash").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
+    assert_eq!(code(&output), 1, "{}", stdout(&output));
+    assert!(stderr(&output).contains("error[OD0709]"), "{}", stderr(&output));
+    assert_eq!(fs::read(scratch.0.join("out/lamp.json")).unwrap(), before);
+    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.eds", "lamp.json"]);
+}
+
+#[test]
+fn two_devices_of_one_key_are_refused() {
+    let scratch = Scratch::new("clash");
+    scratch.file("a.od.yaml", LAMP);
+    scratch.file("b.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "a.od.yaml", "b.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("two devices would both write eds/lamp.eds"), "{}", stderr(&output));
+    assert!(!scratch.0.join("out").exists());
+}
+
+#[test]
+fn build_makes_documents_when_asked() {
+    let scratch = Scratch::new("build-docs");
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out", "--docs", "html"]);
+    assert_eq!(code(&output), 0);
+    let names = ["docs/lamp/index.html", "docs/lamp/lamp.html", "eds/lamp.eds", "lamp.json"];
+    assert_eq!(files(&scratch.0.join("out")), names);
+}

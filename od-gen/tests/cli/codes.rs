@@ -1,0 +1,29 @@
+//! Codes that only the command provokes.
+
+use std::fs;
+
+use crate::provoked::PROVOKED;
+use crate::{Scratch, odgen, stderr};
+
+/// Name and text of each file: a lamp whose 1017h departs from cia301, and a template with a mistake.
+const FILES: &[(&str, &str)] = &[
+    (
+        "lamp.od.yaml",
+        "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}\n\
+         objects:\n  0x1017: {from: cia301, name: heartbeat}\n",
+    ),
+    ("templates/device.txt", "{{ device.nmae }}\n"),
+];
+
+#[test]
+fn each_is_provoked() {
+    for provocation in PROVOKED {
+        let scratch = Scratch::new(provocation.code);
+        fs::create_dir(scratch.0.join("templates")).unwrap();
+        for (name, text) in FILES {
+            scratch.file(name, text);
+        }
+        let said = stderr(&odgen(&scratch.0, provocation.arguments));
+        assert!(said.contains(&format!("[{}]", provocation.code)), "{:?}: {said}", provocation.arguments);
+    }
+}

@@ -1,0 +1,97 @@
+//! `odgen docs` and its templates.
+
+use std::fs;
+
+use insta::assert_snapshot;
+
+use crate::{LAMP, Scratch, code, files, odgen, stderr, stdout};
+
+#[test]
+fn docs_prints_both_formats_of_a_small_specification() {
+    let scratch = Scratch::new("docs");
+    scratch.file("lamp.od.yaml", LAMP);
+    let arguments = ["docs", "lamp.od.yaml", "--format", "md", "--format", "html", "--out", "out"];
+    let output = odgen(&scratch.0, &arguments);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    let names = [
+        "lamp/README.md",
+        "lamp/index.html",
+        "lamp/lamp.html",
+        "lamp/lamp.md",
+        "lamp/storage.md",
+        "lamp/units.md",
+    ];
+    assert_eq!(files(&scratch.0.join("out")), names);
+    assert_snapshot!(fs::read_to_string(scratch.0.join("out/lamp/lamp.md")).unwrap());
+    // In another language, with what has no words in it marked.
+    let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--lang", "de", "--out", "de"]);
+    assert_eq!(code(&output), 0);
+    let german = fs::read_to_string(scratch.0.join("de/lamp/lamp.md")).unwrap();
+    assert!(
+        german.contains("| Index | Name") && german.contains("Zugriff") && german.contains("Vorgabe"),
+        "{german}"
+    );
+    assert!(german.contains(" *(en)*"), "{german}");
+}
+
+#[test]
+fn a_mistake_in_a_template_has_a_place_and_nothing_is_written() {
+    let scratch = Scratch::new("templates");
+    scratch.file("lamp.od.yaml", LAMP);
+    fs::create_dir(scratch.0.join("own")).unwrap();
+    let mut said = String::new();
+    for template in [
+        "{{ device.nmae }}\n",
+        "first line\n{% for one in devices %}\n",
+        "{% include \"_absent.txt\" %}\n",
+        "{{ device.name|shout }}\n",
+    ] {
+        scratch.file("own/device.txt", template);
+        let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--templates", "own", "--out", "out"]);
+        assert_eq!((code(&output), stdout(&output)), (1, String::new()), "{template}");
+        said.push_str(&stderr(&output));
+    }
+    assert_snapshot!(said);
+    assert!(!scratch.0.join("out").exists());
+}
+
+#[test]
+fn templates_are_exported_joined_and_replaced() {
+    let scratch = Scratch::new("export");
+    scratch.file("lamp.od.yaml", LAMP);
+    let output = odgen(&scratch.0, &["docs", "--export-templates", "own", "--format", "md"]);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    assert_eq!(
+        files(&scratch.0.join("own")),
+        ["README.md", "_macros.md", "appendix.md", "chapter.md", "device.md"]
+    );
+    // What was exported prints the same as what is built in.
+    assert_eq!(code(&odgen(&scratch.0, &["docs", "lamp.od.yaml", "--templates", "own", "--out", "one"])), 0);
+    assert_eq!(code(&odgen(&scratch.0, &["docs", "lamp.od.yaml", "--out", "two"])), 0);
+    for name in files(&scratch.0.join("two")) {
+        let text = |out: &str| fs::read_to_string(scratch.0.join(out).join(&name)).unwrap();
+        assert_eq!(text("one"), text("two"), "{name}");
+    }
+    let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--templates", "nowhere"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("cannot read nowhere"), "{}", stderr(&output));
+    let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--device", "lmap"]);
+    assert_eq!(code(&output), 2);
+    let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--dump-context"]);
+    assert!(
+        stdout(&output).starts_with("{\n  \"format\": 1,\n  \"language\": \"en\""),
+        "{}",
+        stdout(&output)
+    );
+}
+
+/// A device may not be named like another page of the documents.
+#[test]
+fn two_pages_of_one_name_are_refused() {
+    let scratch = Scratch::new("page-clash");
+    scratch.file("lamp.od.yaml", LAMP.replace("  lamp: {", "  units: {").replace("  lamp:\n", "  units:\n"));
+    let output = odgen(&scratch.0, &["--format", "short", "docs", "lamp.od.yaml", "--out", "out"]);
+    assert_eq!(code(&output), 1);
+    assert_snapshot!(stderr(&output));
+    assert!(!scratch.0.join("out").exists());
+}

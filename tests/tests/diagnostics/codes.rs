@@ -1,0 +1,105 @@
+//! Every code has an explanation, and something that provokes it: a case of `tests/ui`, its example, a row of the table below,
+//! or a command line in the table of the command's tests.
+
+use std::collections::BTreeSet;
+
+use od_gen::rust::{self, Provenance};
+use od_spec::diag::{Code, Diagnostics, Example, Severity, codes as known};
+use od_spec::{all_codes, code, read_text};
+
+use crate::bytes_and_libraries::{LAMP, compiled_with};
+use crate::settings::{HEATER, assigned};
+use crate::{cases, codes, run};
+
+#[path = "../../../od-gen/tests/cli/provoked.rs"]
+mod command_line;
+
+/// Something that provokes a code and is no specification by itself.
+struct Provocation {
+    code: &'static Code,
+    diagnostics: fn() -> Diagnostics,
+}
+
+const PROVOKED: &[Provocation] = &[
+    Provocation { code: known::NOT_UTF8, diagnostics: || unread(b"title: L\xe4mpchen".to_vec()) },
+    Provocation { code: known::TOO_LARGE, diagnostics: || unread(vec![b' '; (64 << 20) + 1]) },
+    Provocation { code: known::NOT_A_LIBRARY, diagnostics: lamps_without_profile },
+    Provocation { code: known::BAD_ASSIGNMENT, diagnostics: || heater(&["2000"]) },
+    Provocation { code: known::SET_TWICE, diagnostics: || heater(&["2000=off", "2000=manual"]) },
+    Provocation { code: known::IDENTIFIER_CLASH, diagnostics: names_clash },
+    Provocation { code: known::NO_IDENTIFIER, diagnostics: names_clash },
+    Provocation { code: known::NO_CAPACITY, diagnostics: names_clash },
+    Provocation { code: known::NOT_IN_FIRMWARE, diagnostics: names_clash },
+];
+
+fn unread(bytes: Vec<u8>) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(*read_text("lamp.od.yaml", bytes).unwrap_err());
+    diagnostics
+}
+
+fn lamps_without_profile() -> Diagnostics {
+    compiled_with(LAMP, &[("../lamps.od.yaml", b"od-spec: 1\ntitle: Lamps\n")]).1.diagnostics
+}
+
+fn heater(settings: &[&str]) -> Diagnostics {
+    assigned(HEATER, "heater", settings).diagnostics
+}
+
+/// What generated code cannot name or do.
+fn names_clash() -> Diagnostics {
+    let (sources, _, compiled) = run("names_clash.od.yaml", include_str!("../../macros/names_clash.od.yaml"));
+    let system = compiled.system.unwrap();
+    let mut diagnostics = Diagnostics::new();
+    rust::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &mut diagnostics);
+    diagnostics
+}
+
+/// What is said about the example of a code, with the settings that it gives as comments.
+fn example(example: &Example) -> BTreeSet<&'static Code> {
+    let text = Example::whole(example.before);
+    let settings: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("# --set ")).collect();
+    let (_, _, compiled) = run("example.od.yaml", &text);
+    match compiled.system {
+        Some(system) if !settings.is_empty() => {
+            codes(&assigned(&text, &system.devices[0].key, &settings).diagnostics)
+        }
+        Some(_) | None => codes(&compiled.diagnostics),
+    }
+}
+
+#[test]
+fn every_code_has_a_case() {
+    let mut provoked: BTreeSet<&'static Code> = BTreeSet::new();
+    for (name, text) in cases() {
+        provoked.extend(codes(&run(&name, &text).2.diagnostics));
+    }
+    for code in all_codes() {
+        provoked.extend(code.example.iter().flat_map(example));
+    }
+    for Provocation { code, diagnostics } in PROVOKED {
+        assert!(!provoked.contains(code), "{code} has a case: take it out of the table");
+        assert!(codes(&diagnostics()).contains(code), "nothing provokes {code} any more");
+    }
+    provoked.extend(PROVOKED.iter().map(|provocation| provocation.code));
+    for command_line::Provocation { code: id, arguments } in command_line::PROVOKED {
+        let code = code(id).unwrap();
+        assert!(provoked.insert(code), "{code} has a case: take `{}` out of its table", arguments.join(" "));
+    }
+    for code in all_codes() {
+        assert!(provoked.contains(&code), "{code} ({}) has no case", code.title);
+    }
+}
+
+#[test]
+fn explanations_are_sentences() {
+    for code in all_codes() {
+        assert!(!code.title.ends_with('.'), "{code}");
+        let explanation = code.explanation;
+        assert!(explanation.ends_with(['.', '?', '}']), "{code}: {explanation}");
+        assert_eq!(
+            matches!(code.severity, Severity::Warning | Severity::Note),
+            code.id.starts_with("OD08") || code.id == "OD0710"
+        );
+    }
+}
