@@ -6,9 +6,6 @@ use crate::mapping::{FRAME_BITS, MAPPING, Mapped, TRANSMIT, width};
 use crate::stored::current;
 use crate::table::{Flags, Found, Table};
 
-/// Bit 30 of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
-const NO_REMOTE_FRAMES: u32 = 1 << 30;
-
 /// Rules of 1400h to 15FFh and 1800h to 19FFh.
 pub(crate) fn check_communication(
     table: &Table<'_>,

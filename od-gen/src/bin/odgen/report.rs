@@ -35,7 +35,8 @@ impl Report {
         let mut text = render::render(diagnostics, sources, self.format, self.colour);
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {
-            let first = diagnostics.iter().next().map_or("", |first| first.code.id);
+            // An error before a warning, wherever it stands.
+            let first = diagnostics.iter().min_by_key(|one| one.severity()).map_or("", |first| first.code.id);
             let _ = writeln!(text, "{summary}; `odgen explain {first}` tells more");
         }
         let _ = std::io::stderr().write_all(text.as_bytes());
