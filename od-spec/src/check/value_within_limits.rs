@@ -26,10 +26,10 @@ pub(crate) const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, entry, value) in subject.values() {
-        if entry.alias.is_none() || view_counts(subject, entry) {
-            if let Some(node) = outside(subject, entry, value) {
-                findings.push(finding(subject, id, entry, value, node));
-            }
+        if (entry.alias.is_none() || view_counts(subject, entry))
+            && let Some(node) = outside(subject, entry, value)
+        {
+            findings.push(finding(subject, id, entry, value, node));
         }
     }
 }

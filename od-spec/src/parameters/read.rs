@@ -51,7 +51,7 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
         Some(alias) => {
             let raw = value.integer_for(node);
             if let Some(raw) = raw.filter(|raw| target_value(alias, *raw).is_none()) {
-                let diagnostic = no_whole_steps(device, id, alias, raw, value_span);
+                let diagnostic = Box::new(no_whole_steps(device, id, alias, raw, value_span));
                 return Err(Unread { diagnostic, id: Some(id) });
             }
             alias.target
@@ -84,7 +84,7 @@ pub(super) fn target_value(alias: &Alias, raw: i128) -> Option<i128> {
 }
 
 /// What is set through a view is a whole number of steps of the entry that it shows.
-fn no_whole_steps(device: &Dictionary, id: EntryId, alias: &Alias, raw: i128, span: Span) -> Box<Diagnostic> {
+fn no_whole_steps(device: &Dictionary, id: EntryId, alias: &Alias, raw: i128, span: Span) -> Diagnostic {
     let name = |id| device.entry(id).map_or("", |entry| entry.name.as_str());
     let shown = device.entry(id).map(|entry| format_value(entry, &Value::Integer(raw)));
     let message = format!(
@@ -94,7 +94,5 @@ fn no_whole_steps(device: &Dictionary, id: EntryId, alias: &Alias, raw: i128, sp
         alias.target,
         name(alias.target)
     );
-    Box::new(
-        Diagnostic::new(codes::INEXACT_VALUE, span, message).help(format!("set {} instead", alias.target)),
-    )
+    Diagnostic::new(codes::INEXACT_VALUE, span, message).help(format!("set {} instead", alias.target))
 }
