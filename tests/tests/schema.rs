@@ -241,8 +241,8 @@ fn check_examples(table: &Value, schema: &Value) {
     for (name, key) in table["properties"].as_object().into_iter().flatten() {
         for example in key["examples"].as_array().into_iter().flatten() {
             // Beside `$ref`, draft-07 validators ignore everything, so that definitions need a level of their own.
-            let own = serde_json::json!({"allOf": [key], "definitions": schema["definitions"]});
-            let validator = jsonschema::draft7::new(&own).expect("a schema");
+            let of_key = serde_json::json!({"allOf": [key], "definitions": schema["definitions"]});
+            let validator = jsonschema::draft7::new(&of_key).expect("a schema");
             let value = json(example.as_str().expect("a text"));
             assert!(validator.is_valid(&value), "{name}: {example}");
         }

@@ -19,7 +19,7 @@ pub(crate) struct Expected<'a> {
 
 /// Reads a value that is written at `span`.
 pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
-    let bad = |message: String, help: &str| {
+    let refuse = |message: String, help: &str| {
         Err(Box::new(Diagnostic::new(codes::BAD_VALUE, span, message).help(help)))
     };
     let shown = shorten(text);
@@ -27,7 +27,7 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
         DataType::Boolean => match (scalar::yes_no(text), text) {
             (Some(value), _) => Ok(Value::Integer(i128::from(value))),
             (None, "0" | "1") => Ok(Value::Integer(i128::from(text == "1"))),
-            _ => bad(format!("found `{shown}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
+            _ => refuse(format!("found `{shown}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
         },
         DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
             #[expect(clippy::cast_possible_truncation, reason = "whether the value survives is the question")]
@@ -37,7 +37,7 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
             {
                 Ok(Value::Real(value))
             }
-            _ => bad(
+            _ => refuse(
                 format!("found `{shown}`, expected a finite number"),
                 "write a decimal number such as `0.5`",
             ),
@@ -45,19 +45,19 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
         DataType::VisibleString if text.bytes().all(|byte| (0x20..=0x7E).contains(&byte)) => {
             Ok(Value::Text(text.to_owned()))
         }
-        DataType::VisibleString => bad(
+        DataType::VisibleString => refuse(
             "a VISIBLE_STRING holds printable ASCII characters only".to_owned(),
             "remove or replace the other characters, or take `unicode-string`",
         ),
         DataType::UnicodeString => Ok(Value::Text(text.to_owned())),
         DataType::OctetString => match octets(text) {
             Some(bytes) => Ok(Value::Bytes(bytes)),
-            None => bad(
+            None => refuse(
                 format!("found `{shown}`, expected bytes"),
                 "write pairs of hexadecimal digits: `01A1053C`",
             ),
         },
-        DataType::TimeOfDay | DataType::TimeDifference | DataType::Domain => bad(
+        DataType::TimeOfDay | DataType::TimeDifference | DataType::Domain => refuse(
             format!("an entry of type {} has no value that could be written here", expected.data_type),
             "leave the key out",
         ),

@@ -23,7 +23,7 @@ const TWO: &str = "tests/docs/two.od.yaml";
 
 /// Whether a file's name ends like this.
 fn is(name: &str, extension: &str) -> bool {
-    Path::new(name).extension().is_some_and(|own| own == extension)
+    Path::new(name).extension().is_some_and(|found| found == extension)
 }
 
 /// All Markdown pages of a specification by name, and the index of tables.
@@ -225,8 +225,8 @@ fn the_asciidoc_example_prints_every_table() {
 fn a_template_changes_nothing_but_itself() {
     let system = compile_clean(PITCH).unwrap();
     let options = docs::options(&system, &[], None);
-    let print = |own: &[(String, String)]| {
-        let templates = [Templates::new(Some(Format::Html), own).unwrap()];
+    let print = |templates: &[(String, String)]| {
+        let templates = [Templates::new(Some(Format::Html), templates).unwrap()];
         docs::artifacts(&system, "", "s", &options, &templates).unwrap()
     };
     let (before, after) = (print(&[]), print(&[("_style.css".to_owned(), "p { color: red }\n".to_owned())]));

@@ -124,8 +124,8 @@ fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {
     assert_eq!(table.cell(row, "Type"), entry.data_type.name(), "{at}");
     let shown = access(table.cell(row, "Attr"));
     let rw = matches!(entry.access, Access::Rw | Access::Rwr | Access::Rww);
-    let own = if entry.locked && rw { Access::Rw } else { entry.access };
-    assert_eq!(shown, (own, entry.locked), "{at}");
+    let shown_access = if entry.locked && rw { Access::Rw } else { entry.access };
+    assert_eq!(shown, (shown_access, entry.locked), "{at}");
     assert_eq!(mapping(table.cell(row, "Map")), entry.pdo, "{at}");
     assert_eq!(default(entry, table.cell(row, "Default")), entry.default, "{at}");
     let unit = entry.unit.as_ref().map_or(String::new(), |unit| {
@@ -135,12 +135,12 @@ fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {
     // Limits of an enum are its values; a limit that the type has anyhow is not one.
     if !matches!(entry.named_type.as_ref().map(|named| &named.kind), Some(TypeKind::Enum(_))) {
         let shown = range(entry, table.cell(row, "Range"));
-        let own = entry.data_type.range();
+        let of_type = entry.data_type.range();
         let limits = |limit: Option<i128>, shown: Option<i128>, end: Option<i128>| {
             assert!(shown == limit || (shown.is_none() && limit == end), "{at}: {shown:?}, not {limit:?}");
         };
-        limits(entry.low, shown.0, own.map(|(low, _)| low));
-        limits(entry.high, shown.1, own.map(|(_, high)| high));
+        limits(entry.low, shown.0, of_type.map(|(low, _)| low));
+        limits(entry.high, shown.1, of_type.map(|(_, high)| high));
     }
     let description = table.cell(row, "Description");
     assert!(description.starts_with(&flat(entry.about.get("en").unwrap_or_default())), "{at}: {description}");
@@ -247,8 +247,8 @@ fn check_bits(table: &Table, kind: &TypeKind) {
         assert_eq!(table.cell(row, "Clamp"), field.clamp.as_deref().unwrap_or_default(), "{name}");
         assert_eq!(table.cell(row, "Prio."), field.priority.as_deref().unwrap_or_default(), "{name}");
         let codes = table.cell(row, "Error code").lines().next().unwrap_or_default();
-        let own: Vec<String> = field.error_codes().map(|code| format!("{code:04X}h")).collect();
-        assert!(codes == own.join(", ") || (own.is_empty() && codes.contains(": ")), "{name}: {codes}");
+        let listed: Vec<String> = field.error_codes().map(|code| format!("{code:04X}h")).collect();
+        assert!(codes == listed.join(", ") || (listed.is_empty() && codes.contains(": ")), "{name}: {codes}");
     }
 }
 

@@ -51,7 +51,7 @@ fn default(entry: &Entry, json: &Json) -> Option<Value> {
 
 fn facts(entry: &Entry, shown: &Json, units: &BTreeMap<&str, Step>) -> Facts {
     let word = |key: &str| shown[key].as_str().unwrap();
-    let limit = |own: &str, widened: &str| integer(&shown[own]).or_else(|| integer(&shown[widened]));
+    let limit = |key: &str, widened: &str| integer(&shown[key]).or_else(|| integer(&shown[widened]));
     let special = shown.get("special").and_then(Json::as_array).into_iter().flatten();
     let special = special.map(|special| {
         (integer(&special["value"]).unwrap(), transliterate(special["name"].as_str().unwrap()))
