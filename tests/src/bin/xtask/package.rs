@@ -1,6 +1,7 @@
 //! The crates that users depend on, as a registry would take them.
 
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use od_tests::{Failure, root};
@@ -27,6 +28,8 @@ pub(crate) fn package() -> Result<(), Failure> {
     if !lacks.is_empty() {
         return Err(lacks.join("\n").into());
     }
+    let sources = cargo_home().ok_or("neither CARGO_HOME nor HOME is set")?.join("registry/src");
+    forget_unpacked(&sources, &published)?;
     let mut arguments = vec!["package", "--locked", "--allow-dirty", "--quiet"];
     for package in &published {
         arguments.extend(["--package", name(package)?]);
@@ -63,6 +66,37 @@ fn lacking<'a>(package: &Value, listed: &str) -> Vec<&'a str> {
     lacks
 }
 
+/// Removes what an earlier run unpacked of the packages.
+///
+/// Cargo serves the packages to each other from a temporary registry, but
+/// keeps what it unpacks of it by path and version: the next run in the same
+/// checkout would build the sources of the last one.
+fn forget_unpacked(sources: &Path, published: &[Value]) -> Result<(), Failure> {
+    if !sources.exists() {
+        return Ok(());
+    }
+    for registry in sources.read_dir()? {
+        let registry = registry?;
+        // A registry is named `host-hash`; one on this machine has no host.
+        if !registry.file_name().to_string_lossy().starts_with('-') {
+            continue;
+        }
+        for package in published {
+            let version = package.get("version").and_then(Value::as_str).ok_or("a package has no version")?;
+            let unpacked = registry.path().join(format!("{}-{version}", name(package)?));
+            if unpacked.exists() {
+                std::fs::remove_dir_all(unpacked)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn cargo_home() -> Option<PathBuf> {
+    let home = || Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo"));
+    std::env::var_os("CARGO_HOME").map(PathBuf::from).or_else(home)
+}
+
 /// What a command of cargo prints.
 fn cargo(arguments: &[&str]) -> Result<String, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -80,8 +114,8 @@ mod tests {
 
     const METADATA: &str = r#"{"packages": [
         {"name": "private", "publish": []},
-        {"name": "bare", "publish": null, "description": "", "keywords": []},
-        {"name": "whole", "publish": null, "description": "what", "license": "MIT", "readme": "README.md",
+        {"name": "bare", "version": "0.2.0", "publish": null, "description": "", "keywords": []},
+        {"name": "whole", "version": "0.1.0", "publish": null, "description": "what", "license": "MIT", "readme": "README.md",
          "rust_version": "1.90", "keywords": ["can"], "categories": ["embedded"]}
     ]}"#;
 
@@ -100,5 +134,19 @@ mod tests {
         let whole = "LICENSE-APACHE\nLICENSE-MIT\nREADME.md\nsrc/lib.rs\n";
         assert_eq!(lacking(&published[1], whole), Vec::<&str>::new());
         assert_eq!(lacking(&published[1], "LICENSE-MIT\nold/README.md\n"), ["README.md", "LICENSE-APACHE"]);
+    }
+
+    #[test]
+    fn only_unpacked_packages_of_a_local_registry_are_forgotten() {
+        let sources = std::env::temp_dir().join(format!("od-unpacked-{}", std::process::id()));
+        let folders = ["-0a1b/whole-0.1.0", "-0a1b/other-0.1.0", "index.example-0a1b/whole-0.1.0"];
+        for folder in folders {
+            std::fs::create_dir_all(sources.join(folder)).unwrap();
+        }
+        forget_unpacked(&sources, &published(METADATA).unwrap()).unwrap();
+        let left = folders.map(|folder| sources.join(folder).exists());
+        assert_eq!(left, [false, true, true]);
+        std::fs::remove_dir_all(&sources).unwrap();
+        forget_unpacked(&sources, &[]).unwrap();
     }
 }
