@@ -30,7 +30,13 @@ pub(crate) fn package() -> Result<(), Failure> {
     }
     let sources = cargo_home().ok_or("neither CARGO_HOME nor HOME is set")?.join("registry/src");
     forget_unpacked(&sources, &published)?;
-    let mut arguments = vec!["package", "--locked", "--allow-dirty", "--quiet"];
+    // Nor may what was compiled of them count as up to date, which cargo decides by version, too.
+    let target = root().join("target/packaged");
+    if target.exists() {
+        std::fs::remove_dir_all(&target)?;
+    }
+    let mut arguments =
+        vec!["package", "--target-dir", "target/packaged", "--locked", "--allow-dirty", "--quiet"];
     for package in &published {
         arguments.extend(["--package", name(package)?]);
     }
