@@ -95,7 +95,7 @@ pub struct Carrier<'a> {
 pub struct View<'a> {
     /// The entry that shows.
     pub id: EntryId,
-    /// The same.
+    /// That entry.
     pub entry: &'a Entry,
     /// How it converts.
     pub alias: &'a Alias,
