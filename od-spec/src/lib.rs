@@ -30,7 +30,6 @@ mod compile;
 mod decode;
 mod departures;
 pub mod diag;
-#[cfg(feature = "eds")]
 pub mod eds;
 mod explain;
 pub mod expr;

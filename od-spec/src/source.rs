@@ -160,10 +160,7 @@ impl SourceMap {
         let text = text.into();
         let mut line_starts = vec![0];
         line_starts.extend(
-            text.bytes()
-                .enumerate()
-                .filter(|(_, byte)| *byte == b'\n')
-                .map(|(at, _)| u32::try_from(at + 1).expect("source texts are smaller than 4 GiB")),
+            line_breaks(&text).map(|at| u32::try_from(at).expect("source texts are smaller than 4 GiB")),
         );
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 files"));
         self.files.push(SourceFile { name: name.into(), text, line_starts });
@@ -197,6 +194,13 @@ impl SourceMap {
     }
 }
 
+/// Where lines begin behind a line break: a line feed, or a carriage return without one.
+fn line_breaks(text: &str) -> impl Iterator<Item = usize> {
+    let bytes = text.as_bytes();
+    let ends_line = |at: &usize| bytes[*at] == b'\n' || bytes.get(at + 1) != Some(&b'\n');
+    memchr::memchr2_iter(b'\n', b'\r', bytes).filter(ends_line).map(|at| at + 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -211,5 +215,8 @@ mod tests {
         assert_eq!(file.line_col(7), LineCol { line: 2, column: 1 });
         assert_eq!(file.line_col(8), LineCol { line: 2, column: 2 });
         assert_eq!(file.lines(0, 0), (0, 5));
+        let id = map.add("old", "a\rb\r\n\rc");
+        let lines: Vec<usize> = (0..7).map(|at| map.file(id).line_col(at).line).collect();
+        assert_eq!(lines, [1, 1, 2, 2, 2, 3, 4]);
     }
 }

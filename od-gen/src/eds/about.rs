@@ -6,7 +6,7 @@ use od_spec::model::{Date, Dictionary, Entry, Fact, Storage, System};
 use super::writer::SectionWriter;
 
 /// The lines of `[Comments]`.
-pub(super) fn write(document: &mut Document, system: &System, device: &Dictionary) {
+pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dictionary) {
     let mut lines = vec![format!("{}: {}", system.title, device.name)];
     if let Some(source) = &system.document.source {
         lines.push(format!("Manual: {source}"));

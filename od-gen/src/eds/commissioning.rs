@@ -7,7 +7,7 @@ use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
 use super::writer::SectionWriter;
 
 /// `[DeviceComissioning]`, in the standard's spelling.
-pub(super) fn write(document: &mut Document, device: &Dictionary, commissioning: &Commissioning) {
+pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, commissioning: &Commissioning) {
     let mut section = SectionWriter::new("DeviceComissioning", &[]);
     section.key("NodeID", commissioning.node);
     section.key("NodeName", &commissioning.node_name);

@@ -9,7 +9,7 @@ use super::writer::SectionWriter;
 const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// `[DeviceInfo]`: whose device it is and what it can do.
-pub(super) fn write(document: &mut Document, system: &System, device: &Dictionary) {
+pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dictionary) {
     let info = &device.info;
     let mut section = SectionWriter::new("DeviceInfo", &[]);
     section.key("VendorName", &system.vendor.name);
@@ -33,7 +33,7 @@ pub(super) fn write(document: &mut Document, system: &System, device: &Dictionar
 }
 
 /// `[DummyUsage]`: the placeholders that an RPDO takes. Readers want a key for each.
-pub(super) fn write_dummies(document: &mut Document, device: &Dictionary) {
+pub(super) fn write_dummies(document: &mut Document<'_>, device: &Dictionary) {
     let mut section = SectionWriter::new("DummyUsage", &[]);
     for data_type in DataType::ALL.into_iter().filter(|data_type| data_type.is_dummy()) {
         section.flag(&format!("Dummy{:04X}", data_type.code()), device.info.dummies.contains(&data_type));

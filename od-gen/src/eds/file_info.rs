@@ -6,7 +6,7 @@ use od_spec::model::{Date, DateTime, Dictionary};
 use super::writer::SectionWriter;
 
 /// `[FileInfo]` of a file under a name. A DCF names the EDS that it was made from.
-pub(super) fn write(document: &mut Document, device: &Dictionary, file: &str, last_eds: Option<&str>) {
+pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, file: &str, last_eds: Option<&str>) {
     let info = &device.file;
     let mut section = SectionWriter::new("FileInfo", &[]);
     section.key("FileName", file);

@@ -53,7 +53,7 @@ pub fn write_eds(system: &System, device: &Dictionary) -> Vec<u8> {
 }
 
 /// The EDS of a device as a document, to look at or to change before it is written.
-pub fn eds_document(system: &System, device: &Dictionary) -> Document {
+pub fn eds_document(system: &System, device: &Dictionary) -> Document<'static> {
     let mut document = Document::default();
     head(&mut document, system, device, &format!("{}.eds", device.key), None);
     objects::write(&mut document, system, device, None);
@@ -67,7 +67,12 @@ pub fn write_dcf(system: &System, device: &Dictionary, node: &Commissioning, fil
 }
 
 /// The DCF of a node as a document.
-pub fn dcf_document(system: &System, device: &Dictionary, node: &Commissioning, file: &str) -> Document {
+pub fn dcf_document(
+    system: &System,
+    device: &Dictionary,
+    node: &Commissioning,
+    file: &str,
+) -> Document<'static> {
     let mut document = Document::default();
     head(&mut document, system, device, file, Some(&format!("{}.eds", device.key)));
     commissioning::write(&mut document, device, node);
@@ -76,7 +81,13 @@ pub fn dcf_document(system: &System, device: &Dictionary, node: &Commissioning, 
 }
 
 /// `[FileInfo]` to `[Comments]`. A DCF names the EDS that it was made from.
-fn head(document: &mut Document, system: &System, device: &Dictionary, file: &str, last_eds: Option<&str>) {
+fn head(
+    document: &mut Document<'_>,
+    system: &System,
+    device: &Dictionary,
+    file: &str,
+    last_eds: Option<&str>,
+) {
     file_info::write(document, device, file, last_eds);
     device_info::write(document, system, device);
     device_info::write_dummies(document, device);

@@ -38,7 +38,7 @@ impl List {
 
 /// The three lists with their objects; with the values of a node in a DCF.
 pub(super) fn write(
-    document: &mut Document,
+    document: &mut Document<'_>,
     system: &System,
     device: &Dictionary,
     node: Option<&Commissioning>,
@@ -59,7 +59,7 @@ pub(super) fn write(
 }
 
 fn write_object(
-    document: &mut Document,
+    document: &mut Document<'_>,
     system: &System,
     device: &Dictionary,
     object: &Object,

@@ -17,7 +17,7 @@ pub(super) struct SectionWriter(Section);
 
 impl SectionWriter {
     /// Begins a section, with comments directly above its header: the one place where every reader takes them.
-    pub(super) fn new(name: impl Into<String>, comments: &[String]) -> Self {
+    pub(super) fn new(name: impl Display, comments: &[String]) -> Self {
         Self(Section::new(name).with_comments(comments.iter().flat_map(|comment| broken(comment))))
     }
 
@@ -27,7 +27,7 @@ impl SectionWriter {
         let longest = LONGEST_LINE - 1 - key.len();
         let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
         if is_plain && text.len() <= longest && text.trim() == text {
-            self.0.push(key, text);
+            self.0.push(key, &text);
         } else {
             let mut ascii = transliterate(&text);
             ascii.truncate(longest);
@@ -41,7 +41,7 @@ impl SectionWriter {
     }
 
     /// Puts the section behind those of the document.
-    pub(super) fn finish(self, document: &mut Document) {
+    pub(super) fn finish(self, document: &mut Document<'_>) {
         document.push(self.0);
     }
 }

@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0315",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "an array of several types",
     explanation: "All elements of an ARRAY have one data type; a tool that reads the first takes the others for the same. Make the object a RECORD, \
         or correct the type.",

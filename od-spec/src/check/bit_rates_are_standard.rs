@@ -14,6 +14,7 @@ const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 const CODE: &Code = &Code {
     id: "OD0601",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "not a CANopen bit rate",
     explanation: "CiA 301 defines 10, 20, 50, 125, 250, 500, 800 and 1000 kbit/s; an EDS has keys for these only, so that a master could never \
         be told of another one. Write one of these.",

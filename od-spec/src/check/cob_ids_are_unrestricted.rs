@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 pub(crate) const CODE: &Code = &Code {
     id: "OD0503",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "an unusable COB-ID",
     explanation: "The identifier of a PDO, of SYNC, TIME, EMCY or of an SDO channel beside the first has more than 11 bits or is kept for NMT, SDO, heartbeat \
         or LSS. A message on such an identifier would disturb a service that every device relies on: a PDO with the identifier 0 stops nodes. A device \

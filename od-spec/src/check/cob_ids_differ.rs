@@ -14,6 +14,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0504",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "two services with one COB-ID",
     explanation: "Two PDOs that are valid after start-up, or a PDO and SYNC, TIME or EMCY, use one identifier; the device would disturb its own traffic, \
         and a receiver would take one for the other. Give one of them another identifier, or make the PDO `valid: no`.",

@@ -10,6 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0707",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "an entry that tools must not write",
     explanation: "The entry carries `flags: [no-write]` (bit 0 of ObjFlags in the EDS): it triggers a command, such as storing parameters, and must not be \
         written as part of a configuration. At each boot of the machine the command would run again. Leave the entry out.",

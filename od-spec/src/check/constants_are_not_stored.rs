@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0415",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a stored constant",
     explanation: "`const` means that the value never changes, so there is nothing to store. One of the two is wrong: a value that is stored can \
         change, and masters that take it for constant will not read it again. Remove `stored:`, or correct the access.",

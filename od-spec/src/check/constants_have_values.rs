@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0805",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "a constant without a value",
     explanation: "A `const` entry has one value for ever; without it, an EDS leaves the reader in the dark, and generated code has nothing to answer. \
         State it as `default`, or make the entry `ro`.",

@@ -13,6 +13,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0606",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a constraint that is broken",
     explanation: "The values at hand do not meet a condition of the specification, such as thresholds that must keep their order. They are compared \
         exactly, in physical units; an entry that is not set has its default. Each value may be right by itself: it is the combination that \

@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 pub const CODE: &Code = &Code {
     id: "OD0313",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "two counts disagree",
     explanation: "An array has an element beyond its `count`, sub-index 0 says another number than the entries, or a table row has more or fewer \
         cells than the table has columns. A client reads sub-index 0 to know how far to go, and would miss entries or ask for some that are not \

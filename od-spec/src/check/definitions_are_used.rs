@@ -10,6 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0806",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "a definition that nothing uses",
     explanation: "A unit or type is defined but no entry refers to it. A leftover, or an entry lost its `unit:` or `type:`, and with it its scale or its \
         meaning? Remove the definition, or use it.",

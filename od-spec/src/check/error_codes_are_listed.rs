@@ -10,6 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0808",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "an error code that is not listed",
     explanation: "A bit refers to an error code that `errors:` does not have, so that the documents cannot say what it means and generated code has no name \
         for it. Add the code to `errors:`, or correct it.",

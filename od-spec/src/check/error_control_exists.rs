@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0803",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "neither heartbeat nor node guarding",
     explanation: "CiA 301 demands one of the two: without them no master notices that the device has gone. Add the feature `heartbeat producer`.",
     clause: Some("CiA 301, objects 100Ch, 100Dh and 1017h"),

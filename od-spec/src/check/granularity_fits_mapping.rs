@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0509",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "granularity against mapping",
     explanation: "A granularity of 0 tells tools that no mapping can be changed; any other value that at least one can. The PDOs say the opposite: a \
         tool would refuse to change a mapping that can be changed, or try where it cannot. Correct `granularity:` of the device, or `mapping:` of \

@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0407",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "limits in the wrong order",
     explanation: "The low limit is above the high limit, so that no value would be allowed. Probably the two were swapped. Correct one of them.",
     clause: Some("CiA 306, 4.6.3.2 (LowLimit, HighLimit)"),

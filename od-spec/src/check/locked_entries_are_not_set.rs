@@ -10,6 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0704",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a parameter that is locked",
     explanation: "The entry is writable only after the device was unlocked for service, which a PLC does not do at boot: the download would stop there. \
         The value of a locked parameter was set in the factory, for this very machine. Leave the entry out.",

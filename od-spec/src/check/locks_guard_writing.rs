@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0414",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a lock on something nobody can write",
     explanation: "`locked` means that the entry can be written only after the device was unlocked for service. An entry that is never \
         writable needs no lock: either the access is wrong, and the entry could not be corrected in service, or the lock is a leftover. \

@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0804",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "LSS without a serial number",
     explanation: "An LSS address consists of vendor, product, revision and serial number: without 1018h.4 no LSS master can tell two such devices apart. Add \
         sub-index 4 to 1018h, or remove `lss: yes`.",

@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0801",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "a mandatory object is missing",
     explanation: "Every CANopen device has 1000h, 1001h and 1018h; a master reads them at boot to know whom it talks to. `uses: [cia301]` brings them.",
     clause: Some("CiA 301, objects 1000h, 1001h and 1018h"),

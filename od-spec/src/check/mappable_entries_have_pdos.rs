@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0802",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "mappable, but no PDO",
     explanation: "Entries of the device can be mapped in a direction in which it has no PDO; a strict checker calls the EDS faulty, and a PLC offers the user \
         something that cannot be done. Describe the PDOs under `pdos:`. The communication profile's own objects (1000h to 1FFFh) are mappable on \

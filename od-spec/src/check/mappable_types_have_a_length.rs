@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0416",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a type that cannot travel in a PDO",
     explanation: "Strings and DOMAINs have no fixed length and cannot be mapped: a mapping parameter names the length in bits. Remove `pdo:`; \
         what is longer than a PDO travels by SDO.",

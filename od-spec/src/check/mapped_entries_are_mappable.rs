@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0502",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "an entry that cannot be mapped into this PDO",
     explanation: "The entry's `pdo:` does not allow this direction, or none at all, or the mapping parameter says another length than the entry has. \
         A device answers such a mapping with abort code 0604 0041h; one that does not would send or take other bits than the master expects. \

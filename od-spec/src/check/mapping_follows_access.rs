@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 pub(super) const CODE: &Code = &Code {
     id: "OD0417",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "mapping against the access",
     explanation: "What is mapped into a TPDO is read from the device, what is mapped into an RPDO is written to it. `ro`, `const` and `rwr` go \
         with `transmit`, `wo` and `rww` with `receive`; only `rw` leaves the choice. The same holds for what the EDS shows, which may be less \

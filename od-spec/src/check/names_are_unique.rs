@@ -16,6 +16,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 pub const CODE: &Code = &Code {
     id: "OD0303",
     severity: Severity::Error,
+    foreign: Severity::Warning,
     title: "a name stands for two things",
     explanation: "Names are how people, PDO mappings and generated code refer to things: objects of one device, entries of one object, values and bits of one \
         type, units and types each need a name of their own, also where an EDS writes it in ASCII. Otherwise a mapping or a parameter file could \

@@ -13,6 +13,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0508",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "PDO settings that contradict each other",
     explanation: "More entries are mapped than the PDO offers, fewer than it says, entries that are no multiple of the device's granularity, nothing \
         at all in a mapping that cannot be changed; an RPDO forbids remote frames, which only a TPDO answers (bit 30 of an RPDO's COB-ID is \

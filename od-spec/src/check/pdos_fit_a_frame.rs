@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0507",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a PDO over 64 bits",
     explanation: "A PDO is one CAN frame and holds 64 bits; a device answers a longer mapping with abort code 0604 0042h. Map fewer entries, or 16-bit \
         aliases of 32-bit entries.",

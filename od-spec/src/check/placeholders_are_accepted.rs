@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0506",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a placeholder that the device does not take",
     explanation: "RPDOs may hold placeholders of the types that the device lists in `dummies:`, to skip bits that are meant for another device; \
         TPDOs may not. A placeholder has the length of its type. A device that does not know the placeholder refuses the whole mapping. List the \

@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0807",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "a default of a REAL type",
     explanation: "Tools read `DefaultValue` of REAL32 and REAL64 differently: some as decimal text, some as the bit pattern of IEEE 754. It is written as \
         decimal text. Withhold it from the EDS, or scale the value to an integer.",

@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0810",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "a value sets reserved bits",
     explanation: "Reserved bits are written as 0: a later device may give them a meaning, and would then do something that nobody asked for. Correct the value, \
         or say what the bits mean.",

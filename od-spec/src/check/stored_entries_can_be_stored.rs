@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0809",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "stored, but nothing stores",
     explanation: "An entry is saved by a \"store parameters\" command that the device does not have: 1010h lacks the sub-index of its group (2 communication, \
         3 application, 4 manufacturer). Whoever sets it would find it lost after the next power-off. Add the feature `store parameters`, or \

@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0505",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a reserved transmission type",
     explanation: "0 to 240 are synchronous, 254 and 255 event-driven, 252 and 253 answer remote frames (TPDOs only); 241 to 251 are reserved. A device \
         refuses a reserved type with abort code 0609 0030h, or does what nobody foresees. Write one of the defined types.",

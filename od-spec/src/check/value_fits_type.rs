@@ -13,6 +13,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 pub const CODE: &Code = &Code {
     id: "OD0404",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a value that does not fit the type",
     explanation: "The value lies outside what the data type can carry, for the formula `$NODEID + n` also for the largest node-ID 127, \
         or a string is longer than its `capacity`. The device would hold another value than the one written here. Signed values are \

@@ -12,6 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 pub const CODE: &Code = &Code {
     id: "OD0403",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "not a value of the enum",
     explanation: "The entry's type lists its values; this one is not among them. A device refuses a mode or command that it does not know, \
         with abort code 0609 0030h. Write the name of a value, or add the value to the type.",

@@ -13,6 +13,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 pub(crate) const CODE: &Code = &Code {
     id: "OD0406",
     severity: Severity::Error,
+    foreign: Severity::Error,
     title: "a value outside the limits",
     explanation: "The value lies outside `min` and `max` of its entry and is none of its `special` values; for a node-ID formula this holds \
         for every node-ID. A device refuses such a value with abort code 0609 0031h or 0609 0032h, and one that does not may do harm. \

@@ -11,6 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0710",
     severity: Severity::Warning,
+    foreign: Severity::Warning,
     title: "a parameter that the device accepts only in some state",
     explanation: "The entry has a `writable-when` condition that the configured values do not meet. A PLC that downloads the DCF at boot will get an \
         SDO abort for it, unless the device is brought into that state first. Set the entries of the condition, too, or leave this one out.",

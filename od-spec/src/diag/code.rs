@@ -11,8 +11,10 @@ use super::Severity;
 pub struct Code {
     /// The code as printed: `OD0301`. It never changes its meaning.
     pub id: &'static str,
-    /// How serious it is.
+    /// How serious it is in a specification, and in an EDS that is held to the standard.
     pub severity: Severity,
+    /// How serious it is in an EDS that was written by others and is only read.
+    pub foreign: Severity,
     /// What it is about, in a few words.
     pub title: &'static str,
     /// What is wrong, why it matters and what to do, in a few sentences.

@@ -10,6 +10,7 @@ macro_rules! codes {
             pub const $name: &Code = &Code {
                 id: $id,
                 severity: Severity::$severity,
+                foreign: Severity::$severity,
                 title: $title,
                 explanation: $explanation,
                 clause: None,

@@ -39,12 +39,23 @@ pub struct Label {
     pub text: String,
 }
 
+/// A change of a source text that puts right what a message is about, without anything being guessed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Edit {
+    /// What is replaced; empty for text that is put in between.
+    pub span: Span,
+    /// What stands there afterwards.
+    pub text: String,
+}
+
 /// One message to the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Diagnostic {
     /// Stable code, such as `OD0301`.
     pub code: &'static Code,
+    /// How serious it is here: what its code says, unless the text is held to another standard.
+    pub severity: Severity,
     /// What is wrong, in one line.
     pub message: String,
     /// The places; the first is where the problem is. Empty when the problem has no place in a source text.
@@ -53,6 +64,8 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Facts that explain the rule.
     pub notes: Vec<String>,
+    /// The changes that put it right, all together; none where a person has to decide.
+    pub edits: Vec<Edit>,
 }
 
 /// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
@@ -77,18 +90,20 @@ fn one_line(text: impl Into<String>) -> String {
 impl Diagnostic {
     /// A message about `span`.
     pub fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            message: one_line(message),
-            labels: vec![Label { span, text: String::new() }],
-            help: None,
-            notes: Vec::new(),
-        }
+        Self { labels: vec![Label { span, text: String::new() }], ..Self::without_place(code, message) }
     }
 
     /// A message that is about no place in a source text, such as a file that cannot be opened.
     pub fn without_place(code: &'static Code, message: impl Into<String>) -> Self {
-        Self { code, message: one_line(message), labels: Vec::new(), help: None, notes: Vec::new() }
+        Self {
+            code,
+            severity: code.severity,
+            message: one_line(message),
+            labels: Vec::new(),
+            help: None,
+            notes: Vec::new(),
+            edits: Vec::new(),
+        }
     }
 
     /// Words at the primary place.
@@ -121,9 +136,16 @@ impl Diagnostic {
         self
     }
 
-    /// Severity of the code.
-    pub fn severity(&self) -> Severity {
-        self.code.severity
+    /// A change that puts it right, or one of several that do together.
+    #[must_use]
+    pub fn edit(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.edits.push(Edit { span, text: text.into() });
+        self
+    }
+
+    /// How serious it is.
+    pub const fn severity(&self) -> Severity {
+        self.severity
     }
 }
 
@@ -163,6 +185,13 @@ impl Diagnostics {
     pub fn count(&self) -> (usize, usize) {
         let of = |severity| self.list.iter().filter(|d| d.severity() == severity).count();
         (of(Severity::Error), of(Severity::Warning))
+    }
+
+    /// Takes each message as serious as it is in an EDS that was written by others and is only read.
+    pub fn soften(&mut self) {
+        for diagnostic in &mut self.list {
+            diagnostic.severity = diagnostic.code.foreign;
+        }
     }
 
     /// The messages, in order.

@@ -1,127 +1,146 @@
-//! The shape of an EDS or DCF text, without loss: every character of the text has a place in it.
+//! The shape of an EDS or DCF text, without loss: every character of the text is in one of its lines.
 
+use std::borrow::Cow;
 use std::fmt::{self, Display};
+use std::ops::Range;
 
-use crate::source::Span;
+use super::scan;
+use crate::source::{FileId, Span};
 
 /// An EDS or DCF as a text of sections, keys and comments (CiA 306 4.2).
 ///
-/// Nothing is merged, sorted or dropped: sections and keys stand in the order of the text, and one that stands twice is
+/// Nothing is merged, sorted or dropped: lines stand in the order of the text, and a section or key that stands twice is
 /// there twice. Printing a document gives its text back, character by character, with each line's own break.
 ///
 /// ```
 /// use od_spec::eds::{Document, Section};
+/// use od_spec::source::SourceMap;
 ///
 /// let mut document = Document::default();
 /// let mut section = Section::new("FileInfo");
 /// section.push("FileName", "lamp.eds");
 /// document.push(section);
 /// document.push(Section::new("Comments").with_comments(["Who wrote this?"]));
-/// assert_eq!(document.to_string(), "[FileInfo]\r\nFileName=lamp.eds\r\n\r\n; Who wrote this?\r\n[Comments]\r\n");
+/// let text = "[FileInfo]\r\nFileName=lamp.eds\r\n\r\n; Who wrote this?\r\n[Comments]\r\n";
+/// assert_eq!(document.to_string(), text);
+///
+/// let mut sources = SourceMap::new();
+/// let file = sources.add("lamp.eds", text);
+/// let document = Document::scan(file, sources.file(file).text());
+/// let comments = document.sections().nth(1).expect("there are two");
+/// assert_eq!(comments.name(), "Comments");
+/// assert_eq!(comments.comments().collect::<Vec<_>>(), ["Who wrote this?"]);
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Document {
-    /// What stands before the first section and does not belong to it: keys without a section, and what is above them.
-    pub preamble: Vec<Line<Item>>,
-    /// Sections in the order of the text.
-    pub sections: Vec<Section>,
-    /// Comments and blank lines behind the last key of the text.
-    pub tail: Vec<Line<Trivia>>,
-}
-
-/// A section: its header, the comments above it and its keys.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Section {
-    /// Blank lines and comments between the last key of the section before and this header.
-    pub above: Vec<Line<Trivia>>,
-    /// The line with the name.
-    pub header: Line<Header>,
-    /// Keys, and what stands between them.
-    pub body: Vec<Line<Item>>,
+pub struct Document<'t> {
+    /// Where the text was read; `None` for a document that a program writes.
+    file: Option<FileId>,
+    lines: Vec<Line<'t>>,
 }
 
 /// A line and what ends it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Line<T> {
-    /// What the line says.
-    pub content: T,
-    /// How it ends.
-    pub end: LineEnd,
-    /// Where it was read, without its break; `None` for a line that a program wrote.
-    pub place: Option<Span>,
+pub struct Line<'t> {
+    text: Cow<'t, str>,
+    /// First byte in its file.
+    start: u32,
+    content: Content,
+    end: LineEnd,
+}
+
+/// What a line says: positions in its text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Content {
+    Blank,
+    Comment,
+    Header { name: Part },
+    KeyValue { key: Part, value: Part },
+    Unreadable,
+}
+
+/// A part of a line's text, in bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Part {
+    pub start: u32,
+    pub end: u32,
+}
+
+impl Part {
+    fn range(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
 }
 
 /// How a line ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineEnd {
-    /// Carriage return and line feed, as CiA 306 has it.
+    /// Carriage return and line feed, as most files have it.
     CrLf,
     /// Line feed alone.
     Lf,
-    /// Carriage return alone.
+    /// Carriage return alone, which CiA 306 does not know.
     Cr,
     /// With the text itself: the last line of a file without a break.
     EndOfText,
 }
 
-/// What no reader gives a meaning.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Trivia {
-    /// Nothing but blanks, which are kept.
-    Blank(String),
-    /// A comment, from the first character of its line on, with its `;`.
-    Comment(String),
+/// What a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LineKind {
+    /// Nothing but blanks.
+    Blank,
+    /// A comment: `;`, or what many take for one, `#`.
+    Comment,
+    /// The line that begins a section: `[1018sub1]`.
+    Header,
+    /// A key and its value: `DataType=0x0007`.
+    KeyValue,
+    /// None of these, such as a key without `=`.
+    Unreadable,
 }
 
-/// The line that begins a section: `[1018sub1]`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Header {
-    /// Blanks in front of the bracket.
-    pub indent: String,
-    /// What stands between the brackets, as it is spelled.
-    pub name: String,
-    /// What stands behind the closing bracket.
-    pub rest: String,
-}
+impl<'t> Document<'t> {
+    /// The lines of a text. Whatever the text is, it becomes a document.
+    pub fn scan(file: FileId, text: &'t str) -> Self {
+        Self { file: Some(file), lines: scan::lines(text) }
+    }
 
-/// A line in a section.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Item {
-    /// A key and its value.
-    KeyValue(KeyValue),
-    /// A blank line or a comment.
-    Trivia(Trivia),
-    /// A line that is none of these, such as a key without `=`.
-    Unreadable(String),
-}
-
-/// A key and its value: `DataType=0x0007`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct KeyValue {
-    /// Blanks in front of the key.
-    pub indent: String,
-    /// The key, as it is spelled.
-    pub key: String,
-    /// The sign between key and value, with the blanks around it.
-    pub equals: String,
-    /// The text of the value, as it is written; what it stands for depends on the key.
-    pub value: String,
-    /// Blanks behind the value.
-    pub rest: String,
-}
-
-impl Document {
     /// Adds a section behind the others. A section that a program wrote is set off by one blank line.
-    pub fn push(&mut self, mut section: Section) {
-        if !self.sections.is_empty() {
-            section.above.insert(0, Line::written(Trivia::Blank(String::new())));
+    pub fn push(&mut self, section: Section) {
+        if !self.lines.is_empty() {
+            self.lines.push(Line::written(String::new(), Content::Blank));
         }
-        self.sections.push(section);
+        self.lines.extend(section.lines);
+    }
+
+    /// All lines.
+    pub fn lines(&self) -> &[Line<'t>] {
+        &self.lines
+    }
+
+    /// Where a line stands, without its break.
+    pub fn place(&self, line: &Line<'_>) -> Option<Span> {
+        let end = line.start.saturating_add(length(&line.text));
+        Some(Span { file: self.file?, start: line.start, end })
+    }
+
+    /// The lines before the first section; keys among them belong to no section.
+    pub fn preamble(&self) -> &[Line<'t>] {
+        let headers = self.lines.iter().position(|line| line.kind() == LineKind::Header);
+        &self.lines[..headers.unwrap_or(self.lines.len())]
+    }
+
+    /// The sections, in the order of the text.
+    pub fn sections(&self) -> impl Iterator<Item = SectionRef<'_, 't>> {
+        let mut at = self.preamble().len();
+        std::iter::from_fn(move || {
+            let header = at;
+            self.lines.get(header)?;
+            let rest = &self.lines[header + 1..];
+            let body = rest.iter().position(|line| line.kind() == LineKind::Header).unwrap_or(rest.len());
+            at = header + 1 + body;
+            Some(SectionRef { document: self, header, end: at })
+        })
     }
 
     /// The text in UTF-8. A text that was read in another encoding is encoded again by who decoded it.
@@ -131,72 +150,158 @@ impl Document {
 }
 
 /// The text.
-impl Display for Document {
+impl Display for Document<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        print(f, &self.preamble)?;
-        for section in &self.sections {
-            print(f, &section.above)?;
-            section.header.fmt(f)?;
-            print(f, &section.body)?;
-        }
-        print(f, &self.tail)
+        self.lines.iter().try_for_each(|line| {
+            f.write_str(&line.text)?;
+            f.write_str(line.end.text())
+        })
     }
 }
 
-fn print(f: &mut fmt::Formatter<'_>, lines: &[Line<impl Display>]) -> fmt::Result {
-    lines.iter().try_for_each(|line| line.fmt(f))
+/// A section of a document: its header and the lines up to the next one.
+#[derive(Debug, Clone, Copy)]
+pub struct SectionRef<'d, 't> {
+    document: &'d Document<'t>,
+    header: usize,
+    end: usize,
+}
+
+impl<'d, 't> SectionRef<'d, 't> {
+    /// The name, as it is spelled.
+    pub fn name(&self) -> &'d str {
+        self.header().name().unwrap_or_default()
+    }
+
+    /// The line with the name.
+    pub fn header(&self) -> &'d Line<'t> {
+        &self.document.lines[self.header]
+    }
+
+    /// The lines behind the header.
+    pub fn body(&self) -> &'d [Line<'t>] {
+        &self.document.lines[self.header + 1..self.end]
+    }
+
+    /// The lines with a key, in order, also those whose key stands twice.
+    pub fn keys(&self) -> impl Iterator<Item = &'d Line<'t>> + use<'d, 't> {
+        self.body().iter().filter(|line| line.kind() == LineKind::KeyValue)
+    }
+
+    /// The comments above the header, behind the last key of the section before; without their `;` and the blank behind it.
+    pub fn comments(&self) -> impl Iterator<Item = &'d str> + use<'d, 't> {
+        let before = &self.document.lines[..self.header];
+        let is_trivia = |line: &&Line<'_>| matches!(line.kind(), LineKind::Blank | LineKind::Comment);
+        let above = before.iter().rev().take_while(is_trivia).count();
+        before[before.len() - above..].iter().filter_map(Line::comment)
+    }
+}
+
+/// A section that a program writes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Section {
+    lines: Vec<Line<'static>>,
 }
 
 impl Section {
     /// A section without keys. The name may hold neither brackets nor line breaks.
-    pub fn new(name: impl Into<String>) -> Self {
-        let header = Header { indent: String::new(), name: name.into(), rest: String::new() };
-        Self { above: Vec::new(), header: Line::written(header), body: Vec::new() }
+    pub fn new(name: impl Display) -> Self {
+        let text = format!("[{name}]");
+        let name = Part { start: 1, end: length(&text) - 1 };
+        Self { lines: vec![Line::written(text, Content::Header { name })] }
     }
 
     /// The section with comments directly above its header, a line each, without their `;`.
     #[must_use]
     pub fn with_comments<C: Display>(mut self, comments: impl IntoIterator<Item = C>) -> Self {
-        let lines = comments.into_iter().map(|text| Line::written(Trivia::Comment(format!("; {text}"))));
-        self.above.extend(lines);
+        let lines = comments.into_iter().map(|text| Line::written(format!("; {text}"), Content::Comment));
+        let above = self.lines.iter().position(|line| line.kind() == LineKind::Header).unwrap_or(0);
+        self.lines.splice(above..above, lines);
         self
     }
 
     /// Adds a key and its value behind the others. Neither may hold a line break, and the key no `=`.
-    pub fn push(&mut self, key: impl Into<String>, value: impl Into<String>) {
-        self.body.push(Line::written(Item::KeyValue(KeyValue::new(key, value))));
-    }
-
-    /// The name, as it is spelled.
-    pub fn name(&self) -> &str {
-        &self.header.content.name
-    }
-
-    /// The keys with their values, in order, also those that stand twice.
-    pub fn entries(&self) -> impl Iterator<Item = &KeyValue> {
-        self.body.iter().filter_map(|line| match &line.content {
-            Item::KeyValue(entry) => Some(entry),
-            Item::Trivia(_) | Item::Unreadable(_) => None,
-        })
+    pub fn push(&mut self, key: &str, value: impl Display) {
+        let text = format!("{key}={value}");
+        let key = Part { start: 0, end: length(key) };
+        let value = Part { start: key.end + 1, end: length(&text) };
+        self.lines.push(Line::written(text, Content::KeyValue { key, value }));
     }
 }
 
-impl<T> Line<T> {
+impl<'t> Line<'t> {
     /// A line that a program writes.
-    pub const fn written(content: T) -> Self {
-        Self { content, end: LineEnd::CrLf, place: None }
+    fn written(text: String, content: Content) -> Self {
+        Self { text: Cow::Owned(text), start: 0, content, end: LineEnd::CrLf }
     }
 
-    /// A line of a text: what it says, how it ends, and where it stands without its break.
-    pub const fn read(content: T, end: LineEnd, place: Span) -> Self {
-        Self { content, end, place: Some(place) }
+    /// A line of a text that begins at the byte `start` of its file.
+    pub(super) const fn read(text: &'t str, start: u32, content: Content, end: LineEnd) -> Self {
+        Self { text: Cow::Borrowed(text), start, content, end }
     }
-}
 
-impl<T: Display> Display for Line<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.content.fmt(f)?;
-        f.write_str(self.end.text())
+    /// The text of the line, without its break.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// What ends the line.
+    pub const fn end(&self) -> LineEnd {
+        self.end
+    }
+
+    /// What the line is.
+    pub const fn kind(&self) -> LineKind {
+        match self.content {
+            Content::Blank => LineKind::Blank,
+            Content::Comment => LineKind::Comment,
+            Content::Header { .. } => LineKind::Header,
+            Content::KeyValue { .. } => LineKind::KeyValue,
+            Content::Unreadable => LineKind::Unreadable,
+        }
+    }
+
+    /// The name in a header, as it is spelled, without blanks around it.
+    pub fn name(&self) -> Option<&str> {
+        match self.content {
+            Content::Header { name } => self.text.get(name.range()),
+            Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => None,
+        }
+    }
+
+    /// The key, as it is spelled.
+    pub fn key(&self) -> Option<&str> {
+        match self.content {
+            Content::KeyValue { key, .. } => self.text.get(key.range()),
+            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
+        }
+    }
+
+    /// The text of a key's value, without blanks around it; what it stands for depends on the key.
+    pub fn value(&self) -> Option<&str> {
+        match self.content {
+            Content::KeyValue { value, .. } => self.text.get(value.range()),
+            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
+        }
+    }
+
+    /// The text of a comment, without its sign and the blank behind it.
+    pub fn comment(&self) -> Option<&str> {
+        if self.kind() != LineKind::Comment {
+            return None;
+        }
+        let text = self.text.trim_start_matches(scan::is_blank).get(1..)?;
+        Some(text.strip_prefix(' ').unwrap_or(text).trim_end_matches(scan::is_blank))
+    }
+
+    /// Where a part of the line stands in its file, in bytes of the line's text.
+    pub(super) const fn part(&self, file: FileId, part: Part) -> Span {
+        Span { file, start: self.start + part.start, end: self.start + part.end }
+    }
+
+    /// The parts of the text that are name, key or value.
+    pub(super) const fn content(&self) -> Content {
+        self.content
     }
 }
 
@@ -212,44 +317,9 @@ impl LineEnd {
     }
 }
 
-impl Display for Trivia {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Trivia::Blank(text) | Trivia::Comment(text) => f.write_str(text),
-        }
-    }
-}
-
-impl Display for Header {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Header { indent, name, rest } = self;
-        write!(f, "{indent}[{name}]{rest}")
-    }
-}
-
-impl Display for Item {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Item::KeyValue(entry) => entry.fmt(f),
-            Item::Trivia(trivia) => trivia.fmt(f),
-            Item::Unreadable(text) => f.write_str(text),
-        }
-    }
-}
-
-impl KeyValue {
-    /// `key=value`, without blanks.
-    pub fn new(key: impl Into<String>, value: impl Into<String>) -> Self {
-        let (indent, rest) = (String::new(), String::new());
-        Self { indent, key: key.into(), equals: "=".to_owned(), value: value.into(), rest }
-    }
-}
-
-impl Display for KeyValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let KeyValue { indent, key, equals, value, rest } = self;
-        write!(f, "{indent}{key}{equals}{value}{rest}")
-    }
+/// The length of a text that is part of a file, or of a line that a program writes.
+fn length(text: &str) -> u32 {
+    u32::try_from(text.len()).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]
@@ -271,63 +341,38 @@ mod tests {
             "; device type\r\n; profile and more\r\n[1000]\r\nParameterName=Device type\r\nDataType=0x0007\r\n\
              \r\n[1001]\r\n\r\n; vendor\r\n[1018sub1]\r\n"
         );
-        let names: Vec<&str> = document.sections.iter().map(Section::name).collect();
+        let names: Vec<&str> = document.sections().map(|section| section.name()).collect();
         assert_eq!(names, ["1000", "1001", "1018sub1"]);
     }
 
     /// A foreign file with everything that a reader will meet: every break, duplicates, blanks, what nobody can read, and
-    /// a last line without a break. The document holds it and gives it back.
+    /// a last line without a break.
     #[test]
-    fn every_character_of_a_foreign_text_has_a_place() {
+    fn every_character_of_a_foreign_text_is_in_a_line() {
         let text = "\u{FEFF}; licence\nStray=1\n\t\n  ; above\r [FileInfo] trailing\r\n\tFileName = a b.eds \r\
-                    FILENAME=c\r\n;between\n[FileInfo]\r\nno equals sign\r\n\r\n;end";
+                    FILENAME=c\r\n;between\n#and this\n[FileInfo\r\nno equals sign\r\n=nothing\n[ 1018 ]\nA==b=c\r\n\r\n;end\u{1A}";
         let mut sources = SourceMap::new();
         let file = sources.add("foreign.eds", text);
-        let whole = sources.whole(file);
-        let trivia = |content| Line::read(content, LineEnd::Lf, whole);
-        let comment = |text: &str| Trivia::Comment(text.to_owned());
-        let item = |content, end| Line::read(content, end, whole);
-        let header = |indent: &str, rest: &str| Header {
-            indent: indent.to_owned(),
-            name: "FileInfo".to_owned(),
-            rest: rest.to_owned(),
-        };
-        let name = KeyValue {
-            indent: "\t".to_owned(),
-            equals: " = ".to_owned(),
-            rest: " ".to_owned(),
-            ..KeyValue::new("FileName", "a b.eds")
-        };
-        let document = Document {
-            preamble: vec![
-                item(Item::Trivia(comment("\u{FEFF}; licence")), LineEnd::Lf),
-                item(Item::KeyValue(KeyValue::new("Stray", "1")), LineEnd::Lf),
-            ],
-            sections: vec![
-                Section {
-                    above: vec![
-                        trivia(Trivia::Blank("\t".to_owned())),
-                        Line::read(comment("  ; above"), LineEnd::Cr, whole),
-                    ],
-                    header: Line::read(header(" ", " trailing"), LineEnd::CrLf, whole),
-                    body: vec![
-                        item(Item::KeyValue(name), LineEnd::Cr),
-                        item(Item::KeyValue(KeyValue::new("FILENAME", "c")), LineEnd::CrLf),
-                    ],
-                },
-                Section {
-                    above: vec![trivia(comment(";between"))],
-                    header: Line::read(header("", ""), LineEnd::CrLf, whole),
-                    body: vec![item(Item::Unreadable("no equals sign".to_owned()), LineEnd::CrLf)],
-                },
-            ],
-            tail: vec![
-                Line::read(Trivia::Blank(String::new()), LineEnd::CrLf, whole),
-                Line::read(comment(";end"), LineEnd::EndOfText, whole),
-            ],
-        };
+        let document = Document::scan(file, text);
         assert_eq!(document.to_string(), text);
-        let entries: Vec<_> = document.sections[0].entries().map(|entry| entry.value.as_str()).collect();
-        assert_eq!(entries, ["a b.eds", "c"]);
+        for line in document.lines() {
+            assert_eq!(sources.text(document.place(line).unwrap()), line.text());
+        }
+        assert_eq!(document.preamble().iter().filter_map(Line::key).collect::<Vec<_>>(), ["Stray"]);
+        let sections: Vec<SectionRef<'_, '_>> = document.sections().collect();
+        let names: Vec<&str> = sections.iter().map(SectionRef::name).collect();
+        assert_eq!(names, ["FileInfo", "FileInfo", "1018"]);
+        let above: Vec<Vec<&str>> = sections.iter().map(|section| section.comments().collect()).collect();
+        assert_eq!(above, [vec!["above"], vec!["between", "and this"], vec![]]);
+        let values = |at: usize| {
+            sections[at].keys().map(|line| (line.key().unwrap(), line.value().unwrap())).collect::<Vec<_>>()
+        };
+        assert_eq!(values(0), [("FileName", "a b.eds"), ("FILENAME", "c")]);
+        assert_eq!(values(2), [("A", "=b=c")]);
+        let kinds: Vec<LineKind> = sections[1].body().iter().map(Line::kind).collect();
+        assert_eq!(kinds, [LineKind::Unreadable, LineKind::Unreadable]);
+        let ends: Vec<LineEnd> = document.lines().iter().map(Line::end).collect();
+        assert_eq!(ends.last(), Some(&LineEnd::EndOfText));
+        assert_eq!(ends.iter().filter(|end| **end == LineEnd::Cr).count(), 2);
     }
 }

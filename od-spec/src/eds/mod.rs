@@ -1,9 +1,16 @@
-//! EDS and DCF texts (CiA 306), apart from what they mean.
+//! EDS and DCF texts (CiA 306).
 //!
 //! A [`Document`] is what a writer fills and what a reader gives: it knows sections, keys, comments and line breaks, and
 //! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
 //! read, mended, compared and written back before anybody has understood it.
 
+pub(crate) mod codes;
 mod document;
+mod encoding;
+pub(crate) mod names;
+pub(crate) mod number;
+mod scan;
+pub(crate) mod view;
 
-pub use document::{Document, Header, Item, KeyValue, Line, LineEnd, Section, Trivia};
+pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
+pub use encoding::{Encoding, decode, encode};

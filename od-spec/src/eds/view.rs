@@ -1,0 +1,196 @@
+//! A document by what its sections describe: sections found by topic, keys found by name, every text with its place.
+
+use std::collections::BTreeMap;
+
+use super::document::{Content, Document, Line, LineKind, SectionRef};
+use super::names::{ElementList, List, ModuleTopic, Topic, topic};
+use crate::model::Index;
+use crate::source::{FileId, Span, Spanned};
+
+/// What a document holds.
+#[derive(Debug)]
+pub(crate) struct View<'d> {
+    pub document: &'d Document<'d>,
+    pub file: FileId,
+    /// Whether the file is that of a configured node.
+    pub is_dcf: bool,
+    /// Sections that are there once or several times, by topic; objects are among `objects`.
+    pub sections: BTreeMap<Topic, Part<'d>>,
+    /// Sections of an unknown name, in the order of the text.
+    pub unknown: Vec<SectionRef<'d, 'd>>,
+    /// Objects by index: every index that has a section of its own or for one of its sub-indices.
+    pub objects: BTreeMap<Index, ObjectPart<'d>>,
+    /// Modules by number.
+    pub modules: BTreeMap<u32, BTreeMap<ModuleTopic, Part<'d>>>,
+}
+
+/// The sections about an object.
+#[derive(Debug, Default)]
+pub(crate) struct ObjectPart<'d> {
+    /// `[1018]`.
+    pub object: Option<Part<'d>>,
+    /// `[1018sub1]`, by sub-index, which may be larger than any.
+    pub subs: BTreeMap<u32, Part<'d>>,
+    /// Lists for the elements of a compact array.
+    pub elements: BTreeMap<ElementList, Part<'d>>,
+    /// `[1018ObjectLinks]`.
+    pub links: Option<Part<'d>>,
+}
+
+/// All sections of one topic: one, or the several that a faulty file has.
+#[derive(Debug, Clone)]
+pub(crate) struct Part<'d> {
+    pub sections: Vec<SectionRef<'d, 'd>>,
+    file: FileId,
+}
+
+/// A line with a key.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry<'d> {
+    /// The key, as it is spelled.
+    pub key: Spanned<&'d str>,
+    /// The text of the value, without blanks around it.
+    pub value: Spanned<&'d str>,
+    /// The whole line.
+    pub line: &'d Line<'d>,
+}
+
+impl<'d> View<'d> {
+    pub(crate) fn new(document: &'d Document<'d>, file: FileId, is_dcf: bool) -> Self {
+        let mut view = Self {
+            document,
+            file,
+            is_dcf,
+            sections: BTreeMap::new(),
+            unknown: Vec::new(),
+            objects: BTreeMap::new(),
+            modules: BTreeMap::new(),
+        };
+        for section in document.sections() {
+            view.add(section);
+        }
+        view
+    }
+
+    fn add(&mut self, section: SectionRef<'d, 'd>) {
+        let file = self.file;
+        let whole = topic(section.name());
+        let slot = match whole {
+            Topic::Unknown => return self.unknown.push(section),
+            Topic::Object(index) => &mut self.objects.entry(index).or_default().object,
+            Topic::ObjectLinks(index) => &mut self.objects.entry(index).or_default().links,
+            Topic::Sub(index, sub) => {
+                return add_to(&mut self.objects.entry(index).or_default().subs, sub, section, file);
+            }
+            Topic::Elements(index, list) => {
+                return add_to(&mut self.objects.entry(index).or_default().elements, list, section, file);
+            }
+            Topic::Module(number, topic) => {
+                return add_to(self.modules.entry(number).or_default(), topic, section, file);
+            }
+            Topic::FileInfo
+            | Topic::DeviceInfo
+            | Topic::DummyUsage
+            | Topic::Comments
+            | Topic::Objects(_)
+            | Topic::Commissioning
+            | Topic::DynamicChannels
+            | Topic::Tools
+            | Topic::Tool(_)
+            | Topic::SupportedModules
+            | Topic::ConnectedModules => return add_to(&mut self.sections, whole, section, file),
+        };
+        match slot {
+            Some(part) => part.sections.push(section),
+            None => *slot = Some(Part { sections: vec![section], file }),
+        }
+    }
+
+    /// The sections of a topic that is no object's.
+    pub(crate) fn section(&self, topic: Topic) -> Option<&Part<'d>> {
+        self.sections.get(&topic)
+    }
+
+    /// A list of objects.
+    pub(crate) fn list(&self, list: List) -> Option<&Part<'d>> {
+        self.section(Topic::Objects(list))
+    }
+
+    /// The place of a header, or of the first line of the file.
+    pub(crate) fn start(&self) -> Span {
+        let first = self.document.lines().iter().find(|line| line.kind() != LineKind::Blank);
+        let place = first.and_then(|line| self.document.place(line));
+        place.unwrap_or(Span { file: self.file, start: 0, end: 0 })
+    }
+
+    /// Every part there is: those of topics, of objects and of modules.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &Part<'d>> {
+        let of_objects = self.objects.values().flat_map(|object| {
+            let lists = object.elements.values().chain(&object.links);
+            object.object.iter().chain(object.subs.values()).chain(lists)
+        });
+        let of_modules = self.modules.values().flat_map(BTreeMap::values);
+        self.sections.values().chain(of_objects).chain(of_modules)
+    }
+}
+
+fn add_to<'d, K: Ord>(parts: &mut BTreeMap<K, Part<'d>>, key: K, section: SectionRef<'d, 'd>, file: FileId) {
+    parts.entry(key).or_insert_with(|| Part { sections: Vec::new(), file }).sections.push(section);
+}
+
+impl<'d> Part<'d> {
+    /// The name of the first section, as it is spelled.
+    pub(crate) fn name(&self) -> Spanned<&'d str> {
+        let header = self.sections[0].header();
+        Spanned::new(self.sections[0].name(), name_place(header, self.file))
+    }
+
+    /// Where the first header's name stands.
+    pub(crate) fn place(&self) -> Span {
+        self.name().span
+    }
+
+    /// All keys in order, also those that stand twice.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = Entry<'d>> + use<'d> {
+        let file = self.file;
+        let sections = self.sections.clone();
+        sections.into_iter().flat_map(|section| section.keys()).filter_map(move |line| entry(line, file))
+    }
+
+    /// A key in any capitals, the last of several, as most readers take it.
+    pub(crate) fn key(&self, name: &str) -> Option<Entry<'d>> {
+        let keys = self.sections.iter().rev().flat_map(|section| section.body().iter().rev());
+        let mut named = keys.filter(|line| line.key().is_some_and(|key| key.eq_ignore_ascii_case(name)));
+        entry(named.next()?, self.file)
+    }
+
+    /// The value of a key, unless it is missing or, which means the same (CiA 306 4.3), empty.
+    pub(crate) fn value(&self, name: &str) -> Option<Spanned<&'d str>> {
+        self.key(name).map(|entry| entry.value).filter(|value| !value.value.is_empty())
+    }
+
+    /// The comments above the first section.
+    pub(crate) fn comments(&self) -> impl Iterator<Item = &'d str> + use<'d> {
+        self.sections[0].comments()
+    }
+}
+
+/// The place of the name in a header.
+pub(crate) fn name_place(header: &Line<'_>, file: FileId) -> Span {
+    match header.content() {
+        Content::Header { name } => header.part(file, name),
+        Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => {
+            Span { file, start: 0, end: 0 }
+        }
+    }
+}
+
+/// A line's key and value with their places; `None` for a line without.
+pub(crate) fn entry<'d>(line: &'d Line<'d>, file: FileId) -> Option<Entry<'d>> {
+    let Content::KeyValue { key, value } = line.content() else { return None };
+    Some(Entry {
+        key: Spanned::new(line.key()?, line.part(file, key)),
+        value: Spanned::new(line.value()?, line.part(file, value)),
+        line,
+    })
+}
