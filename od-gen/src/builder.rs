@@ -152,7 +152,7 @@ impl Builder {
 
     fn run(&self) -> Outcome {
         let (mut sources, mut loader) = (SourceMap::new(), FileLoader::default());
-        let Compiled { system, mut diagnostics } =
+        let Compiled { system, mut diagnostics, .. } =
             compile_file(&self.specification, &mut sources, &mut loader);
         let mut read = loader.read;
         if !read.contains(&self.specification) {

@@ -14,7 +14,7 @@ use crate::source::{FileLoader, compile_file};
 /// The module of a device as tokens, with all messages of the run.
 pub fn expand(specification: &Path, device: Option<&str>) -> Expansion {
     let (mut sources, mut loader) = (SourceMap::new(), FileLoader::default());
-    let Compiled { system, mut diagnostics } = compile_file(specification, &mut sources, &mut loader);
+    let Compiled { system, mut diagnostics, .. } = compile_file(specification, &mut sources, &mut loader);
     let mut tokens = None;
     if let Some(system) = system {
         let chosen =

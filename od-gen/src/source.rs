@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{Compiled, Loader, compile, read_text};
+use od_spec::{Compiled, Loader, add_source, compile};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -37,7 +37,7 @@ pub fn compile_file(path: &Path, sources: &mut SourceMap, loader: &mut FileLoade
         Err(diagnostic) => {
             let mut diagnostics = Diagnostics::new();
             diagnostics.push(*diagnostic);
-            Compiled { system: None, diagnostics }
+            Compiled::refused(diagnostics)
         }
     }
 }
@@ -70,7 +70,7 @@ fn open(path: &Path, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>>
                 .help("check the path; a specification is a YAML file, usually named `*.od.yaml`"),
         )
     })?;
-    Ok(sources.add(name.clone(), read_text(&name, bytes)?))
+    add_source(sources, &name, bytes)
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {

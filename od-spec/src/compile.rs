@@ -1,11 +1,17 @@
 //! The one entry point: text in, model and diagnostics out.
 
+use crate::Commissioning;
 use crate::ast::Spec;
 use crate::check::{self, codes as rule_codes};
 use crate::decode::{decode, nearest};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::eds;
+use crate::eds::read::{Read, read};
+use crate::eds::view::View;
+use crate::encoding;
 use crate::model::System;
+use crate::parameters::of_node;
 use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceMap, Span};
 use crate::yaml;
@@ -21,11 +27,22 @@ const LARGEST_FILE: usize = 64 << 20;
 
 /// What [`compile`] gives.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Compiled {
-    /// The model; `None` exactly when an error is among the diagnostics.
+    /// The model. A specification, and an EDS that is held to the standard, has one exactly when no error is among the
+    /// diagnostics; an EDS that is only read has one whatever is wrong with it.
     pub system: Option<System>,
+    /// Of a DCF: the node that it configures.
+    pub node: Option<Commissioning>,
     /// Errors and warnings, sorted by place.
     pub diagnostics: Diagnostics,
+}
+
+impl Compiled {
+    /// Nothing but messages.
+    pub const fn refused(diagnostics: Diagnostics) -> Self {
+        Self { system: None, node: None, diagnostics }
+    }
 }
 
 /// Gives the compiler the library files that a specification names by path.
@@ -47,9 +64,59 @@ impl Loader for NoFiles {
     }
 }
 
-/// Compiles the specification `root` of `sources`; libraries are added to `sources`.
+/// What an EDS or DCF is held to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Strictness {
+    /// It was written by others, and is read: a fault never prevents a model.
+    #[default]
+    Foreign,
+    /// It is held to the standard, as our own files are.
+    Standard,
+}
+
+/// Compiles the specification, EDS or DCF `root` of `sources`; libraries are added to `sources`.
 pub fn compile(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader) -> Compiled {
-    compile_with(&check::RULES.iter().collect::<Vec<_>>(), sources, root, loader)
+    compile_as(Strictness::Foreign, sources, root, loader)
+}
+
+/// [`compile`], with an EDS or DCF held to the standard or only read.
+pub fn compile_as(
+    strictness: Strictness,
+    sources: &mut SourceMap,
+    root: FileId,
+    loader: &mut dyn Loader,
+) -> Compiled {
+    let rules = check::RULES.iter().collect::<Vec<_>>();
+    let file = sources.file(root);
+    if eds::is_eds(file.name(), file.text()) {
+        compile_eds(&rules, sources, root, strictness)
+    } else {
+        compile_with(&rules, sources, root, loader)
+    }
+}
+
+/// An EDS or DCF goes the way of a specification, but for its reader.
+fn compile_eds(
+    rules: &[&check::Rule],
+    sources: &SourceMap,
+    root: FileId,
+    strictness: Strictness,
+) -> Compiled {
+    let mut diagnostics = Diagnostics::new();
+    let file = sources.file(root);
+    let document = eds::Document::scan(root, file.text());
+    let view = View::new(&document, root, eds::is_dcf(file.name()));
+    let Read { spec, node } = read(&view, file.name(), &mut diagnostics);
+    let Resolved { system, .. } = resolve::resolve(&spec, &[], &mut diagnostics);
+    check::foreign(rules, &system, &mut diagnostics);
+    let device = system.devices.first();
+    let node = node.zip(device).map(|(node, device)| of_node(rules, &system, device, node, &mut diagnostics));
+    if strictness == Strictness::Foreign {
+        diagnostics.soften();
+    }
+    diagnostics.sort();
+    let refused = strictness == Strictness::Standard && diagnostics.has_errors();
+    Compiled { system: (!refused).then_some(system), node: node.filter(|_| !refused), diagnostics }
 }
 
 /// Compiles under some of the rules.
@@ -63,7 +130,7 @@ pub(crate) fn compile_with(
     let system = build(rules, sources, root, loader, &mut diagnostics);
     diagnostics.sort();
     let system = system.filter(|_| !diagnostics.has_errors());
-    Compiled { system, diagnostics }
+    Compiled { system, node: None, diagnostics }
 }
 
 fn build(
@@ -170,6 +237,18 @@ fn load(
         diagnostic
     })?;
     Ok(sources.add(path, text))
+}
+
+/// Adds the bytes of a file: a specification in UTF-8, or an EDS or DCF in whatever it is.
+///
+/// # Errors
+/// As [`read_text`], but for the encoding of an EDS.
+pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
+    if eds::has_eds_name(name) && bytes.len() <= LARGEST_FILE {
+        let (text, encoding) = encoding::decode(&bytes);
+        return Ok(sources.add_decoded(name, text, encoding));
+    }
+    Ok(sources.add(name, read_text(name, bytes)?))
 }
 
 /// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.

@@ -31,6 +31,7 @@ mod decode;
 mod departures;
 pub mod diag;
 pub mod eds;
+pub mod encoding;
 mod explain;
 pub mod expr;
 #[cfg(feature = "reference")]
@@ -53,7 +54,9 @@ pub mod yaml;
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::Commissioning;
-pub use compile::{Compiled, LIBRARIES, Loader, NoFiles, compile, read_text};
+pub use compile::{
+    Compiled, LIBRARIES, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text,
+};
 pub use decode::is_device_key;
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};

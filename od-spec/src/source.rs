@@ -7,6 +7,8 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::Deref;
 
+use crate::encoding::Encoding;
+
 /// Identifies one file of a [`SourceMap`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(u32);
@@ -104,6 +106,7 @@ impl fmt::Display for LineCol {
 pub struct SourceFile {
     name: String,
     text: String,
+    encoding: Encoding,
     line_starts: Vec<u32>,
 }
 
@@ -111,6 +114,11 @@ impl SourceFile {
     /// The name shown in messages, as the user gave it.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// How the text was stored.
+    pub const fn encoding(&self) -> Encoding {
+        self.encoding
     }
 
     /// The whole text.
@@ -155,15 +163,24 @@ impl SourceMap {
     ///
     /// # Panics
     /// If more than 2³² texts are added or a text is 4 GiB or longer; readers refuse such files long before.
-    #[expect(clippy::expect_used, reason = "limits that the loader enforces far below")]
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let text = text.into();
+        let encoding = if text.is_ascii() { Encoding::Ascii } else { Encoding::Utf8 };
+        self.add_decoded(name, text, encoding)
+    }
+
+    /// Adds a text that was stored in an encoding.
+    ///
+    /// # Panics
+    /// As [`add`](Self::add).
+    #[expect(clippy::expect_used, reason = "limits that the loader enforces far below")]
+    pub fn add_decoded(&mut self, name: impl Into<String>, text: String, encoding: Encoding) -> FileId {
         let mut line_starts = vec![0];
         line_starts.extend(
             line_breaks(&text).map(|at| u32::try_from(at).expect("source texts are smaller than 4 GiB")),
         );
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 files"));
-        self.files.push(SourceFile { name: name.into(), text, line_starts });
+        self.files.push(SourceFile { name: name.into(), text, encoding, line_starts });
         id
     }
 

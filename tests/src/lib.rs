@@ -34,7 +34,7 @@ pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> 
     let text = std::fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
     let mut sources = SourceMap::new();
     let root = sources.add(path, text);
-    let Compiled { system, diagnostics } = compile(&mut sources, root, &mut NoFiles);
+    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
     match system {
         Some(system) if diagnostics.is_empty() => Ok((system, sources)),
         _ => Err(render(&diagnostics, &sources, Format::Human, false).into()),

@@ -36,7 +36,7 @@ const USEFUL_WITH_MORE: [&str; 5] = ["OD0801", "OD0802", "OD0803", "OD0805", "OD
 fn compiled(text: &str) -> (Option<System>, String) {
     let mut sources = SourceMap::new();
     let root = sources.add("drive.od.yaml", text);
-    let Compiled { system, diagnostics } = compile(&mut sources, root, &mut NoFiles);
+    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
     let mut messages = String::new();
     for one in &diagnostics {
         writeln!(messages, "{}: {}", one.code, one.message).unwrap();

@@ -62,6 +62,16 @@ pub(crate) struct Spec {
     pub constraints: Vec<ConstraintDecl>,
     pub errata: Vec<ErratumDecl>,
     pub sections: Vec<SectionDecl>,
+    pub front_end: FrontEnd,
+}
+
+/// In which form a device was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FrontEnd {
+    /// A specification: what follows from the device is filled in.
+    Specification,
+    /// An EDS or DCF, which says everything itself.
+    Eds,
 }
 
 /// Objects of a library that repeat for every axis.

@@ -43,6 +43,17 @@ impl Findings {
         self.list
     }
 
+    /// The findings that stand at one of these places.
+    pub(super) fn standing_at(self, places: &BTreeSet<Span>) -> Diagnostics {
+        let mut standing = Diagnostics::new();
+        for diagnostic in &self.list {
+            if diagnostic.labels.first().is_some_and(|label| places.contains(&label.span)) {
+                standing.push(diagnostic.clone());
+            }
+        }
+        standing
+    }
+
     /// The findings that have a place in one of these files.
     pub(super) fn touching(self, files: &BTreeSet<FileId>) -> Diagnostics {
         let mut touching = Diagnostics::new();

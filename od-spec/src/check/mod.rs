@@ -61,8 +61,11 @@ pub mod codes {
     pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
 }
 
+use std::collections::BTreeSet;
+
 use crate::diag::Diagnostics;
 use crate::model::{Dictionary, System};
+use crate::source::Span;
 
 use findings::Findings;
 pub(crate) use rule::Rule;
@@ -131,6 +134,14 @@ pub(crate) fn system(
     }
 }
 
+/// Applies the rules to a device that was read from a foreign file. What is wrong there prevents nothing, so that every rule
+/// has its say.
+pub(crate) fn foreign(rules: &[&Rule], system: &System, diagnostics: &mut Diagnostics) {
+    for rule in rules {
+        apply(rule, system, None, diagnostics);
+    }
+}
+
 fn apply(rule: &Rule, system: &System, library: Option<&Dictionary>, diagnostics: &mut Diagnostics) {
     let mut look = |check: fn(&Subject<'_>, &mut Findings), device: &Dictionary| {
         let mut findings = Findings::of(device);
@@ -150,6 +161,27 @@ fn apply(rule: &Rule, system: &System, library: Option<&Dictionary>, diagnostics
             system.devices.iter().for_each(|device| look(check, device));
         }
         Check::Settings(_) => {}
+    }
+}
+
+/// Applies the rules to a node that was read from a DCF: `device` has the file's parameter values. What is wrong with its
+/// defaults was said about the device.
+pub(crate) fn foreign_node(
+    rules: &[&Rule],
+    system: &System,
+    device: &Dictionary,
+    node: u8,
+    diagnostics: &mut Diagnostics,
+) {
+    let subject = Subject { system, device, node: Some(node) };
+    let places: BTreeSet<Span> = subject.set_entries().map(|(.., place)| place).collect();
+    for rule in rules {
+        let (Check::Objects(check) | Check::Device(check) | Check::Settings(check)) = rule.check else {
+            continue;
+        };
+        let mut findings = Findings::of(device);
+        check(&subject, &mut findings);
+        diagnostics.append(findings.standing_at(&places));
     }
 }
 

@@ -96,15 +96,7 @@ pub(crate) fn date(text: &str) -> Option<Date> {
             .then(|| digits.parse::<u16>().ok())?
     };
     let (year, month, day) = (part(4)?, part(2)?, part(2)?);
-    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-    let days = match month {
-        1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
-        4 | 6 | 9 | 11 => 30,
-        2 => 28 + u16::from(leap),
-        _ => return None,
-    };
-    let valid = parts.next().is_none() && (1..=days).contains(&day);
-    valid.then_some(Date { year, month: u8::try_from(month).ok()?, day: u8::try_from(day).ok()? })
+    Date::of(year, month, day).filter(|_| parts.next().is_none())
 }
 
 /// `2009-05-27 09:00`.

@@ -8,7 +8,7 @@ use super::objects::objects;
 use super::pdos::pdos;
 use super::read::{Field, Reader, owned, reader};
 use super::types::{named_type, unit};
-use crate::ast::{Axes, CodeRange, ConstraintDecl, ErrorDecl, FeatureDecl, Name, Spec, VendorDecl};
+use crate::ast::{Axes, CodeRange, ConstraintDecl, ErrorDecl, FeatureDecl, FrontEnd, Name, Spec, VendorDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys::{self, constraint_keys, error_keys, vendor_keys};
 use crate::source::{Span, Spanned};
@@ -55,6 +55,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
             .collect(),
         errata: top.items("errata").map(|r| erratum(r, diagnostics)).collect(),
         sections: top.items("document").map(section).collect(),
+        front_end: FrontEnd::Specification,
         languages,
     }
 }

@@ -4,13 +4,13 @@
 use super::{Code, Severity};
 
 macro_rules! codes {
-    ($($name:ident $severity:ident $id:literal $title:literal: $explanation:literal)+) => {
+    ($($name:ident $severity:ident $(/ $foreign:ident)? $id:literal $title:literal: $explanation:literal)+) => {
         $(
             #[doc = $title]
             pub const $name: &Code = &Code {
                 id: $id,
                 severity: Severity::$severity,
-                foreign: Severity::$severity,
+                foreign: codes!(@foreign $severity $($foreign)?),
                 title: $title,
                 explanation: $explanation,
                 clause: None,
@@ -21,6 +21,8 @@ macro_rules! codes {
         /// All of them, ascending.
         pub(crate) const ALL: &[&Code] = &[$($name,)+];
     };
+    (@foreign $severity:ident) => { Severity::$severity };
+    (@foreign $severity:ident $foreign:ident) => { Severity::$foreign };
 }
 
 codes! {
@@ -90,7 +92,7 @@ codes! {
         "A table or a bit refers to a type, a state machine, a constraint or an error code that the specification does not have."
     UNKNOWN_STATE Error "OD0312" "an unknown state or transition":
         "Transitions name states, and commands name transitions, of the same state machine."
-    EMPTY_OBJECT Error "OD0314" "an array or record without entries":
+    EMPTY_OBJECT Error / Warning "OD0314" "an array or record without entries":
         "An ARRAY or RECORD has at least one element or member beside sub-index 0."
     PDO_DESCRIBED_TWICE Error "OD0317" "a PDO that is described twice":
         "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that stands in both places would have two descriptions."

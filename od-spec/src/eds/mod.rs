@@ -5,12 +5,34 @@
 //! read, mended, compared and written back before anybody has understood it.
 
 pub(crate) mod codes;
+pub(crate) mod dates;
 mod document;
-mod encoding;
 pub(crate) mod names;
 pub(crate) mod number;
+pub(crate) mod read;
 mod scan;
 pub(crate) mod view;
 
+/// Whether a text is an EDS or DCF: by the name of its file or, where that says nothing, by its first line.
+pub fn is_eds(name: &str, text: &str) -> bool {
+    let is_yaml = ends_with(name, ".yaml") || ends_with(name, ".yml");
+    let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with([';', '#']));
+    has_eds_name(name) || (!is_yaml && first.is_some_and(|line| line.starts_with('[') && line.ends_with(']')))
+}
+
+/// Whether a file is named like an EDS or DCF.
+pub fn has_eds_name(name: &str) -> bool {
+    ends_with(name, ".eds") || is_dcf(name)
+}
+
+/// Whether a file is named like a DCF.
+pub(crate) fn is_dcf(name: &str) -> bool {
+    ends_with(name, ".dcf")
+}
+
+fn ends_with(name: &str, extension: &str) -> bool {
+    let start = name.len().checked_sub(extension.len());
+    start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
+}
+
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
-pub use encoding::{Encoding, decode, encode};

@@ -56,11 +56,11 @@ pub(crate) struct Entry<'d> {
 }
 
 impl<'d> View<'d> {
-    pub(crate) fn new(document: &'d Document<'d>, file: FileId, is_dcf: bool) -> Self {
+    pub(crate) fn new(document: &'d Document<'d>, file: FileId, has_dcf_name: bool) -> Self {
         let mut view = Self {
             document,
             file,
-            is_dcf,
+            is_dcf: has_dcf_name,
             sections: BTreeMap::new(),
             unknown: Vec::new(),
             objects: BTreeMap::new(),
@@ -69,6 +69,7 @@ impl<'d> View<'d> {
         for section in document.sections() {
             view.add(section);
         }
+        view.is_dcf |= view.sections.contains_key(&Topic::Commissioning);
         view
     }
 

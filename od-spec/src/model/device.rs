@@ -127,6 +127,21 @@ pub struct Date {
     pub day: u8,
 }
 
+impl Date {
+    /// A day of the calendar; `None` for one that there is not.
+    pub fn of(year: u16, month: u16, day: u16) -> Option<Self> {
+        let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+        let days = match month {
+            1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
+            4 | 6 | 9 | 11 => 30,
+            2 => 28 + u16::from(is_leap),
+            _ => return None,
+        };
+        let date = Self { year, month: u8::try_from(month).ok()?, day: u8::try_from(day).ok()? };
+        (1..=days).contains(&day).then_some(date)
+    }
+}
+
 /// A date and a time of day, to the minute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct DateTime {

@@ -6,9 +6,11 @@ mod read;
 
 use std::collections::BTreeMap;
 
+use crate::Commissioning;
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, EntryId, System, Value};
+use crate::eds::read::NodeDecl;
+use crate::model::{Author, Dictionary, EntryId, Statement, System, Value};
 use crate::source::{Span, Spanned};
 
 /// Values of single entries, by entry.
@@ -113,6 +115,45 @@ fn refused(
     let mut refusal = Diagnostics::new();
     check::configuration(&about_setting, system, &marked, node, &mut refusal);
     refusal.has_errors().then_some(refusal)
+}
+
+/// The node that a DCF configures, under some of the rules. Values that cannot be read are left out.
+pub(crate) fn of_node(
+    rules: &[&check::Rule],
+    system: &System,
+    device: &Dictionary,
+    decl: NodeDecl,
+    diagnostics: &mut Diagnostics,
+) -> Commissioning {
+    // Without a node-ID the file is for any node; formulas need one to be looked at.
+    let node = decl.node.unwrap_or(1);
+    let usual = Commissioning::of_node(device, node);
+    let mut configured = device.clone();
+    let mut values = ParameterValues::new();
+    for (id, text) in decl.values {
+        let Some(entry) = overlay::entry_mut(&mut configured, id) else { continue };
+        match read::parameter(entry, &text) {
+            Ok(value) => {
+                let statement = Statement { span: text.span, author: Author::Setting };
+                entry.set_default(Some(value.clone()), statement);
+                values.insert(id, value);
+            }
+            Err(diagnostic) => diagnostics.push(*diagnostic),
+        }
+    }
+    let objects = &configured.objects;
+    for pdo in &mut configured.pdos {
+        pdo.follow(objects);
+    }
+    check::foreign_node(rules, system, &configured, node, diagnostics);
+    Commissioning {
+        node_name: decl.node_name.unwrap_or_default(),
+        bit_rate: decl.bit_rate.unwrap_or(usual.bit_rate),
+        net_number: decl.net_number.unwrap_or(0),
+        net_name: decl.net_name.unwrap_or_default(),
+        values,
+        ..usual
+    }
 }
 
 fn set_twice(again: &Setting, before: &Setting) -> Diagnostic {

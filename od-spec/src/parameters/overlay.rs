@@ -42,7 +42,8 @@ pub(super) fn marked(device: &Dictionary, id: EntryId, place: Span) -> Dictionar
     marked
 }
 
-fn entry_mut(device: &mut Dictionary, id: EntryId) -> Option<&mut Entry> {
+/// An entry, to be changed.
+pub(super) fn entry_mut(device: &mut Dictionary, id: EntryId) -> Option<&mut Entry> {
     device.objects.get_mut(&id.index)?.entries.iter_mut().find(|entry| entry.sub == id.sub)
 }
 

@@ -4,7 +4,7 @@ use super::{Assignment, Setting};
 use crate::diag::{Diagnostic, codes};
 use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value};
 use crate::resolve::{self, values};
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use crate::wording::format_value;
 
 /// Why a setting cannot be read.
@@ -59,6 +59,13 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
         None => id,
     };
     Ok(Setting { id, holder, value, span, value_span })
+}
+
+/// Reads the value of a known entry.
+pub(super) fn parameter(entry: &Entry, text: &Spanned<String>) -> Result<Value, Box<Diagnostic>> {
+    let unit = entry.unit.as_deref();
+    let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
+    values::read(&text.value, text.span, expected)
 }
 
 fn find<'a>(device: &'a Dictionary, name: &str, span: Span) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {

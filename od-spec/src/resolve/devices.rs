@@ -8,7 +8,7 @@ use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::{aliases, device_info, objects, pdos};
-use crate::ast::{DeviceDecl, Name, Spec};
+use crate::ast::{DeviceDecl, FrontEnd, Name, Spec};
 use crate::diag::{Diagnostics, codes};
 use crate::model::{DeviceInfo, Dictionary, Facts, Index, Object, Statement, SubIndex, Text, Value, Vendor};
 
@@ -29,6 +29,7 @@ pub(super) fn resolve(
                 around: Surroundings {
                     scope,
                     file: root.file,
+                    front_end: root.front_end,
                     eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
                 objects: BTreeMap::new(),
@@ -39,7 +40,10 @@ pub(super) fn resolve(
             built.plain_objects(&declared, diagnostics);
             aliases::resolve(&declared, built.around, &mut built.objects, &mut built.broken, diagnostics);
             let info = device_info::info(device, diagnostics);
-            built.identity(device, &info, vendor);
+            // An EDS says what defaults there are; what it does not say, the device does not have.
+            if root.front_end == FrontEnd::Specification {
+                built.identity(device, &info, vendor);
+            }
             let list =
                 root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
             let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
@@ -70,7 +74,7 @@ pub(super) fn of_library(
     diagnostics: &mut Diagnostics,
 ) -> Option<Dictionary> {
     let profile = root.profile.as_ref()?;
-    let around = Surroundings { scope, file: root.file, eds: EdsDefaults::Safe };
+    let around = Surroundings { scope, file: root.file, front_end: root.front_end, eds: EdsDefaults::Safe };
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));

@@ -3,11 +3,11 @@
 use super::decls::Declared;
 use super::entries::{self, Surroundings};
 use super::types::words;
-use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
+use crate::ast::{ArrayDecl, EntryDecl, FrontEnd, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, DataType, Entry, Object, ObjectKind, Role, Statement, SubIndex, Value,
+    Access, AccessRight, DataType, Entry, Index, Object, ObjectKind, Role, Statement, SubIndex, Value,
 };
 use crate::source::Spanned;
 
@@ -184,6 +184,11 @@ fn with_fitting_condition(merged: EntryDecl, member: &EntryDecl) -> EntryDecl {
     EntryDecl { writable_when, ..merged }
 }
 
+/// Whether sub-index 0 says something else than which sub-index is the highest.
+fn is_counted_at_run_time(index: Index) -> bool {
+    matches!(Role::of(index), Role::PdoMapping | Role::ErrorHistory)
+}
+
 /// Puts sub-index 0 in front.
 fn finish(
     decl: &ObjectDecl,
@@ -191,7 +196,8 @@ fn finish(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    let Some(highest) = list.last().map(|entry| entry.sub) else {
+    let highest = list.last().map_or(SubIndex(0), |entry| entry.sub);
+    if list.is_empty() {
         diagnostics.push(
             Diagnostic::new(
                 codes::EMPTY_OBJECT,
@@ -200,8 +206,10 @@ fn finish(
             )
             .help("an array or record has at least one element or member"),
         );
-        return None;
-    };
+        if around.front_end == FrontEnd::Specification {
+            return None;
+        }
+    }
     let count = decl.sub0.as_ref();
     let span = count.map_or(decl.index.span, |count| count.span);
     let unsigned8 = DataType::Unsigned8;
@@ -215,8 +223,12 @@ fn finish(
         let name = count.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());
         sub0 = entries::resolve(&count.over(&usual), SubIndex(0), name, around, diagnostics)?;
     }
-    // How many of its entries a PDO maps does not follow from how many it has.
-    if sub0.default.is_none() && Role::of(decl.index.value) != Role::PdoMapping {
+    // How many of its entries a PDO maps, and how many errors there were, does not follow from how many it has.
+    let varies = match around.front_end {
+        FrontEnd::Specification => Role::of(decl.index.value) == Role::PdoMapping,
+        FrontEnd::Eds => sub0.access.is_writable() || is_counted_at_run_time(decl.index.value),
+    };
+    if sub0.default.is_none() && !varies {
         sub0.set_default(Some(Value::Integer(i128::from(highest.0))), Statement::derived(span));
     }
     list.insert(0, sub0);

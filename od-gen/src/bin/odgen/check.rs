@@ -20,7 +20,7 @@ pub(crate) fn run(args: &CheckArgs, directory: &Path, report: &Report) -> u8 {
     let mut code = SUCCESS;
     for path in &specs {
         let mut sources = SourceMap::new();
-        let Compiled { system, mut diagnostics } =
+        let Compiled { system, mut diagnostics, .. } =
             compile_file(path, &mut sources, &mut FileLoader::default());
         for device in system.iter().filter(|_| args.rust).flat_map(|system| &system.devices) {
             if let Some(system) = &system {

@@ -73,7 +73,8 @@ impl Report {
     /// [`compile`](Self::compile), with the texts that were read.
     pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(System, SourceMap)> {
         let mut sources = SourceMap::new();
-        let Compiled { system, diagnostics } = compile_file(path, &mut sources, &mut FileLoader::default());
+        let Compiled { system, diagnostics, .. } =
+            compile_file(path, &mut sources, &mut FileLoader::default());
         self.show(&diagnostics, &sources);
         Some((system?, sources))
     }

@@ -1,0 +1,211 @@
+//! The keys of an entry (CiA 306 4.6.3.2): a VAR's section, or that of a sub-index.
+
+use super::node::NodeDecl;
+use super::{made, owned, value};
+use crate::ast::{EdsDecl, EntryDecl};
+use crate::diag::{Diagnostic, Diagnostics, shorten};
+use crate::eds::codes;
+use crate::eds::number;
+use crate::eds::view::Part;
+use crate::model::{Access, AccessRight, DataType, EntryId, ObjectKind, PdoMapping};
+use crate::source::{Span, Spanned};
+
+/// What is read together with an entry.
+pub(super) struct Context<'a> {
+    /// Of a DCF: the node, which gets the parameter value.
+    pub node: Option<&'a mut NodeDecl>,
+    pub diagnostics: &'a mut Diagnostics,
+}
+
+impl Context<'_> {
+    pub(super) fn push(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+}
+
+/// Reads the section of an entry. The type is always known afterwards, the access always stated.
+pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Context<'_>) -> EntryDecl {
+    let place = part.place();
+    let data_type = data_type(part, id, kind, context);
+    let access = access(part, id, data_type.value, context);
+    let read = |key: &str, context: &mut Context<'_>| {
+        value::value(part.value(key)?, data_type.value, context.diagnostics)
+    };
+    let limit = |key: &str, context: &mut Context<'_>| {
+        value::limit(part.value(key)?, data_type.value, context.diagnostics)
+    };
+    let (min, max) = (limit("LowLimit", context), limit("HighLimit", context));
+    let default = read("DefaultValue", context);
+    if let Some(value) = part.value("ParameterValue") {
+        let read = context.node.is_some().then(|| read("ParameterValue", context)).flatten();
+        if let (Some(node), Some(read)) = (context.node.as_deref_mut(), read) {
+            node.values.push((id, read));
+        } else if context.node.is_none() {
+            let message = format!("the parameter value of {id} is left out: this is no DCF");
+            context.push(Diagnostic::new(codes::NO_PLACE, value.span, message));
+        }
+    }
+    for key in ["Denotation", "UploadFile", "DownloadFile", "ParamRefd"] {
+        if let Some(text) = part.value(key) {
+            let message = format!("`{key}` of {id} is left out");
+            context.push(Diagnostic::new(codes::NO_PLACE, text.span, message));
+        }
+    }
+    EntryDecl {
+        name: Some(name(part, id, context)),
+        type_name: Some(data_type.map(|data_type| data_type.name().to_owned())),
+        access: Some(access.map(|access| AccessRight { access, locked: false })),
+        pdo: mapping(part, id, access.value, context),
+        default,
+        min,
+        max,
+        eds: flags(part, id, context),
+        ..EntryDecl::empty(place)
+    }
+}
+
+/// The name of an object or an entry; its index where it has none.
+pub(super) fn name(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> Spanned<String> {
+    if let Some(name) = part.value("ParameterName") {
+        return owned(name);
+    }
+    let place = part.key("ParameterName").map_or(part.place(), |entry| entry.key.span);
+    let message = format!("{id} has no `ParameterName`");
+    context.push(
+        Diagnostic::new(codes::MISSING_NAME, place, message).help("add the name that the manual gives it"),
+    );
+    made(id.to_string(), place)
+}
+
+fn data_type(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Context<'_>) -> Spanned<DataType> {
+    let is_domain = kind == ObjectKind::Domain;
+    let Some(text) = part.value("DataType") else {
+        let is_count = kind != ObjectKind::Var && !is_domain && id.sub.0 == 0;
+        let taken = if is_count { DataType::Unsigned8 } else { DataType::Domain };
+        if !is_domain {
+            let message = format!("{id} has no `DataType`; it is taken as {taken}");
+            let help = "add the index of its data type, such as `DataType=0x0007`";
+            context.push(Diagnostic::new(codes::MISSING_DATA_TYPE, part.place(), message).help(help));
+        }
+        return Spanned::new(taken, part.place());
+    };
+    let read = number::integer(text.value);
+    let code = read.as_ref().map(|number| number.value);
+    let known = DataType::ALL.into_iter().find(|known| Some(i128::from(known.code())) == code);
+    let Some(known) = known else {
+        let message = format!("{id}: there is no data type `{}`; it is taken as DOMAIN", shorten(text.value));
+        let help = "write the index of a data type of CiA 301, such as `0x0007` for UNSIGNED32";
+        context.push(Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message).help(help));
+        return Spanned::new(DataType::Domain, text.span);
+    };
+    report(text, read.as_ref(), context);
+    Spanned::new(known, text.span)
+}
+
+/// Says how a number differs from what the standard has.
+pub(super) fn report(text: Spanned<&str>, read: Option<&number::Number>, context: &mut Context<'_>) {
+    for number in read {
+        for deviation in &number.deviations {
+            context.push(value::deviates(text, deviation, number.value));
+        }
+    }
+}
+
+fn access(part: &Part<'_>, id: EntryId, data_type: DataType, context: &mut Context<'_>) -> Spanned<Access> {
+    let Some(text) = part.value("AccessType") else {
+        // The standard's replacement value for a DOMAIN (CiA 306 4.6.3.2); for anything else it has none.
+        if data_type == DataType::Domain && part.key("AccessType").is_none() {
+            return Spanned::new(Access::Rw, part.place());
+        }
+        let place = part.key("AccessType").map_or(part.place(), |entry| entry.key.span);
+        let message = format!("{id} has no `AccessType`; it is taken as read-only");
+        context.push(
+            Diagnostic::new(codes::MISSING_ACCESS, place, message)
+                .help("add `AccessType=ro`, `wo`, `rw`, `rwr`, `rww` or `const`, as the manual has it"),
+        );
+        return Spanned::new(Access::Ro, place);
+    };
+    let mut deviations = Vec::new();
+    let bare = number::bare(text.value, &mut deviations);
+    let lower = bare.to_ascii_lowercase();
+    let Some(access) = Access::from_word(&lower) else {
+        let taken = match lower.as_str() {
+            "w" => Access::Wo,
+            _ => Access::Ro,
+        };
+        let message = format!(
+            "{id}: there is no access type `{}`; it is taken as {}",
+            shorten(text.value),
+            taken.word()
+        );
+        let help = "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const`, as the manual has it";
+        context.push(Diagnostic::new(codes::UNKNOWN_ACCESS, text.span, message).help(help));
+        return Spanned::new(taken, text.span);
+    };
+    if !deviations.is_empty() {
+        context.push(with_remark(text, access.word()));
+    } else if bare != access.word() {
+        let message = format!("found `{bare}`, expected `{}`", access.word());
+        context.push(
+            Diagnostic::new(codes::ACCESS_SPELLING, text.span, message)
+                .help("write it in small letters")
+                .edit(text.span, access.word()),
+        );
+    }
+    Spanned::new(access, text.span)
+}
+
+fn with_remark(text: Spanned<&str>, word: &str) -> Diagnostic {
+    let message = format!("found `{}`, expected `{word}`", shorten(text.value));
+    Diagnostic::new(codes::REMARK_IN_VALUE, text.span, message)
+        .help("put the remark on a line of its own above the section")
+        .edit(text.span, word)
+}
+
+/// Into which PDOs an entry may be mapped: an EDS says only whether, and the access type into which.
+fn mapping(
+    part: &Part<'_>,
+    id: EntryId,
+    access: Access,
+    context: &mut Context<'_>,
+) -> Option<Spanned<PdoMapping>> {
+    let text = part.value("PDOMapping")?;
+    let number = number::integer(text.value);
+    if !matches!(number.as_ref().map(|number| number.value), Some(0 | 1)) {
+        let message = format!("{id}: found `PDOMapping={}`, expected 0 or 1", shorten(text.value));
+        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0 or 1"));
+    }
+    report(text, number.as_ref(), context);
+    let mapping = match access {
+        _ if number.is_none_or(|number| number.value != 1) => PdoMapping::None,
+        Access::Const | Access::Ro | Access::Rwr => PdoMapping::Transmit,
+        Access::Wo | Access::Rww => PdoMapping::Receive,
+        Access::Rw => PdoMapping::Both,
+    };
+    Some(Spanned::new(mapping, text.span))
+}
+
+/// `ObjFlags`; nothing for the usual 0.
+pub(super) fn flags(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> Option<Spanned<EdsDecl>> {
+    let text = part.value("ObjFlags")?;
+    let read = number::integer(text.value);
+    let Some(number) = &read else {
+        let message = format!("{id}: found `ObjFlags={}`, expected a number", shorten(text.value));
+        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0, 1, 2 or 3"));
+        return None;
+    };
+    report(text, read.as_ref(), context);
+    let (no_write, no_scan) = (number.value & 1 != 0, number.value & 2 != 0);
+    let decl = EdsDecl { default: None, access: None, no_write, no_scan };
+    (no_write || no_scan).then_some(Spanned::new(decl, text.span))
+}
+
+/// An entry that no section describes.
+pub(super) fn made_up(name: &str, data_type: DataType, access: Access, place: Span) -> EntryDecl {
+    EntryDecl {
+        name: Some(made(name, place)),
+        type_name: Some(made(data_type.name(), place)),
+        access: Some(Spanned::new(AccessRight { access, locked: false }, place)),
+        ..EntryDecl::empty(place)
+    }
+}

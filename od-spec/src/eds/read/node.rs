@@ -1,0 +1,39 @@
+//! `[DeviceComissioning]` and the values of a DCF (CiA 306 5): one node of a network.
+
+use crate::ast::Name;
+use crate::eds::names::Topic;
+use crate::eds::number::lenient_integer;
+use crate::eds::view::View;
+use crate::model::EntryId;
+
+/// A node, as far as its DCF says.
+#[derive(Debug, Default)]
+pub(crate) struct NodeDecl {
+    /// Node-ID, 1 to 127.
+    pub node: Option<u8>,
+    /// Name of the node.
+    pub node_name: Option<String>,
+    /// Bit rate in kbit/s.
+    pub bit_rate: Option<u16>,
+    /// Number of the network.
+    pub net_number: Option<u32>,
+    /// Name of the network.
+    pub net_name: Option<String>,
+    /// Parameter values, as a specification would write them.
+    pub values: Vec<(EntryId, Name)>,
+}
+
+/// What stands about the node itself. What cannot be read counts as not said; the rules about the text tell.
+pub(super) fn read(view: &View<'_>) -> NodeDecl {
+    let Some(section) = view.section(Topic::Commissioning) else { return NodeDecl::default() };
+    let text = |key: &str| section.value(key).map(|text| text.value.to_owned());
+    let number = |key: &str| section.value(key).and_then(|text| lenient_integer(text.value));
+    NodeDecl {
+        node: number("NodeID").and_then(|id| u8::try_from(id).ok()).filter(|id| (1..=127).contains(id)),
+        node_name: text("NodeName"),
+        bit_rate: number("Baudrate").and_then(|rate| u16::try_from(rate).ok()),
+        net_number: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
+        net_name: text("NetworkName"),
+        values: Vec::new(),
+    }
+}
