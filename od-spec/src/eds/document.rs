@@ -188,6 +188,13 @@ impl<'d, 't> SectionRef<'d, 't> {
         self.body().iter().filter(|line| line.kind() == LineKind::KeyValue)
     }
 
+    /// The comments directly above the header, as they are behind their `;`.
+    pub(crate) fn comments_at_header(&self) -> impl Iterator<Item = &'d str> + use<'d, 't> {
+        let before = &self.document.lines[..self.header];
+        let above = before.iter().rev().take_while(|line| line.kind() == LineKind::Comment).count();
+        before[before.len() - above..].iter().filter_map(Line::comment)
+    }
+
     /// The comments above the header, behind the last key of the section before; without their `;` and the blank behind it.
     pub fn comments(&self) -> impl Iterator<Item = &'d str> + use<'d, 't> {
         let before = &self.document.lines[..self.header];

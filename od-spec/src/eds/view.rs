@@ -170,9 +170,9 @@ impl<'d> Part<'d> {
         self.key(name).map(|entry| entry.value).filter(|value| !value.value.is_empty())
     }
 
-    /// The comments above the first section.
-    pub(crate) fn comments(&self) -> impl Iterator<Item = &'d str> + use<'d> {
-        self.sections[0].comments()
+    /// The comments directly above the first section.
+    pub(crate) fn comments_at_header(&self) -> impl Iterator<Item = &'d str> + use<'d> {
+        self.sections[0].comments_at_header()
     }
 }
 

@@ -1,5 +1,6 @@
 //! The keys of an entry (CiA 306 4.6.3.2): a VAR's section, or that of a sub-index.
 
+use super::comments::Meanings;
 use super::node::NodeDecl;
 use super::{made, owned, value};
 use crate::ast::{EdsDecl, EntryDecl};
@@ -14,6 +15,8 @@ use crate::source::{Span, Spanned};
 pub(super) struct Context<'a> {
     /// Of a DCF: the node, which gets the parameter value.
     pub node: Option<&'a mut NodeDecl>,
+    /// What comments say.
+    pub meanings: &'a mut Meanings,
     pub diagnostics: &'a mut Diagnostics,
 }
 
@@ -51,8 +54,9 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
             context.push(Diagnostic::new(codes::NO_PLACE, text.span, message));
         }
     }
-    EntryDecl {
-        name: Some(name(part, id, context)),
+    let name = name(part, id, context);
+    let entry = EntryDecl {
+        name: Some(name.clone()),
         type_name: Some(data_type.map(|data_type| data_type.name().to_owned())),
         access: Some(access.map(|access| AccessRight { access, locked: false })),
         pdo: mapping(part, id, access.value, context),
@@ -61,7 +65,8 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
         max,
         eds: flags(part, id, context),
         ..EntryDecl::empty(place)
-    }
+    };
+    context.meanings.add_to(entry, part, &name.value)
 }
 
 /// The name of an object or an entry; its index where it has none.
@@ -104,10 +109,9 @@ fn data_type(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Conte
 
 /// Says how a number differs from what the standard has.
 pub(super) fn report(text: Spanned<&str>, read: Option<&number::Number>, context: &mut Context<'_>) {
-    for number in read {
-        for deviation in &number.deviations {
-            context.push(value::deviates(text, deviation, number.value));
-        }
+    let Some(number) = read else { return };
+    for deviation in &number.deviations {
+        context.push(value::deviates(text, deviation, number.value));
     }
 }
 

@@ -4,6 +4,7 @@
 //! A fault never stops the reader. What it cannot read it leaves out, and where something has to stand it takes what does
 //! the least harm; in both cases it says so. What it gives is accepted by everything that follows.
 
+mod comments;
 mod compact;
 mod device;
 mod entry;
@@ -30,7 +31,9 @@ pub(crate) struct Read {
 /// Reads a file under its name.
 pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -> Read {
     let mut node = view.is_dcf.then(|| node::read(view));
-    let objects = objects::read(view, node.as_mut(), diagnostics);
+    let mut meanings = comments::Meanings::default();
+    let objects = objects::read(view, node.as_mut(), &mut meanings, diagnostics);
+    let (units, types) = meanings.into_declarations();
     let device = device::device(view, name, &objects);
     let title = device.name.clone();
     let spec = Spec {
@@ -47,8 +50,8 @@ pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -
         uses: Vec::new(),
         glossary: Vec::new(),
         devices: vec![device],
-        units: Vec::new(),
-        types: Vec::new(),
+        units,
+        types,
         axes: None,
         features: Vec::new(),
         objects,

@@ -1,5 +1,6 @@
 //! Objects: VAR, ARRAY, RECORD and DOMAIN, from the sections that describe them.
 
+use super::comments::Meanings;
 use super::compact;
 use super::entry::{self, Context};
 use super::modules;
@@ -16,9 +17,10 @@ use crate::source::{Span, Spanned};
 pub(super) fn read(
     view: &View<'_>,
     node: Option<&mut NodeDecl>,
+    meanings: &mut Meanings,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
-    let mut context = Context { node, diagnostics };
+    let mut context = Context { node, meanings, diagnostics };
     let described = view.objects.iter().filter(|(_, part)| part.object.is_some() || !part.subs.is_empty());
     let mut objects: Vec<ObjectDecl> =
         described.filter_map(|(index, part)| object(*index, part, &mut context)).collect();
@@ -59,7 +61,8 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
         }
         ObjectKind::Array | ObjectKind::Record => {
             let name = entry::name(main, id, context);
-            let common = EntryDecl { name: Some(name), ..EntryDecl::empty(place) };
+            let common = EntryDecl { name: Some(name.clone()), ..EntryDecl::empty(place) };
+            let common = context.meanings.add_to(common, main, &name.value);
             Some(structured(index, kind, part, common, place, context))
         }
     }
