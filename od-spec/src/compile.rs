@@ -245,7 +245,7 @@ fn load(
 /// As [`read_text`], but for the encoding of an EDS.
 pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
     if eds::has_eds_name(name) && bytes.len() <= LARGEST_FILE {
-        let (text, encoding) = encoding::decode(&bytes);
+        let (text, encoding) = encoding::decode(bytes);
         return Ok(sources.add_decoded(name, text, encoding));
     }
     Ok(sources.add(name, read_text(name, bytes)?))

@@ -63,17 +63,18 @@ impl fmt::Display for Encoding {
 /// The text that bytes stand for, and how they do. Every sequence of bytes stands for one, and [`encode`] gives it back.
 ///
 /// What is neither UTF-8 nor marked as UTF-16 is read in the code page that fits best.
-pub fn decode(bytes: &[u8]) -> (String, Encoding) {
-    if let Some(text) = utf16(bytes) {
+pub fn decode(bytes: Vec<u8>) -> (String, Encoding) {
+    if let Some(text) = utf16(&bytes) {
         return text;
     }
-    match std::str::from_utf8(bytes) {
+    match String::from_utf8(bytes) {
         Ok(text) => match text.strip_prefix('\u{FEFF}') {
             Some(text) => (text.to_owned(), Encoding::Utf8WithMark),
-            None if text.is_ascii() => (text.to_owned(), Encoding::Ascii),
-            None => (text.to_owned(), Encoding::Utf8),
+            None if text.is_ascii() => (text, Encoding::Ascii),
+            None => (text, Encoding::Utf8),
         },
-        Err(_) => {
+        Err(error) => {
+            let bytes = error.as_bytes();
             // The first of equals wins.
             let pages = [Encoding::Cp437, Encoding::Cp850, Encoding::Windows1252];
             let page = pages.into_iter().max_by_key(|page| fit(bytes, *page));
@@ -184,7 +185,7 @@ mod tests {
             (b"25 \xB0C, m/s\xB2", "25 °C, m/s²", Encoding::Windows1252),
             (b"25 \xF8C", "25 °C", Encoding::Cp850),
         ] {
-            let decoded = decode(bytes);
+            let decoded = decode(bytes.to_vec());
             assert_eq!(decoded, (text.to_owned(), encoding));
             assert_eq!(encode(text, encoding).as_deref(), Ok(bytes));
         }
@@ -193,7 +194,7 @@ mod tests {
     #[test]
     fn what_is_marked_but_broken_is_read_byte_by_byte() {
         for bytes in [&b"\xFF\xFEa"[..], b"\xFF\xFE\0\xD8", b"\xFF\xFE", b"\xEF\xBB", b"\x80"] {
-            let (text, encoding) = decode(bytes);
+            let (text, encoding) = decode(bytes.to_vec());
             assert_eq!(encode(&text, encoding).as_deref(), Ok(bytes), "{bytes:?}");
         }
         assert_eq!(encode("Ω", Encoding::Windows1252), Err('Ω'));

@@ -6,6 +6,7 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::Deref;
+use std::sync::OnceLock;
 
 use crate::encoding::Encoding;
 
@@ -107,7 +108,8 @@ pub struct SourceFile {
     name: String,
     text: String,
     encoding: Encoding,
-    line_starts: Vec<u32>,
+    /// Where lines begin; only who wants to know a line pays for it.
+    line_starts: OnceLock<Vec<u32>>,
 }
 
 impl SourceFile {
@@ -129,20 +131,28 @@ impl SourceFile {
     /// Line and column of a byte offset.
     pub fn line_col(&self, offset: u32) -> LineCol {
         let line = self.line_index(offset);
-        let start = self.line_starts[line] as usize;
+        let start = self.line_starts()[line] as usize;
         let end = (offset as usize).clamp(start, self.text.len());
         LineCol { line: line + 1, column: self.text[start..end].chars().count() + 1 }
     }
 
+    fn line_starts(&self) -> &[u32] {
+        self.line_starts.get_or_init(|| {
+            // Sources are smaller than 4 GiB.
+            let starts = line_breaks(&self.text).map(|at| u32::try_from(at).unwrap_or(u32::MAX));
+            std::iter::once(0).chain(starts).collect()
+        })
+    }
+
     /// Number of the line (from 0) that holds a byte offset.
     pub(crate) fn line_index(&self, offset: u32) -> usize {
-        self.line_starts.partition_point(|start| *start <= offset).saturating_sub(1)
+        self.line_starts().partition_point(|start| *start <= offset).saturating_sub(1)
     }
 
     /// Byte range of the lines `first..=last` (from 0), without the final line break.
     pub(crate) fn lines(&self, first: usize, last: usize) -> (usize, usize) {
-        let start = self.line_starts[first] as usize;
-        let end = self.line_starts.get(last + 1).map_or(self.text.len(), |next| *next as usize);
+        let start = self.line_starts()[first] as usize;
+        let end = self.line_starts().get(last + 1).map_or(self.text.len(), |next| *next as usize);
         (start, start + self.text[start..end].trim_end_matches(['\n', '\r']).len())
     }
 }
@@ -175,12 +185,9 @@ impl SourceMap {
     /// As [`add`](Self::add).
     #[expect(clippy::expect_used, reason = "limits that the loader enforces far below")]
     pub fn add_decoded(&mut self, name: impl Into<String>, text: String, encoding: Encoding) -> FileId {
-        let mut line_starts = vec![0];
-        line_starts.extend(
-            line_breaks(&text).map(|at| u32::try_from(at).expect("source texts are smaller than 4 GiB")),
-        );
+        assert!(u32::try_from(text.len()).is_ok(), "source texts are smaller than 4 GiB");
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 files"));
-        self.files.push(SourceFile { name: name.into(), text, encoding, line_starts });
+        self.files.push(SourceFile { name: name.into(), text, encoding, line_starts: OnceLock::new() });
         id
     }
 

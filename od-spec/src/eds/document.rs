@@ -53,8 +53,14 @@ pub struct Line<'t> {
 pub(super) enum Content {
     Blank,
     Comment,
-    Header { name: Part },
-    KeyValue { key: Part, value: Part },
+    /// Between the brackets.
+    Header {
+        name: Part,
+    },
+    /// Where the equals sign stands.
+    KeyValue {
+        equals: u32,
+    },
     Unreadable,
 }
 
@@ -229,10 +235,7 @@ impl Section {
 
     /// Adds a key and its value behind the others. Neither may hold a line break, and the key no `=`.
     pub fn push(&mut self, key: &str, value: impl Display) {
-        let text = format!("{key}={value}");
-        let key = Part { start: 0, end: length(key) };
-        let value = Part { start: key.end + 1, end: length(&text) };
-        self.lines.push(Line::written(text, Content::KeyValue { key, value }));
+        self.lines.push(Line::written(format!("{key}={value}"), Content::KeyValue { equals: length(key) }));
     }
 }
 
@@ -270,26 +273,17 @@ impl<'t> Line<'t> {
 
     /// The name in a header, as it is spelled, without blanks around it.
     pub fn name(&self) -> Option<&str> {
-        match self.content {
-            Content::Header { name } => self.text.get(name.range()),
-            Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => None,
-        }
+        self.text.get(self.name_part()?.range())
     }
 
     /// The key, as it is spelled.
     pub fn key(&self) -> Option<&str> {
-        match self.content {
-            Content::KeyValue { key, .. } => self.text.get(key.range()),
-            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
-        }
+        self.text.get(self.key_part()?.range())
     }
 
     /// The text of a key's value, without blanks around it; what it stands for depends on the key.
     pub fn value(&self) -> Option<&str> {
-        match self.content {
-            Content::KeyValue { value, .. } => self.text.get(value.range()),
-            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
-        }
+        self.text.get(self.value_part()?.range())
     }
 
     /// The text of a comment, without its sign and the blank behind it.
@@ -306,9 +300,31 @@ impl<'t> Line<'t> {
         Span { file, start: self.start + part.start, end: self.start + part.end }
     }
 
-    /// The parts of the text that are name, key or value.
-    pub(super) const fn content(&self) -> Content {
-        self.content
+    /// The name in a header.
+    pub(super) fn name_part(&self) -> Option<Part> {
+        match self.content {
+            Content::Header { name } => Some(scan::trimmed(&self.text, name)),
+            Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => None,
+        }
+    }
+
+    /// The key in front of the equals sign.
+    pub(super) fn key_part(&self) -> Option<Part> {
+        let equals = self.equals()?;
+        Some(scan::trimmed(&self.text, Part { start: 0, end: equals }))
+    }
+
+    /// The value behind the equals sign.
+    pub(super) fn value_part(&self) -> Option<Part> {
+        let equals = self.equals()?;
+        Some(scan::trimmed(&self.text, Part { start: equals + 1, end: length(&self.text) }))
+    }
+
+    const fn equals(&self) -> Option<u32> {
+        match self.content {
+            Content::KeyValue { equals } => Some(equals),
+            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
+        }
     }
 }
 

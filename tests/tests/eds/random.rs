@@ -84,7 +84,7 @@ const PIECES: &[&str] = &[
 
 /// Compiles bytes at both levels, and makes every output of what comes out.
 fn go_through(name: &str, bytes: &[u8]) {
-    let (text, encoding) = decode(bytes);
+    let (text, encoding) = decode(bytes.to_vec());
     assert_eq!(encode(&text, encoding).as_deref(), Ok(bytes));
     let mut sources = SourceMap::new();
     let root = add_source(&mut sources, name, bytes.to_vec()).unwrap();
