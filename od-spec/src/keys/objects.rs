@@ -15,7 +15,7 @@ const OBJECT_KEYS: &[Key] = key_list! {
     "array": Shape::Map(&ARRAY), "makes it an ARRAY", "{count: 8, name: \"block {n}\", type: integer16, access: ro}";
     "record": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "makes it a RECORD: members by sub-index", "{1: {name: type, type: unsigned8, access: ro}}";
     "sub0": Shape::Map(&SUB0), "name and access of sub-index 0, where they are not the usual ones", "{access: rw}";
-    "omit": Shape::List(&Shape::Integer(1, 254)), "with `from:`: sub-indices that the device does not have", "[4]";
+    "omit": Shape::List(&Shape::Integer(1, 254)), "with `from:` or `array:`: sub-indices that the device does not have", "[4]";
 };
 
 /// An object.

@@ -62,8 +62,8 @@ pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
             diagnostics,
         );
     }
-    if let Some(sub) = omit.first().filter(|_| from.is_none()) {
-        let help = "leave the sub-index out of `array:` or `record:` instead";
+    if let Some(sub) = omit.first().filter(|_| from.is_none() && array.is_none()) {
+        let help = "leave the sub-index out of `record:` instead";
         refuse("omit", sub.span, "nothing is taken from a library", help, diagnostics);
     }
     if array.is_some() || record.is_some() {
