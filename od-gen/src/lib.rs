@@ -19,6 +19,8 @@ pub mod json;
 mod plan;
 pub mod rust;
 pub mod source;
+#[cfg(feature = "yaml")]
+pub mod yaml;
 
 pub use artifact::Artifact;
 #[cfg(all(feature = "eds", feature = "json"))]

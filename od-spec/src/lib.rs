@@ -37,6 +37,7 @@ pub mod expr;
 #[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;
+mod library;
 pub mod model;
 mod parameters;
 #[cfg(feature = "reference")]
@@ -62,6 +63,7 @@ pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;
+pub use library::{Feature, Library, LibraryObject, library};
 pub use parameters::{Assignment, ParameterValues, assign};
 #[cfg(feature = "reference")]
 pub use reference::reference;
