@@ -14,6 +14,8 @@ pub mod docs;
 pub mod eds;
 mod expand;
 pub mod files;
+#[cfg(feature = "yaml")]
+pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
 mod plan;

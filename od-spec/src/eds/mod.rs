@@ -9,6 +9,7 @@ pub(crate) mod dates;
 mod document;
 pub(crate) mod names;
 pub(crate) mod number;
+pub(crate) mod owner;
 pub(crate) mod read;
 mod scan;
 pub(crate) mod view;
@@ -36,3 +37,4 @@ fn ends_with(name: &str, extension: &str) -> bool {
 }
 
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
+pub use owner::{Owner, Remark};

@@ -58,6 +58,7 @@ impl Cli {
             Command::Dcf(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
+            Command::Import(args) => args.messages.format,
             Command::New(args) => args.messages.format,
             _ => None,
         };
@@ -109,6 +110,8 @@ pub(crate) enum Command {
     Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
+    /// Make a specification of an EDS or DCF
+    Import(ImportArgs),
     /// Write a commented specification to start from
     New(NewArgs),
     /// Tell what a message code means and what to do about it
@@ -278,6 +281,24 @@ pub(crate) struct DumpArgs {
     /// Only these devices
     #[arg(long, value_name = "KEY")]
     pub device: Vec<String>,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ImportArgs {
+    /// EDS or DCF files
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+
+    /// Directory for the specifications, each named like its file
+    #[arg(long, short, default_value = ".", value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Overwrite specifications that are there already
+    #[arg(long)]
+    pub force: bool,
 
     #[command(flatten)]
     pub messages: Messages,
