@@ -2,6 +2,7 @@
 
 use crate::Commissioning;
 use crate::ast::Spec;
+use crate::check::allowed::Allowed;
 use crate::check::{self, codes as rule_codes};
 use crate::decode::{decode, nearest};
 use crate::diag::shorten;
@@ -147,7 +148,8 @@ fn build(
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
     let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
-    check::system(rules, &system, library.as_ref(), diagnostics);
+    let mut allowed = Allowed::of(&spec, diagnostics);
+    check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
     Some(system)
 }
 

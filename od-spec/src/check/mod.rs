@@ -4,6 +4,7 @@
 //! Rules see the model and nothing else: a value may have been written in a specification, in a library, or in a setting
 //! laid over both; the place of a message comes from the fact that it is about.
 
+pub(crate) mod allowed;
 mod findings;
 mod pdo;
 mod rule;
@@ -67,6 +68,7 @@ use crate::diag::Diagnostics;
 use crate::model::{Dictionary, System};
 use crate::source::Span;
 
+use allowed::Allowed;
 use findings::Findings;
 pub(crate) use rule::Rule;
 use rule::{Check, Needs};
@@ -122,16 +124,20 @@ pub(crate) fn system(
     rules: &[&Rule],
     system: &System,
     library: Option<&Dictionary>,
+    allowed: &mut Allowed<'_>,
     diagnostics: &mut Diagnostics,
 ) {
     for needs in [Needs::Nothing, Needs::Everything] {
         if needs == Needs::Everything && diagnostics.has_errors() {
             return;
         }
+        let mut found = Diagnostics::new();
         for rule in rules.iter().filter(|rule| rule.needs == needs) {
-            apply(rule, system, library, diagnostics);
+            apply(rule, system, library, &mut found);
         }
+        diagnostics.append(allowed.soften(found));
     }
+    allowed.report_unused(diagnostics);
 }
 
 /// Applies the rules to a device that was read from a foreign file. What is wrong there prevents nothing, so that every rule

@@ -53,10 +53,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
 /// The maker.
 pub(super) fn vendor(view: &View<'_>) -> VendorDecl {
     let info = Section::of(view, Topic::DeviceInfo);
-    VendorDecl {
-        name: info.text("VendorName"),
-        number: info.number("VendorNumber", 0xFFFF_FFFF),
-    }
+    VendorDecl { name: info.text("VendorName"), number: info.number("VendorNumber", 0xFFFF_FFFF) }
 }
 
 fn file(view: &View<'_>) -> FileDecl {
