@@ -23,6 +23,15 @@ pub(super) fn differing(wanted: &Dictionary, found: &Dictionary) -> Vec<Index> {
     missing.map(|object| object.index).chain(more.copied()).collect()
 }
 
+/// Whether objects or entries have other names than they should.
+pub(super) fn renamed(wanted: &Dictionary, found: &Dictionary) -> bool {
+    let name = |object: &Object, entry: &Entry| (object.name.clone(), entry.name.clone());
+    let entries = wanted.entries().zip(found.entries());
+    entries
+        .into_iter()
+        .any(|((_, object, entry), (_, made, made_entry))| name(object, entry) != name(made, made_entry))
+}
+
 /// The parameter objects that `pdos:` makes have their own names and descriptions.
 fn likeness(wanted: &Object, found: &Object) -> Likeness {
     use od_spec::model::Origin;

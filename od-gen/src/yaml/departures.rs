@@ -1,7 +1,9 @@
 //! An object as a library has it, and what is different.
 
 use od_spec::LibraryObject;
-use od_spec::model::{Author, Entry, EntryId, Fact, Index, Object, ObjectKind, SubIndex};
+use od_spec::model::{
+    Author, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, SubIndex, TypeKind,
+};
 
 use super::compare::same_named;
 use super::context::{Context, same_unit};
@@ -60,7 +62,7 @@ fn whole(object: &Object, below: &Object, context: &Context<'_>) -> Vec<Item> {
 }
 
 /// What is different about sub-index 0.
-fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Option<Item>> {
+fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Vec<Item>> {
     let (count, below_count) = (object.entries.first()?, below.entries.first()?);
     let own = entry::sub0(context, object, count);
     let theirs = entry::sub0(context, below, below_count);
@@ -81,10 +83,10 @@ fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Option
     let id = EntryId { index: object.index, sub: count.sub };
     let comments = context.above_entry(id);
     if keys.is_empty() && comments.is_empty() {
-        return Some(None);
+        return Some(Vec::new());
     }
     let item = Item::new("sub0", Node::Map(facts(id, keys))).about(Spot::Entry(id));
-    Some(Some(Item { above: comments, ..item }))
+    Some(vec![Item { above: comments, ..item }])
 }
 
 /// `eds:` that says nothing.
@@ -163,6 +165,17 @@ fn record(
 
 /// The keys of an entry that the library's entry does not have so; `None` where it has one that cannot be undone.
 fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) -> Option<Keys> {
+    // Where the model names no bits and no unit, they are those of the library.
+    let mut own = own.clone();
+    if own.unit.is_none() {
+        own.unit.clone_from(&below.unit);
+    }
+    let is_silent = own.named_type.is_none() && own.data_type == below.data_type;
+    if let Some(NamedType { kind: TypeKind::Bits(_), .. }) = below.named_type.as_deref().filter(|_| is_silent)
+    {
+        own.named_type.clone_from(&below.named_type);
+    }
+    let own = &own;
     // What the device fills in is not said by the library.
     let stated = below.default.as_ref().filter(|_| !below.facts.is_said_by(Fact::Default, Author::Derived));
     let theirs = entry::keys(context, index, below);

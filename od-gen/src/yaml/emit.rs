@@ -23,6 +23,11 @@ impl Written {
         around.min_by_key(|(range, _)| range.len()).map(|(_, spot)| spot)
     }
 
+    /// Adds texts that say nothing by themselves.
+    fn push(&mut self, texts: &[&str]) {
+        self.text.extend(texts.iter().copied());
+    }
+
     /// Adds a text with what its parts say.
     fn append(&mut self, other: Self) {
         let start = self.text.len();
@@ -48,12 +53,12 @@ fn block(items: &[Item], indent: usize, out: &mut Written) {
             if line.is_empty() {
                 out.text.push('\n');
             } else {
-                out.text.push_str(&format!("{margin}# {line}\n"));
+                out.push(&[&margin, "# ", line, "\n"]);
             }
         }
         out.text.push_str(&margin);
         let start = out.text.len();
-        out.text.push_str(&format!("{}:", item.key));
+        out.push(&[&item.key, ":"]);
         value(&item.value, indent, indent + item.key.chars().count() + 2, out);
         out.spots.extend(item.spot.clone().map(|spot| (start..out.text.len(), spot)));
         out.text.push('\n');
@@ -67,12 +72,12 @@ fn value(node: &Node, indent: usize, column: usize, out: &mut Written) {
     match (node, line) {
         (Node::Block(items), _) if !items.is_empty() => nested(items, indent, out),
         (Node::Map(items), line) if !items.is_empty() && (!fits || line.is_none()) => {
-            nested(items, indent, out)
+            nested(items, indent, out);
         }
         (Node::List(items), _) if !fits => {
             for item in items {
                 let line = flow(item).unwrap_or_default();
-                out.text.push_str(&format!("\n{}- ", " ".repeat(indent + 2)));
+                out.push(&["\n", &" ".repeat(indent + 2), "- "]);
                 out.append(line);
             }
         }
@@ -113,7 +118,7 @@ fn flow(node: &Node) -> Option<Written> {
                 }
                 out.text.push_str(if at == 0 { "" } else { ", " });
                 let start = out.text.len();
-                out.text.push_str(&format!("{}: ", item.key));
+                out.push(&[&item.key, ": "]);
                 out.append(flow(&item.value)?);
                 out.spots.extend(item.spot.clone().map(|spot| (start..out.text.len(), spot)));
             }
@@ -138,7 +143,7 @@ fn is_foldable(text: &str) -> bool {
 fn fold(text: &str, indent: usize, out: &mut Written) {
     out.text.push_str(" >-");
     for line in wrapped(text, WIDTH - indent) {
-        out.text.push_str(&format!("\n{}{line}", " ".repeat(indent)));
+        out.push(&["\n", &" ".repeat(indent), &line]);
     }
 }
 

@@ -159,12 +159,17 @@ impl Draft {
             }
             _ => return None,
         };
-        Some(repair(Place::Entry(id), Some(fact), original, None))
+        let now = (fact == Fact::Default && Role::of(id.index) == Role::ErrorHistory).then(|| "0".to_owned());
+        Some(repair(Place::Entry(id), Some(fact), original, now))
     }
 
     /// The value that an entry has where none is stated.
     fn derived(&self, id: EntryId) -> Option<Value> {
         let object = self.device.objects.get(&id.index)?;
+        // A device starts without errors, however many it can list.
+        if object.role() == Role::ErrorHistory && id.sub == SubIndex(0) {
+            return Some(Value::Integer(0));
+        }
         if object.is_structured() && id.sub == SubIndex(0) && object.role() != Role::PdoMapping {
             return object.entries.last().map(|last| Value::Integer(last.sub.0.into()));
         }

@@ -26,7 +26,7 @@ mod types;
 mod value;
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, Index, System};
@@ -59,6 +59,10 @@ const ROUNDS_FOR_FACTS: usize = 40;
 const ROUNDS: usize = 200;
 /// Most attempts to write short forms.
 const ATTEMPTS: usize = 12;
+
+/// The built-in libraries, each read once.
+static BUILT_IN: LazyLock<Vec<Arc<Library>>> =
+    LazyLock::new(|| LIBRARIES.iter().filter_map(|(name, _)| library(name)).map(Arc::new).collect());
 
 /// Writes a device of a system as a specification of its own.
 ///
@@ -166,7 +170,9 @@ fn mended(draft: &mut Draft, options: &Options, remarks: &mut Remarks) -> Result
         }
     }
     let mut diagnostics = Diagnostics::new();
-    last.into_iter().for_each(|error| diagnostics.push(error));
+    for error in last {
+        diagnostics.push(error);
+    }
     Err(diagnostics)
 }
 
@@ -182,16 +188,12 @@ fn follow(device: &mut Dictionary, found: Dictionary) {
 /// The shortest text that gives the same model; `None` where none was found.
 fn short(draft: &Draft, options: &Options, remarks: &Remarks) -> Option<Written> {
     let has = |index: &Index| draft.device.objects.contains_key(index);
-    let libraries: Vec<Arc<Library>> = LIBRARIES
-        .iter()
-        .filter_map(|(name, _)| library(name))
-        .filter(|library| {
-            // What every device has that uses it cannot be left out.
-            let implied = library.features.iter().filter(|feature| feature.implied);
-            implied.flat_map(|feature| &feature.objects).all(has) && library.objects.keys().any(has)
-        })
-        .map(Arc::new)
-        .collect();
+    let usable = |library: &&Arc<Library>| {
+        // What every device has that uses it cannot be left out.
+        let implied = library.features.iter().filter(|feature| feature.implied);
+        implied.flat_map(|feature| &feature.objects).all(has) && library.objects.keys().any(has)
+    };
+    let libraries = BUILT_IN.iter().filter(usable).cloned().collect();
     let mut style = Style { libraries, features: true, short: true, ..Style::default() };
     for _ in 0..ATTEMPTS {
         let written = text::write(&draft.system, &draft.device, options, remarks, &style);
@@ -201,8 +203,11 @@ fn short(draft: &Draft, options: &Options, remarks: &Remarks) -> Option<Written>
             Some(found) => compare::differing(&draft.device, found).into_iter().collect(),
             None => errors.iter().filter_map(|error| blamed(draft, &written, error)).collect(),
         };
-        if found.is_some() && wrong.is_empty() {
-            return Some(written);
+        if let Some(found) = found.filter(|_| wrong.is_empty()) {
+            style.renamed = compare::renamed(&draft.device, found);
+            // A comment more does not change what the text says.
+            let with_remark = || text::write(&draft.system, &draft.device, options, remarks, &style);
+            return Some(if style.renamed { with_remark() } else { written });
         }
         if !longer(&mut style, draft, &wrong) {
             return None;

@@ -48,7 +48,7 @@ fn settle_objects(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
         taken.insert(transliterate(&name));
         full.extend(with_entries(&name));
         if name != original {
-            repairs.push(renamed(Place::Object(index), original, &name));
+            repairs.push(renamed(Place::Object(index), &original, &name));
             object.name.clone_from(&name);
         }
         if !object.is_structured() {
@@ -85,17 +85,17 @@ fn settle_entries(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
             let name = first_free(&plain, suffixed, |name| !taken.contains(&transliterate(name)));
             taken.insert(transliterate(&name));
             if name != original {
-                repairs.push(renamed(Place::Entry(EntryId { index, sub }), original, &name));
+                repairs.push(renamed(Place::Entry(EntryId { index, sub }), &original, &name));
                 entry.name = name;
             }
         }
     }
 }
 
-fn renamed(place: Place, original: String, now: &str) -> Repair {
+fn renamed(place: Place, original: &str, now: &str) -> Repair {
     let because = if original.trim().is_empty() {
         "a name is wanted".to_owned()
-    } else if fitting(&original, String::new) == original {
+    } else if fitting(original, String::new) == original {
         "each name stands for one thing".to_owned()
     } else {
         "not every reader of an EDS takes the name as it is".to_owned()

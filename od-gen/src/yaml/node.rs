@@ -1,5 +1,7 @@
 //! A YAML text as a tree: keys in their order, comments above them, and what each part of it says.
 
+use std::fmt::Display;
+
 use od_spec::model::{Direction, EntryId, Fact, Index};
 
 /// A value.
@@ -74,8 +76,8 @@ impl Item {
 
 impl Node {
     /// A word or a number.
-    pub(super) fn plain(value: impl ToString) -> Self {
-        Self::Plain(value.to_string())
+    pub(super) fn plain(value: impl Display) -> Self {
+        Self::Plain(format!("{value}"))
     }
 
     /// A text.

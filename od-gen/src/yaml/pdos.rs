@@ -119,7 +119,7 @@ fn id_node(id: &Value) -> Node {
     match id {
         Value::NodeId(0) => Node::plain("$NODEID"),
         Value::NodeId(offset) => Node::Plain(format!("$NODEID + 0x{offset:X}")),
-        Value::Integer(raw) => Node::Plain(format!("0x{raw:X}")),
+        Value::Integer(raw) => super::value::hex(*raw),
         // No COB-ID is one of these.
         Value::Real(_) | Value::Text(_) | Value::Bytes(_) => Node::plain(0),
     }

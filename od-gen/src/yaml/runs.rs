@@ -10,9 +10,9 @@ use super::objects::key;
 const FEWEST: usize = 3;
 
 /// Objects by ascending index, with runs of equal ones put together. Those that may not be put together have no index.
-pub(super) fn fold(items: Vec<(Option<Index>, Item)>) -> Vec<Item> {
+pub(super) fn fold(items: &[(Option<Index>, Item)]) -> Vec<Item> {
     let mut out = Vec::new();
-    let mut rest = items.as_slice();
+    let mut rest = items;
     while let Some(((_, first), behind)) = rest.split_first() {
         match run(rest).filter(|(length, _)| *length >= FEWEST) {
             Some((length, item)) => {

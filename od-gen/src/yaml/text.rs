@@ -12,6 +12,10 @@ use super::options::Options;
 use super::remarks::Remarks;
 use super::{departures, device, objects, pdos, runs, types};
 
+/// Said where the parameter objects of PDOs have other names than in the model.
+const RENAMED: &str =
+    "The parameter objects of the PDOs under `pdos:` have the names that the language gives them.";
+
 /// A device as a specification in a style. Libraries of the style from which nothing is taken are not used.
 pub(super) fn write(
     system: &System,
@@ -53,7 +57,8 @@ fn attempt(context: &Context<'_>) -> (Written, Vec<String>) {
     section(Item::new("pdos", Node::Block(pdos::items(context, &short_pdos))));
     let mut written = emit::write(&items);
     let foot = context.options.foot.iter().flat_map(|line| head_line(line));
-    let foot: Vec<String> = foot.chain(renamed(context, &short_pdos)).collect();
+    let renamed = context.style.renamed.then(|| RENAMED.to_owned());
+    let foot: Vec<String> = foot.chain(renamed).collect();
     if !foot.is_empty() {
         written.text.push('\n');
     }
@@ -69,22 +74,6 @@ fn attempt(context: &Context<'_>) -> (Written, Vec<String>) {
 fn head_line(line: &str) -> Vec<String> {
     let lines = comment(line);
     if lines.is_empty() { vec![String::new()] } else { lines }
-}
-
-/// Says that parameter objects of PDOs have other names than in the model.
-fn renamed(context: &Context<'_>, short: &[&Pdo]) -> Option<String> {
-    let is_usual = |index: u16, name: String| {
-        context.device.objects.get(&Index(index)).is_none_or(|object| object.name == name)
-    };
-    let usual = |pdo: &&Pdo| {
-        let title = pdo.direction.pdo();
-        is_usual(pdo.communication_index(), format!("{title} {} communication parameter", pdo.number))
-            && is_usual(pdo.mapping_index(), format!("{title} {} mapping parameter", pdo.number))
-    };
-    (!short.iter().all(usual)).then(|| {
-        "The parameter objects of the PDOs under `pdos:` have the names that the language gives them."
-            .to_owned()
-    })
 }
 
 /// The items under `objects:`, the features that bring further objects, and the libraries that are used.
@@ -125,7 +114,7 @@ fn object_items(context: &Context<'_>, short_pdos: &[&Pdo]) -> (Vec<Item>, Vec<S
     }
     let used =
         context.style.libraries.iter().map(|library| library.name.clone()).filter(|name| used.contains(name));
-    (runs::fold(items), chosen.features, used.collect())
+    (runs::fold(&items), chosen.features, used.collect())
 }
 
 /// The object as a library's, with what differs.

@@ -41,7 +41,7 @@ pub(super) fn types(context: &Context<'_>) -> Vec<Item> {
         items.extend(words(&named.about, context.language()).map(|about| Item::new("about", about)));
         match &named.kind {
             TypeKind::Enum(values) => {
-                items.push(Item::new("values", Node::Map(enum_values(context, values))))
+                items.push(Item::new("values", Node::Map(enum_values(context, values))));
             }
             TypeKind::Bits(fields) => items.extend(bit_fields(context, fields)),
         }

@@ -29,12 +29,20 @@ fn integer(index: Index, entry: &Entry, raw: i128) -> Node {
     }
     match (hexadecimal(index, entry), u32::try_from(raw)) {
         (Some(Hex::Halves), Ok(raw)) => return Node::hex32(raw),
-        (Some(Hex::Halves | Hex::Digits), _) if raw >= 0 => return Node::Plain(format!("0x{raw:X}")),
+        (Some(Hex::Halves | Hex::Digits), _) if raw >= 0 => return hex(raw),
         (Some(Hex::Halves | Hex::Digits) | None, _) => {}
     }
     let physical =
         entry.unit.as_ref().filter(|_| enum_values(entry).is_empty()).and_then(|unit| physical(unit, raw));
     physical.map_or_else(|| Node::plain(raw), Node::Text)
+}
+
+/// A bit pattern: `0x8001`, `0x0002_0192`.
+pub(super) fn hex(raw: i128) -> Node {
+    match u32::try_from(raw) {
+        Ok(raw @ 0x1_0000..) => Node::hex32(raw),
+        _ => Node::Plain(format!("0x{raw:X}")),
+    }
 }
 
 fn enum_values(entry: &Entry) -> &[EnumValue] {

@@ -3,6 +3,8 @@
 #![cfg(feature = "yaml")]
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod faults;
+mod foreign;
 mod likeness;
 mod shipped;
 
