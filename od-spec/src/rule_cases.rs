@@ -59,7 +59,8 @@ fn formulas_of_a_configured_node_are_numbers() {
     assert_eq!(said(text, 5, &["1A00.2=$NODEID+0x20990003"]), ["OD0310"]);
     assert_eq!(said(text, 125, &["1800.2=$NODEID+120"]), ["OD0505"]);
     assert_eq!(said(text, 125, &["1800.6=$NODEID+120"]), ["OD0508"]);
-    assert_eq!(said(text, 5, &["1A00.0=2", "1A00.2=$NODEID+0x20000003"]), NONE);
+    // That the entry is mapped twice shows that the formula was read as 20000008h.
+    assert_eq!(said(text, 5, &["1A00.0=2", "1A00.2=$NODEID+0x20000003"]), ["OD0819"]);
 }
 
 const VIEWS: &str = "units:\n  volt: {symbol: V}\n  millivolt: {symbol: mV, base: 1/1000 V}\nobjects:

@@ -10,6 +10,16 @@ pub(super) const NOT_VALID: i128 = 1 << 31;
 /// Bit of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
 pub(super) const NO_REMOTE_FRAMES: i128 = 1 << 30;
 
+/// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they were read from.
+pub(super) const SOURCE_ADDRESS: i128 = 254;
+/// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they are written to.
+const DESTINATION_ADDRESS: i128 = 255;
+
+/// Whether a number of mapped entries is none, but makes the PDO a multiplexed one (CiA 301, 11.4).
+pub(super) const fn is_multiplexed(count: i128) -> bool {
+    matches!(count, SOURCE_ADDRESS | DESTINATION_ADDRESS)
+}
+
 /// A parameter of a PDO with its value.
 pub(super) struct Parameter<'a> {
     /// Which one.
@@ -73,8 +83,8 @@ impl<'a> Subject<'a> {
 
     /// The mapping parameters that count.
     pub(super) fn mapped(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
-        let count = self.mapping_count(pdo).map_or(0, |count| count.raw());
-        self.mapping(pdo).take(usize::try_from(count).unwrap_or(0))
+        let count = self.mapping_count(pdo).map(|count| count.raw()).filter(|count| !is_multiplexed(*count));
+        self.mapping(pdo).take(count.and_then(|count| usize::try_from(count).ok()).unwrap_or(0))
     }
 
     /// Where a mapping as a whole is said: at a setting of it, or else where its count stands.

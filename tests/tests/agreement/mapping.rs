@@ -109,7 +109,7 @@ fn counts() -> Vec<Case> {
             "OD0508",
             A::PDO_LENGTH,
         )),
-        unsaid(refused("more entries than any PDO", &[number(RECEIVE, 0, 255)], "OD0508", A::PDO_LENGTH)),
+        unsaid(refused("a multiplexed PDO", &[number(RECEIVE, 0, 255)], "OD0511", A::PDO_LENGTH)),
         unsaid(refused("an empty entry", &[number(RECEIVE, 0, 2)], "OD0508", A::NO_OBJECT)),
         accepted("nothing", &[number(RECEIVE, 0, 0)]),
         refused("a mapping that is fixed", &single(0x1602, 0x2025_0010), "OD0703", A::READ_ONLY).but(
