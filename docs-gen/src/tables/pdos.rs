@@ -22,7 +22,7 @@ impl Source<'_> {
                 anchor: String::new(),
                 ..Row::of(vec![
                     Cell::plain(format!("{} {}", direction.pdo(), pdo.number)),
-                    Cell::plain(self.wording.cob_id_entry(&pdo.cob_id)),
+                    self.cob_id(pdo),
                     Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No })),
                     Cell::plain(Index(pdo.mapping_index()).to_string()),
                     Cell::plain("0"),
@@ -81,7 +81,7 @@ impl Source<'_> {
             name: format!("{} {}", pdo.direction.pdo(), pdo.number),
             anchor: anchor(pdo),
             direction: pdo.direction.word(),
-            cob_id: self.wording.can_id(&pdo.cob_id),
+            cob_id: pdo.cob_id.as_ref().map(|cob_id| self.wording.can_id(cob_id)).unwrap_or_default(),
             valid: pdo.valid,
             facts: self.pdo_facts(pdo),
             fields: fields.collect(),
@@ -90,16 +90,24 @@ impl Source<'_> {
         }
     }
 
+    /// The COB-ID entry; nothing where nobody states it.
+    fn cob_id(&self, pdo: &Pdo) -> Cell {
+        let cob_id = pdo.cob_id.as_ref();
+        cob_id.map_or_else(Cell::default, |cob_id| Cell::plain(self.wording.cob_id_entry(cob_id)))
+    }
+
     fn pdo_facts(&self, pdo: &Pdo) -> Table {
         let index = |index: u16| {
             let index = Index(index);
             Cell::default().link(index.to_string(), object_anchor(index), self.home(index))
         };
         let mut rows = vec![
-            (Word::CobId, Cell::plain(self.wording.cob_id_entry(&pdo.cob_id))),
+            (Word::CobId, self.cob_id(pdo)),
             (Word::Enabled, Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No }))),
-            (Word::Transmission, Cell::plain(pdo.transmission.to_string())),
         ];
+        if let Some(transmission) = pdo.transmission {
+            rows.push((Word::Transmission, Cell::plain(transmission.to_string())));
+        }
         if let Some(time) = pdo.inhibit_time {
             let tenths = Ratio::new(i128::from(time), 10).and_then(|ms| ms.to_decimal(1)).unwrap_or_default();
             rows.push((Word::InhibitTime, Cell::plain(format!("{} ms", self.wording.decimal(&tenths)))));

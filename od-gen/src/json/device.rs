@@ -231,12 +231,12 @@ fn pdo_view(pdo: &Pdo) -> Json {
             PdoTarget::Dummy(data_type) => json!({"dummy": data_type.name(), "bits": bits}),
         })
         .collect();
-    let cob_id = match &pdo.cob_id {
+    let cob_id = pdo.cob_id.as_ref().map(|cob_id| match cob_id {
         Value::NodeId(offset) => json!({"formula": WORDING.node_id_formula(*offset), "raw": offset}),
         fixed @ (Value::Integer(_) | Value::Real(_) | Value::Text(_) | Value::Bytes(_)) => {
             json!({"raw": fixed.integer().map(integer)})
         }
-    };
+    });
     json!({
         "direction": pdo.direction.word(),
         "number": pdo.number,

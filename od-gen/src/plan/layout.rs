@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
-    Access, DataType, Dictionary, Entry, EntryId, Family, Object, Storage, SubIndex, Value,
+    Access, DataType, Dictionary, Entry, EntryId, Family, Object, Role, Storage, SubIndex, Value,
 };
 
 /// The image is made for the node 0; a node adds its node-ID when it starts.
@@ -125,7 +125,7 @@ impl Layout {
         for Variable { id, entry, size } in group {
             let at = self.factory.len();
             let prefix = prefix(entry.data_type);
-            let value = entry.default.as_ref().and_then(|value| value.bytes_for(entry.data_type, NO_NODE));
+            let value = factory(*id, entry).and_then(|value| value.bytes_for(entry.data_type, NO_NODE));
             let mut bytes = value.unwrap_or_default();
             if prefix > 0 {
                 let length = u16::try_from(bytes.len()).unwrap_or_default();
@@ -146,6 +146,16 @@ impl Layout {
             self.regions.push(Region { storage, start, end: self.factory.len(), layout: hash.0 });
         }
     }
+}
+
+/// The COB-ID of a PDO that does not exist.
+static NOT_VALID: Value = Value::Integer(1 << 31);
+
+/// The value after a factory reset, where there is one. A PDO for whose COB-ID nobody states a value does not exist: 0 would be the
+/// identifier that stops nodes.
+fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
+    let is_cob_id = Role::of(id.index) == Role::PdoCommunication && id.sub == SubIndex(1);
+    entry.default.as_ref().or_else(|| is_cob_id.then_some(&NOT_VALID))
 }
 
 /// The value of an entry that never changes: a constant, or what follows from the shape of the dictionary.

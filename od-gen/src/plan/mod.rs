@@ -225,6 +225,17 @@ pub(crate) struct PlannedPdo<'a> {
     pub name: String,
     pub fields: Vec<PlannedField>,
     pub bits: u32,
+    /// How the device finds its parameters; `None` where it cannot serve the PDO.
+    pub served: Option<ServedPdo>,
+}
+
+/// The rows of a PDO's parameters.
+pub(crate) struct ServedPdo {
+    pub cob_id: u16,
+    /// Of the number of mapped entries; the mapping parameters follow.
+    pub mapping: u16,
+    /// What is mapped after a factory reset; none where the device has to search.
+    pub rows: Vec<u16>,
 }
 
 /// A mapped entry in a PDO.

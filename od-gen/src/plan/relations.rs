@@ -2,11 +2,14 @@
 
 use od_spec::diag::Diagnostics;
 use od_spec::expr::Expr;
-use od_spec::model::{PdoTarget, StateMachine};
+use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex};
 
 use super::condition::{self, Unusable};
 use super::language::{Role, ScopeKind};
-use super::{Plan, PlannedConstraint, PlannedError, PlannedField, PlannedMachine, PlannedPdo, too_large};
+use super::layout::Place;
+use super::{
+    Plan, PlannedConstraint, PlannedError, PlannedField, PlannedMachine, PlannedPdo, ServedPdo, too_large,
+};
 
 impl Plan<'_> {
     pub(super) fn pdos(&mut self, diagnostics: &mut Diagnostics) {
@@ -24,8 +27,41 @@ impl Plan<'_> {
                     fields.push(PlannedField { name: entry.name.clone(), row, first_bit, bits });
                 }
             }
-            self.pdos.push(PlannedPdo { pdo, name, fields, bits: pdo.bits() });
+            let served = self.served(pdo, &fields);
+            self.pdos.push(PlannedPdo { pdo, name, fields, bits: pdo.bits(), served });
         }
+    }
+
+    /// The rows of a PDO's parameters, if these are of the types that CiA 301 gives them, and without a gap.
+    fn served(&self, pdo: &Pdo, fields: &[PlannedField]) -> Option<ServedPdo> {
+        let row = |index: u16, sub: u8, data_type: DataType| {
+            let row = self.row(EntryId { index: Index(index), sub: SubIndex(sub) })?;
+            let planned = self.entry(row)?;
+            (planned.entry.data_type == data_type && planned.entry.alias.is_none()).then_some(row)
+        };
+        let cob_id = row(pdo.communication_index(), 1, DataType::Unsigned32)?;
+        let mapping = row(pdo.mapping_index(), 0, DataType::Unsigned8)?;
+        for sub in 1..=pdo.capacity {
+            let parameter = row(pdo.mapping_index(), sub, DataType::Unsigned32)?;
+            if parameter != mapping.checked_add(sub.into())? {
+                return None;
+            }
+        }
+        // Placeholders are no rows; a mapping with any of them is searched, and so is one that does not lie in one piece.
+        let known = fields.len() == pdo.map.len() && self.lies_in_one_piece(mapping, fields.len());
+        let rows = fields.iter().filter(|_| known).map(|field| field.row).collect();
+        Some(ServedPdo { cob_id, mapping, rows })
+    }
+
+    /// Whether the mapping parameters behind a number of mapped entries are all constants, or lie in the image one behind the other.
+    fn lies_in_one_piece(&self, number: u16, mapped: usize) -> bool {
+        let places: Vec<Place> =
+            self.entries.iter().skip(usize::from(number) + 1).take(mapped).map(|entry| entry.place).collect();
+        places.windows(2).all(|two| match two {
+            [Place::Image(one), Place::Image(next)] => *next == one + 4,
+            [Place::Constant(_), Place::Constant(_)] => true,
+            _ => false,
+        })
     }
 
     pub(super) fn machines(&mut self, diagnostics: &mut Diagnostics) {

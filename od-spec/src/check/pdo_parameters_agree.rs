@@ -105,7 +105,7 @@ fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     };
     let message = format!("{}: an RPDO is not asked for by remote frames", parameter.id);
     let help = subject.help(
-        "remove `no-rtr:`; bit 30 of an RPDO's COB-ID is reserved",
+        "leave out `no-rtr:`, and bit 30 of an RPDO's COB-ID 0; it is reserved",
         "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
     );
     Some(Diagnostic::new(CODE, place, message).help(help))

@@ -91,8 +91,8 @@ codes! {
         "Transitions name states, and commands name transitions, of the same state machine."
     EMPTY_OBJECT Error "OD0314" "an array or record without entries":
         "An ARRAY or RECORD has at least one element or member beside sub-index 0."
-    PDO_BY_HAND Error "OD0317" "a PDO parameter object written by hand":
-        "The objects 1400h to 1BFFh are made from `pdos:`, where entries are named and lengths, directions and counts are worked out and checked."
+    PDO_DESCRIBED_TWICE Error "OD0317" "a PDO that is described twice":
+        "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that stands in both places would have two descriptions."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":

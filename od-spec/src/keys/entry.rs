@@ -25,12 +25,12 @@ macro_rules! entry_keys {
                 "type": Shape::Type => type_name: String, Type, Entries, "data type, or a named type", "unsigned16";
                 "unit": Shape::Text => unit: String, Unit, Entries, "physical unit, by name", "decicelsius";
                 "access": Shape::Access => access: AccessRight, Access, Entries, "`ro`, `wo`, `rw`, `rwr`, `rww` or `const`; `rw locked`: writable only when unlocked for service", "rw locked", sub0 "access; `ro` unless given";
-                "pdo": Shape::Choice(PdoMapping::WORDS) => pdo: PdoMapping, Mapping, Entries, "PDOs it may be mapped into; none unless given";
+                "pdo": Shape::Choice(PdoMapping::WORDS) => pdo: PdoMapping, Mapping, Entries, "PDOs it may be mapped into; none unless given", sub0 "PDOs it may be mapped into; none unless given";
                 "default": Shape::Value => default: String, Default, Value, "value after factory reset", "50.0 °C", sub0 "value; the highest sub-index unless given";
                 "min": Shape::Value => min: String, LowLimit, Value, "smallest allowed value", "-40.0 °C", sub0 "smallest allowed value";
                 "max": Shape::Value => max: String, HighLimit, Value, "largest allowed value", "85.0 °C", sub0 "largest allowed value";
                 "special": Shape::MapOf(KeyKind::Integer, &SPECIAL_VALUE) => special: Vec<SpecialDecl>, Special, Value, "raw values with a meaning of their own, allowed even outside the limits", "{-32768: short circuit, 32767: wire break}";
-                "stored": Shape::Choice(Storage::WORDS) => stored: Storage, Storage, Entries, "which \"store parameters\" command saves it; `remanent`: the device keeps it by itself; no unless given";
+                "stored": Shape::Choice(Storage::WORDS) => stored: Storage, Storage, Entries, "which \"store parameters\" command saves it; `remanent`: the device keeps it by itself; no unless given", sub0 "which command saves it; no unless given";
                 "category": Shape::Choice(Category::WORDS) => category: Category, Category, Object, "whether a standard demands it";
                 "since": Shape::Text => since: String, Since, Object, "issue of the manual that brought it", "\"1.04\"";
                 "writable-when": Shape::Condition => writable_when: Expr, WriteCondition, Entries, "condition under which a write is accepted", "bit(0x6041, 2) == 0";

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{DataType, Direction, EntryId, Index, Object, SubIndex, Text, Value};
+use super::{DataType, Direction, EntryId, Index, Object, Role, SubIndex, Text, Value};
 use crate::source::Span;
 
 /// A PDO with its default communication and mapping parameters.
@@ -13,12 +13,12 @@ pub struct Pdo {
     pub direction: Direction,
     /// Number, 1 to 512; the communication object is `1400h` or `1800h` plus number minus one.
     pub number: u16,
-    /// COB-ID entry with its flag bits: 31 not valid, 30 no RTR (TPDO).
-    pub cob_id: Value,
-    /// Whether the PDO exists after start-up.
+    /// COB-ID entry with its flag bits: 31 not valid, 30 no RTR (TPDO); `None` where nobody states it.
+    pub cob_id: Option<Value>,
+    /// Whether the PDO exists after start-up; not without a COB-ID.
     pub valid: bool,
-    /// Transmission type (CiA 301 table 56).
-    pub transmission: u8,
+    /// Transmission type (CiA 301 table 56), where it is stated.
+    pub transmission: Option<u8>,
     /// Inhibit time in multiples of 100 µs, where the device has the entry.
     pub inhibit_time: Option<u16>,
     /// Event timer in ms, where the device has the entry.
@@ -48,16 +48,49 @@ impl Pdo {
         self.communication_index() + 0x200
     }
 
+    /// The PDO whose communication parameter an object is, as its parameter objects say it; `None` for any other object.
+    pub(crate) fn of_objects(object: &Object, objects: &BTreeMap<Index, Object>) -> Option<Self> {
+        if object.role() != Role::PdoCommunication {
+            return None;
+        }
+        let direction = match object.index.0 {
+            ..0x1800 => Direction::Receive,
+            0x1800.. => Direction::Transmit,
+        };
+        let mut pdo = Self {
+            direction,
+            number: object.index.0 - direction.first_communication_index() + 1,
+            cob_id: None,
+            valid: false,
+            transmission: None,
+            inhibit_time: None,
+            event_timer: None,
+            sync_start: None,
+            variable_mapping: false,
+            capacity: 0,
+            map: Vec::new(),
+            about: object.about.clone(),
+            span: object.span,
+        };
+        if let Some(mapping) = objects.get(&Index(pdo.mapping_index())) {
+            let count = mapping.entry(SubIndex(0));
+            pdo.variable_mapping =
+                mapping.is_structured() && count.is_some_and(|count| count.access.is_writable());
+            pdo.capacity = mapping.entries.last().map_or(0, |last| last.sub.0);
+        }
+        pdo.follow(objects);
+        Some(pdo)
+    }
+
     /// Takes the values that the parameter objects have.
     pub(crate) fn follow(&mut self, objects: &BTreeMap<Index, Object>) {
         let value = |index: u16, sub: u8| objects.get(&Index(index))?.entry(SubIndex(sub))?.default.as_ref();
         let communication = self.communication_index();
         let number = |sub| value(communication, sub).and_then(Value::integer);
-        if let Some(cob_id) = value(communication, 1) {
-            self.cob_id = cob_id.clone();
-            self.valid = cob_id.integer_for(0).is_none_or(|raw| raw >> 31 & 1 == 0);
-        }
-        self.transmission = number(2).and_then(|raw| u8::try_from(raw).ok()).unwrap_or(self.transmission);
+        self.cob_id = value(communication, 1).filter(|cob_id| cob_id.integer_for(0).is_some()).cloned();
+        let raw = self.cob_id.as_ref().and_then(|cob_id| cob_id.integer_for(0));
+        self.valid = raw.is_some_and(|raw| raw >> 31 & 1 == 0);
+        self.transmission = number(2).and_then(|raw| u8::try_from(raw).ok());
         self.inhibit_time = number(3).and_then(|raw| u16::try_from(raw).ok());
         self.event_timer = number(5).and_then(|raw| u16::try_from(raw).ok());
         self.sync_start = number(6).and_then(|raw| u8::try_from(raw).ok());

@@ -9,10 +9,8 @@ use super::scope::{Scope, unknown};
 use super::types::words;
 use super::{aliases, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, Name, Spec};
-use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{
-    DeviceInfo, Dictionary, Facts, Index, Object, Role, Statement, SubIndex, Text, Value, Vendor,
-};
+use crate::diag::{Diagnostics, codes};
+use crate::model::{DeviceInfo, Dictionary, Facts, Index, Object, Statement, SubIndex, Text, Value, Vendor};
 
 pub(super) fn resolve(
     root: &Spec,
@@ -44,7 +42,9 @@ pub(super) fn resolve(
             built.identity(device, &info, vendor);
             let list =
                 root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
-            let pdos = pdos::resolve(list, &info, &mut built.objects, &mut built.broken, diagnostics);
+            let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
+            let pdos =
+                pdos::resolve(list, &info, written, &mut built.objects, &mut built.broken, diagnostics);
             broken.append(built.broken);
             Dictionary {
                 key: device.key.value.clone(),
@@ -130,17 +130,6 @@ impl Builder<'_> {
 
     fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
-            if Role::of(*index).is_pdo_parameter() {
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::PDO_BY_HAND,
-                        one.decl.index.span,
-                        format!("{index} is a PDO parameter object"),
-                    )
-                    .help("describe the PDO under `pdos:`; its objects are made from that"),
-                );
-                continue;
-            }
             let (errors, _) = diagnostics.count();
             if let Some(object) = objects::resolve(one, self.around, diagnostics) {
                 self.objects.insert(*index, object);

@@ -7,7 +7,7 @@ use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, DataType, Entry, Fact, Object, ObjectKind, Statement, SubIndex, Value,
+    Access, AccessRight, DataType, Entry, Object, ObjectKind, Role, Statement, SubIndex, Value,
 };
 use crate::source::Spanned;
 
@@ -204,11 +204,8 @@ fn finish(
     };
     let count = decl.sub0.as_ref();
     let span = count.map_or(decl.index.span, |count| count.span);
-    let mut sub0 = Entry {
-        default: Some(Value::Integer(i128::from(highest.0))),
-        facts: [(Fact::Default, Statement::derived(span))].into_iter().collect(),
-        ..Entry::new(SubIndex(0), "number of elements".to_owned(), DataType::Unsigned8, Access::Ro, span)
-    };
+    let unsigned8 = DataType::Unsigned8;
+    let mut sub0 = Entry::new(SubIndex(0), "number of elements".to_owned(), unsigned8, Access::Ro, span);
     if let Some(count) = count {
         let usual = EntryDecl {
             type_name: Some(Spanned::new("unsigned8".to_owned(), span)),
@@ -216,12 +213,11 @@ fn finish(
             ..EntryDecl::empty(span)
         };
         let name = count.name.as_ref().map_or(sub0.name.clone(), |name| name.value.clone());
-        let given = entries::resolve(&count.over(&usual), SubIndex(0), name, around, diagnostics)?;
-        let count = sub0.default;
-        sub0 = given;
-        if sub0.default.is_none() {
-            sub0.set_default(count, Statement::derived(span));
-        }
+        sub0 = entries::resolve(&count.over(&usual), SubIndex(0), name, around, diagnostics)?;
+    }
+    // How many of its entries a PDO maps does not follow from how many it has.
+    if sub0.default.is_none() && Role::of(decl.index.value) != Role::PdoMapping {
+        sub0.set_default(Some(Value::Integer(i128::from(highest.0))), Statement::derived(span));
     }
     list.insert(0, sub0);
     Some(list)

@@ -13,7 +13,7 @@ struct Parameter {
     name: String,
     data_type: DataType,
     writable: bool,
-    default: Value,
+    default: Option<Value>,
     /// Where the value stands.
     stated: Statement,
     about: &'static str,
@@ -23,7 +23,7 @@ impl Parameter {
     fn into_entry(self, span: Span) -> Entry {
         let access = if self.writable { Access::Rw } else { Access::Ro };
         Entry {
-            default: Some(self.default),
+            default: self.default,
             stored: if self.writable { Storage::Communication } else { Storage::No },
             facts: [(Fact::Default, self.stated)].into_iter().collect(),
             about: english(self.about),
@@ -63,7 +63,7 @@ fn stated(written: Option<Span>, decl: &PdoDecl) -> Statement {
 
 pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl) -> Object {
     let title = pdo.direction.pdo();
-    let number = |value: u16| Value::Integer(i128::from(value));
+    let number = |value: u16| Some(Value::Integer(i128::from(value)));
     let mut list = vec![
         Parameter {
             sub: 1,
@@ -79,7 +79,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl) -> Object {
             name: "transmission type".to_owned(),
             data_type: DataType::Unsigned8,
             writable: true,
-            default: number(u16::from(pdo.transmission)),
+            default: pdo.transmission.and_then(|transmission| number(transmission.into())),
             stated: stated(decl.transmission.map(|value| value.span), decl),
             about: "0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame",
         },
@@ -146,7 +146,7 @@ pub(super) fn mapping_object(pdo: &Pdo, decl: &PdoDecl, map: &[Spanned<Mapped>])
         name: "number of mapped entries".to_owned(),
         data_type: DataType::Unsigned8,
         writable: pdo.variable_mapping,
-        default: Value::Integer(mapped),
+        default: Some(Value::Integer(mapped)),
         stated: stated(Some(decl.span), decl),
         about: "0 disables the mapping while it is changed",
     }];
@@ -157,7 +157,7 @@ pub(super) fn mapping_object(pdo: &Pdo, decl: &PdoDecl, map: &[Spanned<Mapped>])
             name: format!("mapped entry {sub}"),
             data_type: DataType::Unsigned32,
             writable: pdo.variable_mapping,
-            default: Value::Integer(mapped.map_or(0, |mapped| i128::from(mapped.value.parameter()))),
+            default: Some(Value::Integer(mapped.map_or(0, |mapped| mapped.value.parameter().into()))),
             stated: stated(mapped.map(|mapped| mapped.span), decl),
             about: "bits 31..16 index, 15..8 sub-index, 7..0 length in bits",
         }

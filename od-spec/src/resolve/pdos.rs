@@ -11,12 +11,14 @@ use crate::ast::{Name, PdoDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, Value};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 
-/// Resolves the PDOs of a device and adds their parameter objects.
+/// Resolves the PDOs of a device and adds their parameter objects. A PDO whose parameter objects are written in full follows from
+/// them; `written` tells where an object is.
 pub(super) fn resolve(
     list: &[PdoDecl],
     info: &DeviceInfo,
+    written: impl Fn(Index) -> Option<Span>,
     objects: &mut BTreeMap<Index, Object>,
     broken: &mut Broken,
     diagnostics: &mut Diagnostics,
@@ -25,6 +27,11 @@ pub(super) fn resolve(
     let mut parameters: Vec<Object> = Vec::new();
     let names = Names::new(objects.values());
     for decl in list {
+        let in_full = parameter_indices(decl).into_iter().filter_map(|index| Some((index, written(index)?)));
+        if let Some((index, object)) = in_full.min() {
+            diagnostics.push(stands_twice(decl, index, object));
+            continue;
+        }
         let map: Vec<Spanned<Mapped>> =
             decl.map.iter().filter_map(|name| mapped(name, &names, objects, broken, diagnostics)).collect();
         match pdo(decl, info, &map, diagnostics) {
@@ -35,9 +42,19 @@ pub(super) fn resolve(
             None => parameter_indices(decl).into_iter().for_each(|index| broken.add(index, None)),
         }
     }
+    pdos.extend(objects.values().filter_map(|object| Pdo::of_objects(object, objects)));
     pdos.sort_by_key(|pdo| (pdo.direction, pdo.number));
     objects.extend(parameters.into_iter().map(|object| (object.index, object)));
     pdos
+}
+
+/// A PDO with a parameter object that is also written in full.
+fn stands_twice(decl: &PdoDecl, index: Index, object: Span) -> Diagnostic {
+    let pdo = format!("{} {}", decl.direction.pdo(), decl.number.value);
+    Diagnostic::new(codes::PDO_DESCRIBED_TWICE, object, format!("{index} is a parameter object of {pdo}"))
+        .label("written in full")
+        .with(decl.number.span, "the PDO, of which its parameter objects are made")
+        .help(format!("remove the object, or {pdo} from `pdos:`; a PDO has one description"))
 }
 
 /// The communication and mapping parameter of a PDO.
@@ -62,9 +79,9 @@ fn pdo(
     Some(Pdo {
         direction: decl.direction,
         number: decl.number.value,
-        cob_id: cob_id(decl, valid, diagnostics)?,
+        cob_id: Some(cob_id(decl, valid, diagnostics)?),
         valid,
-        transmission: decl.transmission.map_or(255, |value| to_u8(value.value)),
+        transmission: Some(decl.transmission.map_or(255, |value| to_u8(value.value))),
         inhibit_time: decl.inhibit_time.map(|value| to_u16(value.value)),
         event_timer: decl.event_timer.map(|value| to_u16(value.value)),
         sync_start: decl.sync_start.map(|value| to_u8(value.value)),

@@ -429,7 +429,7 @@ fn check_pdos(system: &System, device: &str, direction: Direction, table: &Table
             Some(offset) => Value::NodeId(u64::from_str_radix(offset, 16).unwrap()),
             None => Value::Integer(i128::from_str_radix(cob_id.strip_suffix('h').unwrap(), 16).unwrap()),
         };
-        assert_eq!(shown, pdo.cob_id);
+        assert_eq!(Some(shown), pdo.cob_id);
         assert_eq!(table.cell(row, "Active"), if pdo.valid { "yes" } else { "no" });
         assert_eq!(index(table.cell(row, "Index")).0, pdo.mapping_index());
         assert_eq!(table.cell(row, "Default"), pdo.map.len().to_string());

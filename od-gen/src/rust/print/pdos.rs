@@ -26,14 +26,20 @@ impl Plan<'_> {
     }
 
     fn pdo(&self, planned: &PlannedPdo<'_>) -> TokenStream {
-        let PlannedPdo { pdo, name, fields, bits } = planned;
+        let PlannedPdo { pdo, name, fields, bits, served: _ } = planned;
         let about = self.pdo_doc(planned);
         let name = format_ident!("{name}");
         let number = Literal::u16_unsuffixed(pdo.number);
         let length = Literal::usize_unsuffixed(usize::try_from(bits.div_ceil(8)).unwrap_or(8));
         let mapping = pdo.map.iter().map(|mapped| hex(mapped.parameter().into(), 8));
-        let transmission = Literal::u8_unsuffixed(pdo.transmission);
-        let cob_id = cob_id(&pdo.cob_id);
+        let transmission = pdo.transmission.map(|transmission| {
+            let transmission = Literal::u8_unsuffixed(transmission);
+            quote! {
+                /// Transmission type after a factory reset.
+                pub const TRANSMISSION: u8 = #transmission;
+            }
+        });
+        let cob_id = pdo.cob_id.as_ref().map(cob_id);
         let members = fields.iter().filter_map(|field| self.member(field));
         let unpack = fields.iter().filter_map(|field| self.unpack(field));
         let no_data = fields.is_empty();
@@ -54,8 +60,7 @@ impl Plan<'_> {
                 pub const NUMBER: u16 = #number;
                 /// Bytes of its data.
                 pub const LENGTH: usize = #length;
-                /// Transmission type after a factory reset.
-                pub const TRANSMISSION: u8 = #transmission;
+                #transmission
                 /// Mapping parameters after a factory reset: index, sub-index and bits of each entry.
                 pub const MAPPING: &'static [u32] = &[#(#mapping),*];
 
@@ -93,13 +98,19 @@ impl Plan<'_> {
     fn pdo_doc(&self, planned: &PlannedPdo<'_>) -> TokenStream {
         let pdo = planned.pdo;
         let about = self.words(&pdo.about);
-        let can_id = WORDING.can_id(&pdo.cob_id);
-        let valid = if pdo.valid { "" } else { ", off after a factory reset" };
+        let facts: String = [
+            pdo.cob_id.as_ref().map(|cob_id| format!("CAN-ID {}, ", WORDING.can_id(cob_id))),
+            pdo.transmission.map(|transmission| format!("transmission type {transmission}, ")),
+            (!pdo.valid).then(|| "off after a factory reset, ".to_owned()),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
         doc(&format!(
-            "{} {}: CAN-ID {can_id}, transmission type {}{valid}; parameters `{:04X}h` and `{:04X}h`.\n\n{about}",
+            "{} {}: {}; parameters `{:04X}h` and `{:04X}h`.\n\n{about}",
             pdo.direction.pdo(),
             pdo.number,
-            pdo.transmission,
+            facts.trim_end_matches(", "),
             pdo.communication_index(),
             pdo.mapping_index(),
         ))

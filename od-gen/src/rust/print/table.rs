@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use od_spec::expr::{ArithmeticOp, CompareOp};
-use od_spec::model::{DataType, EntryId, Index, SubIndex};
+use od_spec::model::DataType;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -12,7 +12,7 @@ use super::docs::{doc, escape};
 use super::glue;
 use super::literal::{decimal, hex};
 use super::value::{At, Values, view_name};
-use crate::plan::{Compare, Condition, NONE, Place, Plan, PlannedEntry, Sum};
+use crate::plan::{Compare, Condition, Place, Plan, PlannedEntry, Sum};
 
 /// Bytes in a line of a byte string.
 const LINE: usize = 16;
@@ -279,18 +279,12 @@ impl Plan<'_> {
         let granularity = Literal::u8_unsuffixed(self.device.info.granularity);
         let dummies = self.device.info.dummies.iter().map(|data_type| glue::data_type(*data_type));
         let dummies = quote!(glue::table::Dummies::NONE #(.with(#dummies))*);
-        let pdos = self.pdos.iter().map(|planned| {
-            let row = |index: u16, sub: u8| {
-                let row = self.row(EntryId { index: Index(index), sub: SubIndex(sub) });
-                Literal::u16_unsuffixed(row.unwrap_or(NONE))
-            };
-            let pdo = planned.pdo;
-            let (cob_id, mapping) = (row(pdo.communication_index(), 1), row(pdo.mapping_index(), 0));
-            // Placeholders are no rows; a mapping with any of them is searched.
-            let known = planned.fields.len() == pdo.map.len();
-            let rows = planned.fields.iter().filter(|_| known).map(|field| Literal::u16_unsuffixed(field.row));
-            let index = hex(pdo.communication_index().into(), 4);
-            quote!(glue::table::Pdo { index: #index, cob_id: #cob_id, mapping: #mapping, rows: &[#(#rows),*] })
+        let pdos = self.pdos.iter().filter_map(|planned| {
+            let served = planned.served.as_ref()?;
+            let [cob_id, mapping] = [served.cob_id, served.mapping].map(Literal::u16_unsuffixed);
+            let rows = served.rows.iter().copied().map(Literal::u16_unsuffixed);
+            let index = hex(planned.pdo.communication_index().into(), 4);
+            Some(quote!(glue::table::Pdo { index: #index, cob_id: #cob_id, mapping: #mapping, rows: &[#(#rows),*] }))
         });
         let application = self
             .objects
