@@ -23,7 +23,7 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| object.kind == ObjectKind::Array) {
-        let mut elements = object.entries.iter().filter(|entry| entry.sub.0 > 0);
+        let mut elements = object.counted();
         let Some(first) = elements.next().map(|element| element.data_type) else { continue };
         if let Some(element) = elements.find(|element| element.data_type != first) {
             let (index, sub, data_type) = (object.index, element.sub, element.data_type);

@@ -97,8 +97,7 @@ fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node
     }
     // A client talks to the first channel of another node on the identifiers that are kept for that.
     let is_client = matches!(parameter.id.index.0, 0x1280..=0x12FF);
-    let is_first_channel = FIRST_CHANNEL.iter().any(|range| range.contains(&id));
-    if is_client && is_first_channel {
+    if is_client && FIRST_CHANNEL.iter().any(|range| range.contains(&id)) {
         return None;
     }
     RESTRICTED

@@ -1,10 +1,10 @@
 //! A command that has a default is marked as one that tools do not write.
 
-use super::findings::Findings;
+use super::findings::{Findings, others};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::Fact;
+use crate::model::{Entry, EntryId, Fact, Index};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -23,17 +23,22 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for (id, entry, _) in subject.values() {
-        let is_command = matches!((id.index.0, id.sub.0), (0x1010 | 0x1011 | 0x1F51, 1..));
+    let commands = [0x1010, 0x1011, 0x1F51].map(Index);
+    for object in commands.iter().filter_map(|index| subject.device.objects.get(index)) {
         // What no EDS shows, no tool writes.
-        if !is_command || !entry.access.is_writable() || entry.eds.no_write || !entry.eds.default {
-            continue;
-        }
+        let is_written =
+            |entry: &&Entry| entry.access.is_writable() && !entry.eds.no_write && entry.eds.default;
+        let entries = object.entries.iter().filter(|entry| entry.sub.0 > 0 && entry.default.is_some());
+        let mut written = entries.filter(is_written);
+        let Some(entry) = written.next() else { continue };
+        let id = EntryId { index: object.index, sub: entry.sub };
         let message =
             format!("{id} ({}) is a command, and its default invites tools to write it", entry.name);
-        findings.push(
-            Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
-                .help("add `eds: {flags: [no-write]}`, or remove the default"),
-        );
+        let diagnostic = Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
+            .help("add `eds: {flags: [no-write]}`, or remove the default");
+        findings.push(match written.count() {
+            0 => diagnostic,
+            more => diagnostic.note(format!("the same holds for {}", others(more))),
+        });
     }
 }

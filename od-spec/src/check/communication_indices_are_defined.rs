@@ -1,6 +1,7 @@
 //! An object from 1000h to 11FFh is one that CiA 301 or CiA 302 defines.
 
 use super::findings::Findings;
+use super::from_library::is_from_library;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -30,12 +31,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     // From 1300h on, several standards have objects.
     for object in subject.device.objects.range(Index(0x1000)..Index(0x1200)).map(|(_, object)| object) {
         let index = object.index;
-        if standard::object(index).is_some() || index.0 == NMT_INHIBIT_TIME {
+        if is_from_library(object) || standard::object(index).is_some() || index.0 == NMT_INHIBIT_TIME {
             continue;
         }
         let message = match index.0 {
             0x1004 | 0x100B | 0x100E | 0x100F => {
-                format!("{index} ({}) has been reserved since CiA 301 v4", object.name)
+                format!("{index} ({}) is reserved; only older devices have it", object.name)
             }
             _ => format!("{index} ({}) lies among the objects of CiA 301, which has none there", object.name),
         };

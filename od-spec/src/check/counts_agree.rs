@@ -40,7 +40,7 @@ fn count(subject: &Subject<'_>, object: &Object, entry: &Entry) -> Option<Diagno
         let place = subject.place(entry, Fact::Type);
         return Some(Diagnostic::new(super::mapping_follows_access::CODE, place, message).help(help));
     }
-    let highest = object.entries.last().map(|last| i128::from(last.sub.0))?;
+    let highest = i128::from(object.highest().0);
     // A count without a value is said by itself.
     let shown = entry.default.as_ref().and_then(Value::integer)?;
     // How much a mapping parameter maps and how many errors 1003h lists changes at run time.

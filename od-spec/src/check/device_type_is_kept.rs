@@ -5,7 +5,6 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::Index;
-use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -13,8 +12,8 @@ const CODE: &Code = &Code {
     id: "OD0817",
     severity: Severity::Warning,
     title: "a device type without its objects",
-    explanation: "The low word of 1000h names a device profile, and masters that know the profile use its objects without looking: for 402, a drive, at least controlword, statusword, \
-        modes of operation, error code and the supported modes. A high word of FFFFh says that several profiles are united, each of which tells its own type in 67FFh, \
+    explanation: "The low word of 1000h names a device profile, and masters that know the profile use its objects without looking: for 402, a drive, controlword, statusword, \
+        mode of operation and its display (6040h, 6041h, 6060h, 6061h). A high word of FFFFh says that several profiles are united, each of which tells its own type in 67FFh, \
         6FFFh and so on. Some of these objects are missing. Add them, or correct `device-type:`.",
     clause: Some("CiA 301, object 1000h; CiA 402, objects that every drive has"),
     example: Some(Example::new(
@@ -25,6 +24,8 @@ const CODE: &Code = &Code {
 
 /// Number of the profile for drives.
 const DRIVES: i128 = 402;
+/// Controlword, statusword, mode of operation and its display; error code and supported modes are optional in version 2.
+const OF_EVERY_DRIVE: [u16; 4] = [0x6040, 0x6041, 0x6060, 0x6061];
 /// The type of the first of several profiles; the others follow each 800h.
 const FIRST_TYPE: u16 = 0x67FF;
 
@@ -41,7 +42,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             first.map(ToString::to_string).into_iter().collect()
         }
         DRIVES => {
-            standard::of_every_drive().iter().filter(|index| lacks(index)).map(ToString::to_string).collect()
+            OF_EVERY_DRIVE.map(Index).iter().filter(|index| lacks(index)).map(ToString::to_string).collect()
         }
         _ => Vec::new(),
     };

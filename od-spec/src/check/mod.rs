@@ -5,6 +5,7 @@
 //! laid over both; the place of a message comes from the fact that it is about.
 
 mod findings;
+mod from_library;
 mod pdo;
 mod rule;
 mod subject;
@@ -39,11 +40,13 @@ mod mappable_entries_have_pdos;
 mod mappable_types_have_a_length;
 mod mapped_entries_are_mappable;
 mod mapping_follows_access;
+mod mappings_change_as_a_whole;
 mod multiplexed_pdos_are_supported;
 mod names_are_unique;
 mod names_fit_eds;
 mod objects_need_each_other;
 mod pdo_parameters_agree;
+mod pdos_can_be_switched_off;
 mod pdos_fit_a_frame;
 mod pdos_map_each_entry_once;
 mod placeholders_are_accepted;
@@ -56,6 +59,7 @@ mod standard_access_is_kept;
 mod standard_objects_are_complete;
 mod standard_objects_keep_their_type;
 mod stored_entries_can_be_stored;
+mod structures_have_entries;
 pub(crate) mod texts_fit_eds;
 mod transmission_types_are_defined;
 mod value_fits_type;
@@ -85,6 +89,7 @@ use subject::Subject;
 pub(crate) static RULES: &[Rule] = &[
     names_are_unique::RULE,
     counts_agree::RULE,
+    structures_have_entries::RULE,
     arrays_have_one_type::RULE,
     indices_in_object_areas::RULE,
     names_fit_eds::RULE,
@@ -110,6 +115,7 @@ pub(crate) static RULES: &[Rule] = &[
     granularity_fits_mapping::RULE,
     communication_values_are_defined::RULE,
     multiplexed_pdos_are_supported::RULE,
+    mappings_change_as_a_whole::RULE,
     bit_rates_are_standard::RULE,
     bit_rates_exist::RULE,
     constraints_hold::RULE,
@@ -136,6 +142,7 @@ pub(crate) static RULES: &[Rule] = &[
     device_type_is_kept::RULE,
     counts_are_constant::RULE,
     pdos_map_each_entry_once::RULE,
+    pdos_can_be_switched_off::RULE,
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.

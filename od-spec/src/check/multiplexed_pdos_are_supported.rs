@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     title: "a multiplexed PDO that cannot be",
     explanation: "254 and 255 as the number of mapped entries make a PDO multiplexed: each message names the entry that it carries. The device does not say that it supports this \
         (`group-messaging:`), the transmission type is not event-driven (254 or 255), or two TPDOs name their source (254), of which a device has one. A device \
-        refuses such a number with abort code 0604 0042h or 0609 0030h. Map entries instead, or correct what the message names.",
+        refuses such a number with abort code 0604 0042h. Map entries instead, or correct what the message names.",
     clause: Some("CiA 301, 11.4 (multiplexed PDOs); CiA 306, 4.5 (GroupMessaging)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [level]}}}\n# --set 1A00.0=254",

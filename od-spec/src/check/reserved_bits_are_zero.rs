@@ -1,8 +1,8 @@
 //! Values leave reserved bits at 0.
 
 use super::findings::Findings;
+use super::from_library::is_from_library;
 use super::rule::{Check, Needs, Rule};
-use super::standard_objects_keep_their_type::is_of_library;
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{BitUsage, Entry, EntryId, Fact, TypeKind};
@@ -26,11 +26,11 @@ const CODE: &Code = &Code {
 /// The entry that says what the bits mean: for one of CiA 301 that is written in full and does not say it, that of the standard.
 fn meant<'a>(subject: &Subject<'a>, id: EntryId, entry: &'a Entry) -> &'a Entry {
     let says_it = entry.named_type.is_some() || !entry.special.is_empty();
-    let is_of_library = subject.device.objects.get(&id.index).is_none_or(is_of_library);
+    if says_it || subject.device.objects.get(&id.index).is_none_or(is_from_library) {
+        return entry;
+    }
     let standard = standard::object(id.index).and_then(|object| standard::entry(object, id.sub));
-    standard
-        .filter(|standard| !says_it && !is_of_library && standard.data_type == entry.data_type)
-        .unwrap_or(entry)
+    standard.filter(|standard| standard.data_type == entry.data_type).unwrap_or(entry)
 }
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {

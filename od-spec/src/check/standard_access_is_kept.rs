@@ -1,8 +1,8 @@
 //! The objects of CiA 301 can be read, written and mapped as it says, also where a device writes them in full.
 
 use super::findings::Findings;
+use super::from_library::{help, is_from_library};
 use super::rule::{Check, Needs, Rule};
-use super::standard_objects_keep_their_type::{help, is_of_library};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Access, Entry, EntryId, Fact, Object, PdoMapping, SubIndex};
@@ -25,8 +25,7 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    // What departs from the library is noted as such (OD0811).
-    for object in subject.device.objects.values().filter(|object| !is_of_library(object)) {
+    for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
         let Some(defined) = standard::object(object.index) else { continue };
         for entry in &object.entries {
             let Some(known) = standard::entry(defined, entry.sub) else { continue };

@@ -1,6 +1,7 @@
 //! The objects of CiA 301 have the sub-indices that it demands, none that it does not know, and a mapping has no gap.
 
 use super::findings::Findings;
+use super::from_library::is_from_library;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -23,21 +24,17 @@ const CODE: &Code = &Code {
     )),
 };
 
-/// The sub-index that tells the structure of an object, which any object may have.
-const STRUCTURE: SubIndex = SubIndex(0xFF);
-
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for object in subject.device.objects.values().filter(|object| object.is_structured()) {
+    let device = subject.device;
+    // What a feature brings from the library is complete.
+    let is_written = |object: &&Object| !is_from_library(object) || object.span.file == device.span.file;
+    for object in device.objects.values().filter(|object| object.is_structured()).filter(is_written) {
         let Some(defined) = standard::object(object.index).filter(|defined| defined.is_structured()) else {
             continue;
         };
         let problems = [missing(object, defined), unknown(object), gap(object)];
         for (message, help) in problems.into_iter().flatten() {
-            findings.push_each(
-                Diagnostic::new(CODE, subject.object_place(object), message)
-                    .help(help)
-                    .note("CiA 301 describes the object; `odgen library cia301` shows most of them"),
-            );
+            findings.push_each(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
         }
     }
 }
@@ -58,7 +55,9 @@ fn missing(object: &Object, defined: &'static Object) -> Option<(String, String)
     let lacking = entries.find(|entry| object.entry(entry.sub).is_none())?;
     let index = object.index;
     let message = format!("{index} ({}) lacks {index}.{} ({})", object.name, lacking.sub, lacking.name);
-    Some((message, format!("add sub-index {}, or leave the object out", lacking.sub)))
+    let add = format!("add sub-index {}", lacking.sub);
+    let is_mandatory = defined.category == Some(Category::Mandatory);
+    Some((message, if is_mandatory { add } else { format!("{add}, or leave the object out") }))
 }
 
 /// The highest sub-index that CiA 301 knows.
@@ -76,7 +75,7 @@ const fn highest(object: &Object) -> u8 {
 
 fn unknown(object: &Object) -> Option<(String, String)> {
     let (index, highest) = (object.index, highest(object));
-    let stranger = object.entries.iter().find(|entry| entry.sub.0 > highest && entry.sub != STRUCTURE)?;
+    let stranger = object.counted().find(|entry| entry.sub.0 > highest)?;
     let message =
         format!("{index}.{} ({}) is not defined: {index} has {highest} at most", stranger.sub, stranger.name);
     let help = "remove the entry; what is the maker's own belongs into 2000h to 5FFFh".to_owned();
@@ -88,11 +87,7 @@ fn gap(object: &Object) -> Option<(String, String)> {
     if object.role() != Role::PdoMapping {
         return None;
     }
-    let subs = object.entries.iter().map(|entry| entry.sub).filter(|sub| *sub != STRUCTURE);
-    let (last, found) = (subs.clone().next_back()?, subs.clone().filter(|sub| sub.0 > 0).count());
-    if usize::from(last.0) == found {
-        return None;
-    }
+    let last = object.highest();
     let hole = (1..last.0).find(|sub| object.entry(SubIndex(*sub)).is_none())?;
     let index = object.index;
     let message = format!("{index} ({}) has {index}.{last}, but not {index}.{hole}", object.name);

@@ -1,11 +1,12 @@
 //! The objects of CiA 301 have the shape and the data types that it gives them, also where a device writes them in full.
 
-use super::findings::Findings;
+use super::findings::{Findings, others};
+use super::from_library::{help, is_from_library};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use super::value_fits_type::is_of_type;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Author, DataType, Entry, EntryId, Fact, Object, ObjectKind, Role, SubIndex};
+use crate::model::{Author, DataType, Entry, EntryId, Fact, Index, Object, ObjectKind, Role};
 use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
@@ -25,30 +26,33 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    // What departs from the library is noted as such (OD0811): the maker has seen the standard and decided.
-    for object in subject.device.objects.values().filter(|object| !is_of_library(object)) {
+    for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
         let Some(defined) = standard::object(object.index) else { continue };
         if let Some(finding) = shape(subject, object, defined) {
             findings.push(finding);
             continue;
         }
-        for entry in &object.entries {
-            // The type of a count is fixed by CiA 301 for all objects.
-            if object.is_structured() && entry.sub == SubIndex(0) {
-                continue;
-            }
-            if let Some(known) = standard::entry(defined, entry.sub)
-                && let Some(finding) = data_type(subject, object, entry, known.data_type)
-            {
-                findings.push(finding);
+        // The type of a count is fixed by CiA 301 for all objects.
+        let entries = object.entries.iter().filter(|entry| !object.is_structured() || entry.sub.0 > 0);
+        let wrong = entries.filter_map(|entry| {
+            let known = standard::entry(defined, entry.sub)?.data_type;
+            has_other_type(object.index, entry, known).then_some((entry, known))
+        });
+        // One finding for all entries with one mistake: a PDO mapping has up to 64 of them.
+        let mut mistakes: Vec<(&Entry, DataType, usize)> = Vec::new();
+        for (entry, known) in wrong {
+            let same = |(first, as_known, _): &&mut (&Entry, DataType, usize)| {
+                first.data_type == entry.data_type && *as_known == known
+            };
+            match mistakes.iter_mut().find(same) {
+                Some((.., more)) => *more += 1,
+                None => mistakes.push((entry, known, 0)),
             }
         }
+        for (entry, known, more) in mistakes {
+            findings.push(data_type(subject, object, entry, known, more));
+        }
     }
-}
-
-/// Whether an object is the library's, with what the device says otherwise.
-pub(super) fn is_of_library(object: &Object) -> bool {
-    object.profile.as_deref() == Some(standard::CIA301)
 }
 
 /// The shape that CiA 301 gives an object.
@@ -85,28 +89,27 @@ const fn article(kind: ObjectKind) -> &'static str {
     }
 }
 
-fn data_type(subject: &Subject<'_>, object: &Object, entry: &Entry, known: DataType) -> Option<Diagnostic> {
-    let id = EntryId { index: object.index, sub: entry.sub };
+fn has_other_type(index: Index, entry: &Entry, known: DataType) -> bool {
     // CiA 301 names two types for 1022h.
-    let is_either = id.index.0 == 0x1022 && entry.data_type == DataType::Unsigned8;
-    if entry.data_type == known || is_either {
-        return None;
-    }
+    let is_either = index.0 == 0x1022 && entry.data_type == DataType::Unsigned8;
     // A value that follows from the device and cannot be of the type is said by itself.
     let misfit = entry.default.as_ref().is_some_and(|value| !is_of_type(value, entry.data_type));
-    if misfit && entry.facts.is_said_by(Fact::Default, Author::Derived) {
-        return None;
-    }
-    let message = format!("{id} ({}) is {}, CiA 301 makes it {known}", entry.name, entry.data_type);
-    Some(Diagnostic::new(CODE, subject.place(entry, Fact::Type), message).help(help(object)))
+    let is_said = misfit && entry.facts.is_said_by(Fact::Default, Author::Derived);
+    entry.data_type != known && !is_either && !is_said
 }
 
-/// What to do: the library has most of the objects.
-pub(super) fn help(object: &Object) -> String {
-    let index = object.index;
-    if standard::is_in_library(index) {
-        format!("correct it, or take the object from the library: `0x{:04X}: {{from: cia301}}`", index.0)
-    } else {
-        "correct it; masters know the object as CiA 301 describes it".to_owned()
+fn data_type(
+    subject: &Subject<'_>,
+    object: &Object,
+    entry: &Entry,
+    known: DataType,
+    more: usize,
+) -> Diagnostic {
+    let id = EntryId { index: object.index, sub: entry.sub };
+    let message = format!("{id} ({}) is {}, CiA 301 makes it {known}", entry.name, entry.data_type);
+    let diagnostic = Diagnostic::new(CODE, subject.place(entry, Fact::Type), message).help(help(object));
+    match more {
+        0 => diagnostic,
+        _ => diagnostic.note(format!("the same holds for {}", others(more))),
     }
 }

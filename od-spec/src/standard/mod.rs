@@ -1,4 +1,4 @@
-//! The shipped libraries, and the standards that they describe, for comparing an object with what CiA 301 and CiA 402 say about it: a
+//! The shipped libraries, and the standards that they describe, for comparing an object with what CiA 301 says about it: a
 //! device may have written the object in full, without the library.
 //!
 //! For comparing, the texts are read once in a process, and only when something is compared. Places in them mean nothing to whoever
@@ -6,10 +6,9 @@
 
 use std::sync::LazyLock;
 
-use crate::ast::Spec;
 use crate::decode::decode;
 use crate::diag::Diagnostics;
-use crate::model::{Dictionary, Entry, Index, Object, SubIndex};
+use crate::model::{Dictionary, Entry, Index, Object, ObjectKind, SubIndex};
 use crate::resolve;
 use crate::source::SourceMap;
 use crate::yaml;
@@ -22,39 +21,22 @@ pub const LIBRARIES: &[(&str, &str)] = &[
 
 /// The library of CiA 301.
 pub(crate) const CIA301: &str = "cia301";
-/// The library of CiA 402.
-const CIA402: &str = "cia402";
-/// The feature of `cia402` that every drive has.
-const DRIVE: &str = "drive";
 
 /// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
 const RUNS: &str = include_str!("runs.od.yaml");
 
-static COMMUNICATION: LazyLock<[Option<Dictionary>; 2]> = LazyLock::new(|| {
-    [shipped(CIA301).and_then(read), read(RUNS)].map(|spec| spec.as_ref().and_then(dictionary))
+static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| {
+    let library = LIBRARIES.iter().find(|(library, _)| *library == CIA301);
+    library.and_then(|(_, text)| read(text))
 });
+/// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
+static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| read(RUNS));
 
-static DRIVE_OBJECTS: LazyLock<Vec<Index>> = LazyLock::new(|| {
-    let library = shipped(CIA402).and_then(read);
-    let features = library.iter().flat_map(|library| &library.features);
-    let drive = features.filter(|feature| feature.name.value == DRIVE);
-    drive.flat_map(|feature| feature.objects.iter().map(|index| index.value)).collect()
-});
-
-fn shipped(name: &str) -> Option<&'static str> {
-    LIBRARIES.iter().find(|(library, _)| *library == name).map(|(_, text)| *text)
-}
-
-fn read(text: &str) -> Option<Spec> {
+fn read(text: &str) -> Option<Dictionary> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add("standard", text);
     let node = yaml::parse(file, sources.file(file), &mut diagnostics)?;
-    Some(decode(&node, &mut diagnostics)).filter(|_| !diagnostics.has_errors())
-}
-
-fn dictionary(spec: &Spec) -> Option<Dictionary> {
-    let mut diagnostics = Diagnostics::new();
-    let library = resolve::resolve(spec, &[], &mut diagnostics).library;
+    let library = resolve::resolve(&decode(&node, &mut diagnostics), &[], &mut diagnostics).library;
     library.filter(|_| !diagnostics.has_errors())
 }
 
@@ -69,25 +51,21 @@ pub(crate) fn object(index: Index) -> Option<&'static Object> {
         0x1A00..=0x1BFF => 0x1A00,
         0x1FA0..=0x1FCF => 0x1FA0,
         0x1FD0..=0x1FFF => 0x1FD0,
-        single => single,
+        single @ 0x1000..=0x1FFF => return IN_LIBRARY.as_ref()?.objects.get(&Index(single)),
+        _ => return None,
     };
-    COMMUNICATION.iter().flatten().find_map(|dictionary| dictionary.objects.get(&Index(first)))
+    IN_RUNS.as_ref()?.objects.get(&Index(first))
 }
 
 /// Whether the library `cia301` has the object at an index.
 pub(crate) fn is_in_library(index: Index) -> bool {
-    COMMUNICATION[0].as_ref().is_some_and(|library| library.objects.contains_key(&index))
+    IN_LIBRARY.as_ref().is_some_and(|library| library.objects.contains_key(&index))
 }
 
 /// What CiA 301 says about the entry of an object at a sub-index: an array goes on as its last element that is described.
 pub(crate) fn entry(object: &'static Object, sub: SubIndex) -> Option<&'static Entry> {
-    let goes_on = object.kind == crate::model::ObjectKind::Array && sub.0 > 0;
+    let goes_on = object.kind == ObjectKind::Array && sub.0 > 0 && sub != SubIndex::STRUCTURE;
     object.entry(sub).or_else(|| object.entries.last().filter(|_| goes_on))
-}
-
-/// The objects that every drive of CiA 402 has.
-pub(crate) fn of_every_drive() -> &'static [Index] {
-    &DRIVE_OBJECTS
 }
 
 #[cfg(test)]
@@ -96,8 +74,7 @@ mod tests {
 
     #[test]
     fn the_standards_are_read_without_a_remark() {
-        assert!(COMMUNICATION.iter().all(Option::is_some));
-        assert_eq!(of_every_drive().first(), Some(&Index(0x603F)));
+        assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some());
     }
 
     #[test]
@@ -130,7 +107,7 @@ mod tests {
         };
         assert_eq!(name(0x1016, 90), Some("Consumer heartbeat time 1"));
         assert_eq!(name(0x1018, 4), Some("Serial number"));
-        assert_eq!(name(0x1018, 5), None);
+        assert_eq!((name(0x1018, 5), name(0x1016, 0xFF)), (None, None));
         assert_eq!(name(0x1017, 1), None);
     }
 }
