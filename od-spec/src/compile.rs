@@ -15,13 +15,8 @@ use crate::model::System;
 use crate::parameters::of_node;
 use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceMap, Span};
+use crate::standard::LIBRARIES;
 use crate::yaml;
-
-/// Libraries that come with the compiler: name and text.
-pub const LIBRARIES: &[(&str, &str)] = &[
-    ("cia301", include_str!("../profiles/cia301.od.yaml")),
-    ("cia402", include_str!("../profiles/cia402.od.yaml")),
-];
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: usize = 64 << 20;

@@ -49,15 +49,14 @@ mod rule_cases;
 mod rule_examples;
 pub mod scalar;
 pub mod source;
+mod standard;
 pub mod wording;
 pub mod yaml;
 
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::Commissioning;
-pub use compile::{
-    Compiled, LIBRARIES, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text,
-};
+pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
 pub use decode::is_device_key;
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
@@ -67,6 +66,7 @@ pub use library::{Feature, Library, LibraryObject, library};
 pub use parameters::{Assignment, ParameterValues, assign};
 #[cfg(feature = "reference")]
 pub use reference::reference;
+pub use standard::LIBRARIES;
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

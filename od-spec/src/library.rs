@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::ast::{ObjectDecl, Spec};
-use crate::compile::{LIBRARIES, NoFiles, compile_with};
+use crate::compile::{NoFiles, compile_with};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
 use crate::model::{Entry, Index, NamedType, Object, SubIndex, Unit};
 use crate::source::SourceMap;
+use crate::standard::LIBRARIES;
 use crate::yaml;
 
 /// A built-in library: what a specification that uses it can take from it.

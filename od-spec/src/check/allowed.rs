@@ -16,6 +16,12 @@ pub(crate) struct Allowed<'a> {
 }
 
 impl<'a> Allowed<'a> {
+    /// Nothing is allowed.
+    #[cfg(test)]
+    pub(crate) const fn none() -> Self {
+        Self { by_code: BTreeMap::new(), used: Vec::new() }
+    }
+
     /// The codes under `allow:`; one that no rule has is reported.
     pub(crate) fn of(spec: &'a Spec, diagnostics: &mut Diagnostics) -> Self {
         let mut by_code = BTreeMap::new();
