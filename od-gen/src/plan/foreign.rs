@@ -116,6 +116,30 @@ mod tests {
     }
 
     #[test]
+    fn an_entry_that_a_pdo_maps_twice_has_two_names() {
+        let record = |index: &str, subs: &[(&str, &str)]| {
+            let head = format!("[{index}]\nParameterName=p{index}\nObjectType=9\n");
+            let sub = |(sub, (data_type, value)): (usize, &(&str, &str))| {
+                format!(
+                    "[{index}sub{sub}]\nParameterName=s{sub}\nObjectType=7\nDataType={data_type}\nAccessType=rw\n\
+                     DefaultValue={value}\n"
+                )
+            };
+            head + &subs.iter().enumerate().map(sub).collect::<String>()
+        };
+        let text = var("2000", "x", "PDOMapping=1")
+            + &record("1A00", &[("5", "2"), ("7", "0x20000008"), ("7", "0x20000008")])
+            + &record("1800", &[("5", "2"), ("7", "$NODEID+0x180"), ("5", "254")]);
+        let system = system(&text);
+        let device = decided(&system, &system.devices[0], &Rust);
+        let mut diagnostics = Diagnostics::new();
+        let plan = plan(&system, &device, &Rust, &mut diagnostics);
+        assert!(!diagnostics.has_errors(), "{diagnostics:?}");
+        let fields: Vec<&str> = plan.pdos[0].fields.iter().map(|field| field.name.as_str()).collect();
+        assert_eq!(fields, ["x", "x_2"]);
+    }
+
+    #[test]
     fn texts_have_room_for_their_default_and_for_32_bytes() {
         let text = |default: &str| {
             let object = "[2000]\nParameterName=t\nObjectType=7\nDataType=9\nAccessType=rw\n";
