@@ -44,7 +44,8 @@ mod tests {
         let mut sources = SourceMap::new();
         let file = sources.add("a,b:100%.eds", "[x]\nn=1\n");
         let place = sources.whole(file).part(4, 7);
-        let diagnostic = Diagnostic::new(codes::UNKNOWN_KEY, place, "100% of `a, b: c`").label("here").help("try::it");
+        let diagnostic =
+            Diagnostic::new(codes::UNKNOWN_KEY, place, "100% of `a, b: c`").label("here").help("try::it");
         assert_eq!(
             command(&diagnostic, &sources),
             "::error file=a%2Cb%3A100%25.eds,line=2,col=1,title=OD0201%3A an unknown key::\

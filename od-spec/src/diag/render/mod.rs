@@ -52,7 +52,7 @@ pub fn summary(diagnostics: &Diagnostics) -> String {
 }
 
 /// `1 error`, `3 errors`; nothing for none.
-fn plural(count: usize, word: &str) -> Option<String> {
+pub fn plural(count: usize, word: &str) -> Option<String> {
     match count {
         0 => None,
         1 => Some(format!("1 {word}")),
