@@ -213,7 +213,7 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub deny_warnings: bool,
 
-    /// Leave these findings out: a code or the codes that begin so; errors in a specification stay
+    /// Leave these findings out, named in the same way; errors in a specification stay
     #[arg(long, value_name = "CODE")]
     pub allow: Vec<String>,
 
