@@ -76,8 +76,8 @@ fn a_fault_in_many_places_is_shown_in_three() {
     assert_eq!(shown(&["--all"]), (4, false));
     assert_eq!(shown(&["--format", "short"]), (4, false));
     // Of one's own specification every mistake is wanted.
-    let entries: String =
-        (1..6).map(|n| format!("  0x210{n}: {{name: x {n}, type: unsigned9, access: rw}}\n")).collect();
+    let entry = |n| format!("  0x210{n}: {{name: x {n}, type: unsigned9, access: rw}}\n");
+    let entries = (1..6).map(entry).collect::<Vec<_>>().concat();
     scratch.file("lamp.od.yaml", LAMP.replace("objects:\n", &format!("objects:\n{entries}")));
     let said = stderr(&odgen(&scratch.0, &["check", "lamp.od.yaml"]));
     assert_eq!(said.matches("unsigned9`").count(), 5, "{said}");

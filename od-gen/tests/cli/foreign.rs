@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use od_gen::{Builder, Expansion, expand};
+
 use crate::{FAN, LAMP, MIXER, ROOF_FAN, Scratch, code, files, odgen, stderr, stdout};
 
 /// One line about the findings, and the work is done.
@@ -31,6 +33,20 @@ fn an_eds_is_used_whatever_is_wrong_with_it() {
     // Our own file has no fault in its values any more.
     let output = odgen(&scratch.0, &["check", "out/eds/mixer.eds", "--format", "short", "--notes"]);
     assert!(!stderr(&output).contains("[EDS4") && !stderr(&output).contains("[EDS5"), "{}", stderr(&output));
+}
+
+/// A build script and the macro give one warning for all that was found.
+#[test]
+fn a_build_says_one_line_about_an_eds() {
+    let scratch = Scratch::new("doors");
+    let path = scratch.file("mixer.eds", MIXER);
+    let Expansion { read, errors, warnings, tokens } = expand(&path, None);
+    let shown = path.display();
+    assert_eq!(warnings, [format!("{shown}: 1 error, 5 warnings; `odgen check {shown}` shows them")]);
+    assert_eq!((read, errors), (vec![path.clone()], Vec::new()));
+    let written = Builder::new(&path).unformatted().out_dir(&scratch.0).try_generate().unwrap();
+    assert_eq!(written, [scratch.0.join("mixer.rs")]);
+    assert!(fs::read_to_string(&written[0]).unwrap().contains(&tokens.unwrap().to_string()));
 }
 
 #[test]
