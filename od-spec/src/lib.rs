@@ -57,7 +57,7 @@ pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::Commissioning;
 pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
-pub use decode::is_device_key;
+pub use decode::{is_device_key, nearest};
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
 #[cfg(feature = "reference")]
