@@ -1,0 +1,127 @@
+//! Which changes break firmware: what generated code calls an entry, and what its values are there, before and after.
+
+use std::collections::BTreeMap;
+
+use od_spec::diag::Diagnostics;
+use od_spec::model::{Dictionary, EntryId, Fact, System};
+
+use super::change::{Change, Class, Consequence, Kind, Place};
+use crate::plan::{Place as Lies, Plan, PlannedEntry, plan};
+use crate::rust::{Rust, call};
+
+/// The names of a device in generated code.
+pub(super) struct Code {
+    /// The dictionary's type.
+    dictionary: String,
+    entries: BTreeMap<EntryId, EntryCode>,
+}
+
+/// An entry in generated code.
+struct EntryCode {
+    /// How it is read.
+    call: Option<String>,
+    /// Its names where entries of many objects stand together.
+    names: [String; 2],
+    /// What its values are, in words.
+    values: String,
+}
+
+impl Code {
+    /// `None` where no code can be made, so that there is none to break.
+    pub(super) fn of(system: &System, device: &Dictionary) -> Option<Self> {
+        let mut diagnostics = Diagnostics::new();
+        let plan = plan(system, device, &Rust, &mut diagnostics);
+        if diagnostics.has_errors() {
+            return None;
+        }
+        let entries = plan.entries.iter().map(|entry| (entry.id, EntryCode::of(&plan, entry))).collect();
+        Some(Self { dictionary: plan.name, entries })
+    }
+}
+
+impl EntryCode {
+    fn of(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Self {
+        let kind = &entry.kind;
+        let special = kind.special.and_then(|at| plan.specials.get(at)).map(|special| special.name.clone());
+        let parts = [kind.named.clone(), kind.unit.clone(), special];
+        let mut values = kind.data_type.name().to_owned();
+        for part in parts.into_iter().flatten() {
+            values = format!("{values} as {part}");
+        }
+        match entry.place {
+            Lies::Constant(_) => values.push_str(", constant"),
+            Lies::Alias if !entry.entry.access.is_writable() => values.push_str(", never set"),
+            Lies::Image(_) | Lies::Alias | Lies::Application => {}
+        }
+        let names = [entry.variant.clone(), entry.name.clone()];
+        Self { call: call(plan, entry), names, values }
+    }
+}
+
+/// Facts that names in generated code are made from.
+const NAMES: &[&[Fact]] = &[&[Fact::Name, Fact::Identifier]];
+
+/// Facts from which follows what values are in generated code: those that decide it and, where none of them has changed, those
+/// that make a constant of a value.
+const VALUES: &[&[Fact]] = &[
+    &[Fact::Type, Fact::Meaning, Fact::Unit, Fact::Special, Fact::Alias, Fact::ObjectType],
+    &[Fact::Access, Fact::Default],
+];
+
+const OTHER_NAME: Consequence = Consequence::new(Class::Firmware, "generated code has another name for it");
+const OTHER_TYPE: Consequence =
+    Consequence::new(Class::Firmware, "generated code has another type or no setter for it");
+const GONE: Consequence = Consequence::new(Class::Firmware, "it is gone from generated code");
+
+/// Adds to each change what it breaks in firmware, and a change where several together do.
+pub(super) fn judge(old: &Code, new: &Code, device: &str, changes: &mut Vec<Change>) {
+    if old.dictionary != new.dictionary {
+        let place = Place::Device;
+        let change = Change::text(place, Fact::Identifier, &old.dictionary, &new.dictionary);
+        changes.extend(change.map(|change| change.named(device).with([OTHER_NAME])));
+    }
+    for change in &mut *changes {
+        if change.kind() == Kind::Removed && change.place.index().is_some() {
+            change.follows([GONE]);
+        }
+    }
+    for (id, before) in &old.entries {
+        let Some(after) = new.entries.get(id) else { continue };
+        if before.call != after.call || before.names != after.names {
+            let calls = [&before.call, &after.call].map(|call| call.clone().unwrap_or_default());
+            attribute(*id, NAMES, &OTHER_NAME, calls, changes);
+        }
+        if before.values != after.values {
+            let values = [before.values.clone(), after.values.clone()];
+            attribute(*id, VALUES, &OTHER_TYPE, values, changes);
+        }
+    }
+}
+
+/// Gives a consequence to the changes of an entry, or of its object, that can be the cause; where there is none, it is a
+/// change of its own.
+fn attribute(
+    id: EntryId,
+    causes: &[&[Fact]],
+    consequence: &Consequence,
+    [before, after]: [String; 2],
+    changes: &mut Vec<Change>,
+) {
+    for place in [Place::entry(id), Place::Object(id.index)] {
+        for facts in causes {
+            let is_cause = |change: &&mut Change| change.place == place && facts.contains(&change.fact);
+            let mut has_cause = false;
+            for cause in changes.iter_mut().filter(is_cause) {
+                cause.follows([consequence.clone()]);
+                has_cause = true;
+            }
+            if has_cause {
+                return;
+            }
+        }
+    }
+    let name = changes.iter().find(|change| change.place.index() == Some(id.index));
+    let name = name.map(|change| change.name.split('.').next().unwrap_or_default().to_owned());
+    let change = Change::text(Place::Object(id.index), Fact::Identifier, &before, &after);
+    changes.extend(change.map(|change| change.named(name.unwrap_or_default()).with([consequence.clone()])));
+}
