@@ -185,7 +185,12 @@ pub struct Change {
 
 impl Change {
     /// A change without consequences yet; `None` where there is none.
-    pub(super) fn of(place: Place, fact: Fact, before: Option<String>, after: Option<String>) -> Option<Self> {
+    pub(super) fn of(
+        place: Place,
+        fact: Fact,
+        before: Option<String>,
+        after: Option<String>,
+    ) -> Option<Self> {
         (before != after).then(|| Self {
             place,
             name: String::new(),
@@ -204,14 +209,30 @@ impl Change {
 
     /// A change whose values are too long to be said.
     pub(super) const fn unsaid(place: Place, fact: Fact) -> Self {
-        Self { place, name: String::new(), part: None, fact, before: None, after: None, consequences: Vec::new() }
+        Self {
+            place,
+            name: String::new(),
+            part: None,
+            fact,
+            before: None,
+            after: None,
+            consequences: Vec::new(),
+        }
     }
 
     /// Something came.
     pub(super) fn added(place: Place, what: impl Into<String>) -> Self {
         let consequences = Vec::new();
         let after = Some(what.into());
-        Self { place, name: String::new(), part: None, fact: Fact::Presence, before: None, after, consequences }
+        Self {
+            place,
+            name: String::new(),
+            part: None,
+            fact: Fact::Presence,
+            before: None,
+            after,
+            consequences,
+        }
     }
 
     /// Something went.
@@ -307,7 +328,8 @@ fn join(changes: Vec<Change>) -> Vec<Change> {
             joined.push(change);
             continue;
         };
-        if let (Place::Entries { last, .. }, Place::Entries { last: end, .. }) = (&mut before.place, &change.place)
+        if let (Place::Entries { last, .. }, Place::Entries { last: end, .. }) =
+            (&mut before.place, &change.place)
         {
             *last = *end;
         }

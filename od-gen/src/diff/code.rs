@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use od_spec::diag::Diagnostics;
-use od_spec::model::{Dictionary, EntryId, Fact, System};
+use od_spec::model::{Dictionary, EntryId, Fact, Index, System};
 
 use super::change::{Change, Class, Consequence, Kind, Place};
 use crate::plan::{Place as Lies, Plan, PlannedEntry, plan};
@@ -14,6 +14,8 @@ pub(super) struct Code {
     /// The dictionary's type.
     dictionary: String,
     entries: BTreeMap<EntryId, EntryCode>,
+    /// The fields of each PDO, by the index of its mapping parameter.
+    pdos: BTreeMap<Index, Vec<String>>,
 }
 
 /// An entry in generated code.
@@ -35,7 +37,12 @@ impl Code {
             return None;
         }
         let entries = plan.entries.iter().map(|entry| (entry.id, EntryCode::of(&plan, entry))).collect();
-        Some(Self { dictionary: plan.name, entries })
+        let fields = plan.pdos.iter().map(|pdo| {
+            let names = pdo.fields.iter().map(|field| field.name.clone()).collect();
+            (Index(pdo.pdo.mapping_index()), names)
+        });
+        let pdos = fields.collect();
+        Some(Self { dictionary: plan.name, entries, pdos })
     }
 }
 
@@ -71,6 +78,7 @@ const VALUES: &[&[Fact]] = &[
 const OTHER_NAME: Consequence = Consequence::new(Class::Firmware, "generated code has another name for it");
 const OTHER_TYPE: Consequence =
     Consequence::new(Class::Firmware, "generated code has another type or no setter for it");
+const NO_FIELD: Consequence = Consequence::new(Class::Firmware, "the PDO has lost a field in generated code");
 const GONE: Consequence = Consequence::new(Class::Firmware, "it is gone from generated code");
 
 /// Adds to each change what it breaks in firmware, and a change where several together do.
@@ -81,13 +89,20 @@ pub(super) fn judge(old: &Code, new: &Code, device: &str, changes: &mut Vec<Chan
         changes.extend(change.map(|change| change.named(device).with([OTHER_NAME])));
     }
     for change in &mut *changes {
-        if change.kind() == Kind::Removed && change.place.index().is_some() {
+        let Some(index) = change.place.index() else { continue };
+        let fields = |code: &Code| code.pdos.get(&index).cloned().unwrap_or_default();
+        let now = fields(new);
+        if change.fact == Fact::Map && fields(old).iter().any(|field| !now.contains(field)) {
+            change.follows([NO_FIELD]);
+        }
+        if change.kind() == Kind::Removed {
             change.follows([GONE]);
         }
     }
     for (id, before) in &old.entries {
         let Some(after) = new.entries.get(id) else { continue };
-        if before.call != after.call || before.names != after.names {
+        let is_called_otherwise = before.call.is_some() && before.call != after.call;
+        if is_called_otherwise || before.names != after.names {
             let calls = [&before.call, &after.call].map(|call| call.clone().unwrap_or_default());
             attribute(*id, NAMES, &OTHER_NAME, calls, changes);
         }

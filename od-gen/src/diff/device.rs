@@ -32,13 +32,7 @@ impl Devices<'_> {
         let name = || vec![Consequence::new(Class::Documents, "masters compare numbers")];
         let texts = |text: &str| self.scope.name(text);
         [
-            row(
-                Fact::Product,
-                "name",
-                &texts(&old.product_name),
-                &texts(&new.product_name),
-                name(),
-            ),
+            row(Fact::Product, "name", &texts(&old.product_name), &texts(&new.product_name), name()),
             row(Fact::Product, "order code", &texts(&old.order_code), &texts(&new.order_code), name()),
             row(
                 Fact::Product,
@@ -88,8 +82,7 @@ impl Devices<'_> {
         )
         .map(|change| change.with(rules::granularity(old.granularity, new.granularity)));
         let pdos = [Direction::Receive, Direction::Transmit].into_iter().filter_map(|direction| {
-            let (before, after) =
-                (self.old.pdos_of(direction).count(), self.new.pdos_of(direction).count());
+            let (before, after) = (self.old.pdos_of(direction).count(), self.new.pdos_of(direction).count());
             let change =
                 Change::text(Place::Device, Fact::PdoCount, &before.to_string(), &after.to_string())?;
             Some(change.part(format!("{}s", direction.pdo())).with(rules::ability(after < before)))

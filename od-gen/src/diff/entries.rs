@@ -1,7 +1,8 @@
 //! The facts of an entry before and after.
 
 use od_spec::model::{
-    Access, Alias, BitErrors, EdsPolicy, Entry, EntryId, Expr, Fact, NamedType, Ratio, SpecialValue, Unit, Value,
+    Access, Alias, BitErrors, EdsPolicy, Entry, EntryId, Expr, Fact, NamedType, Ratio, SpecialValue, Unit,
+    Value,
 };
 
 use super::change::{Change, Class, Place};
@@ -152,7 +153,7 @@ impl Pair<'_> {
         }
         let raws = (before.and_then(Value::integer), after.and_then(Value::integer));
         let consequences =
-            if self.is_rescaled(raws) { rules::rescaled() } else { rules::default(self.id) };
+            if self.is_rescaled(raws) { rules::rescaled() } else { rules::default(self.id, self.new) };
         Some(self.of(Fact::Default, before_text, after_text)?.with(consequences))
     }
 
@@ -162,8 +163,7 @@ impl Pair<'_> {
             let unit = entry.unit.as_ref()?;
             Some((unit.base_symbol().to_owned(), Ratio::whole(raw?).checked_mul(unit.step()?)?))
         };
-        before != after
-            && amount(self.old, before).is_some_and(|old| Some(old) == amount(self.new, after))
+        before != after && amount(self.old, before).is_some_and(|old| Some(old) == amount(self.new, after))
     }
 
     fn limits(&self) -> Vec<Change> {
@@ -177,13 +177,11 @@ impl Pair<'_> {
                 return None;
             }
             let change = self.of(fact, shown(self.old, before), shown(self.new, after))?;
-            if self.is_rescaled((before, after)) {
-                return Some(change.with(rules::rescaled()));
-            }
             Some(change.with(rules::limit(self.new, reach.0, reach.1)))
         };
         // Each side reaches as far as the limit or, without one, the data type; downwards that is the negative number.
-        let (low_ends, high_ends) = ((ends(self.old).0, ends(self.new).0), (ends(self.old).1, ends(self.new).1));
+        let (low_ends, high_ends) =
+            ((ends(self.old).0, ends(self.new).0), (ends(self.old).1, ends(self.new).1));
         let low_reach = (-old.0.unwrap_or(low_ends.0), -new.0.unwrap_or(low_ends.1));
         let high_reach = (old.1.unwrap_or(high_ends.0), new.1.unwrap_or(high_ends.1));
         [side(Fact::LowLimit, old.0, new.0, low_reach), side(Fact::HighLimit, old.1, new.1, high_reach)]
@@ -233,7 +231,9 @@ impl Pair<'_> {
             return None;
         }
         let text = |condition: Option<&Expr>| condition.map(|one| one.text.clone());
-        Some(self.of(Fact::WriteCondition, text(before), text(after))?.with(rules::condition(after.is_some())))
+        Some(
+            self.of(Fact::WriteCondition, text(before), text(after))?.with(rules::condition(after.is_some())),
+        )
     }
 
     fn alias(&self) -> Option<Change> {

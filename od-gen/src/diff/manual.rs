@@ -16,12 +16,17 @@ pub(super) fn changes(old: &System, new: &System, language: &str) -> Vec<Change>
     let source = Change::of(Place::System, Fact::Document, before.source.clone(), after.source.clone());
     let mut changes: Vec<Change> = source.map(|change| change.part("source")).into_iter().collect();
     let issue = |issue: Option<&Issue>| issue.map(|issue| issue.number.clone());
-    let revision =
-        Change::of(Place::System, Fact::Document, issue(before.revision.as_ref()), issue(after.revision.as_ref()));
+    let revision = Change::of(
+        Place::System,
+        Fact::Document,
+        issue(before.revision.as_ref()),
+        issue(after.revision.as_ref()),
+    );
     changes.extend(revision.map(|change| change.part("issue")));
     changes.extend(texts(&Place::System, Fact::About, &before.about, &after.about, language));
 
-    let issues = |list: &[Issue]| by_key(list.iter().map(|one| (format!("issue {}", one.number), one.clone())));
+    let issues =
+        |list: &[Issue]| by_key(list.iter().map(|one| (format!("issue {}", one.number), one.clone())));
     let with_date = |one: &Issue| Language::English.date(one.date);
     changes.extend(listed(&issues(&before.history), &issues(&after.history), Fact::Document, with_date));
 

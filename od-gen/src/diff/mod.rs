@@ -136,7 +136,8 @@ pub fn compare(question: &Question<'_>) -> Result<Difference, Unpaired> {
     }
     let system = change::tidy(system);
     let device = |(before, after): (&Dictionary, &Dictionary)| {
-        let devices = Devices { old: before, new: after, scope, language };
+        let vendors = [old.vendor.number, new.vendor.number];
+        let devices = Devices { old: before, new: after, vendors, scope, language };
         let (changes, unknown) = device_changes(old, new, devices);
         let shared = system.iter().filter(|change| change.place == Place::System);
         let all = changes.iter().chain(shared);
@@ -153,24 +154,30 @@ fn device_changes(old: &System, new: &System, devices: Devices<'_>) -> (Vec<Chan
     changes.extend(devices.objects());
     let mut unknown = Vec::new();
     if devices.scope.is_everything() {
-        let codes = (Code::of(old, devices.old), Code::of(new, devices.new));
-        let names = match &codes {
+        let meanings = |names| {
+            let types = types::changes(devices.old, devices.new, names, devices.language);
+            types.into_iter().chain(Systems { old, new, devices, names }.relations())
+        };
+        changes.extend(units::changes(devices.old, devices.new, devices.language));
+        // Planning the code takes longer than all the rest.
+        let is_same = changes.is_empty() && meanings(Names::Nowhere).next().is_none();
+        if is_same && devices.old.key == devices.new.key {
+            return (changes, unknown);
+        }
+        match (Code::of(old, devices.old), Code::of(new, devices.new)) {
             (Some(before), Some(after)) => {
-                code::judge(before, after, &devices.new.key, &mut changes);
-                Names::InCode
+                code::judge(&before, &after, &devices.new.key, &mut changes);
+                changes.extend(meanings(Names::InCode));
             }
             (None, _) | (_, None) => {
                 unknown.push(Unknown::Firmware);
-                Names::Nowhere
+                changes.extend(meanings(Names::Nowhere));
             }
-        };
+        }
         match (Groups::of(devices.old), Groups::of(devices.new)) {
             (Some(before), Some(after)) => stored::judge(&before, &after, &mut changes),
             (None, _) | (_, None) => unknown.push(Unknown::Stored),
         }
-        changes.extend(units::changes(devices.old, devices.new, devices.language));
-        changes.extend(types::changes(devices.old, devices.new, names, devices.language));
-        changes.extend(Systems { old, new, devices, names }.relations());
     }
     changes.retain(|change| devices.scope.states(change.fact));
     (change::tidy(changes), unknown)

@@ -2,9 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_spec::model::{
-    Dictionary, Entry, EntryId, Fact, Index, Object, PdoTarget, Role, SubIndex, Value,
-};
+use od_spec::model::{Dictionary, Entry, EntryId, Fact, Index, Object, PdoTarget, Role, SubIndex, Value};
 
 use super::change::{Change, Class, Place};
 use super::entries::Pair;
@@ -18,11 +16,13 @@ use super::words::{self, WORDS};
 pub(super) struct Devices<'a> {
     pub old: &'a Dictionary,
     pub new: &'a Dictionary,
+    /// The maker's number on both sides.
+    pub vendors: [u32; 2],
     pub scope: Scope,
     pub language: &'a str,
 }
 
-impl<'a> Devices<'a> {
+impl Devices<'_> {
     /// What differs in objects and entries.
     pub(super) fn objects(self) -> Vec<Change> {
         let indices: BTreeSet<Index> =
@@ -132,19 +132,21 @@ impl<'a> Devices<'a> {
         Some(change.with(rules::map()))
     }
 
-    /// Whether a default is a fact of the device, and changes with it: device type and identity.
+    /// Whether a default is a fact of the device or of its maker, and changes with it: device type and identity.
     fn is_told_by_device(self, id: EntryId) -> bool {
-        let fact = |device: &Dictionary| match (Role::of(id.index), id.sub.0) {
-            (Role::DeviceType, 0) => Some(device.info.device_type),
-            (Role::Identity, 2) => Some(device.info.product),
-            (Role::Identity, 3) => Some(device.info.product_revision),
-            _ => None,
-        };
-        let agrees = |device: &Dictionary| {
+        let agrees = |device: &Dictionary, vendor: u32| {
+            let fact = match (Role::of(id.index), id.sub.0) {
+                (Role::DeviceType, 0) => device.info.device_type,
+                (Role::Identity, 1) => vendor,
+                (Role::Identity, 2) => device.info.product,
+                (Role::Identity, 3) => device.info.product_revision,
+                _ => return false,
+            };
             let default = device.entry(id).and_then(|entry| entry.default.as_ref()).and_then(Value::integer);
-            fact(device).is_some_and(|fact| default == Some(fact.into()))
+            default == Some(fact.into())
         };
-        agrees(self.old) && agrees(self.new)
+        let [before, after] = self.vendors;
+        agrees(self.old, before) && agrees(self.new, after)
     }
 
     /// What a place is called: of an entry that came or went, on the side that has it.

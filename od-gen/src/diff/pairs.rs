@@ -82,7 +82,9 @@ pub(super) fn pair<'a>(question: &Question<'a>) -> Result<Pairs<'a>, Unpaired> {
             .so(Class::Firmware, "its generated code is gone")
     });
     let came = new.iter().filter(|device| other(device, &old).is_none()).map(|device| {
-        Change::added(Place::Device, &device.name).named(&device.key).so(Class::Addition, "nobody uses it yet")
+        Change::added(Place::Device, &device.name)
+            .named(&device.key)
+            .so(Class::Addition, "nobody uses it yet")
     });
     Ok(Pairs { unpaired: gone.chain(came).collect(), pairs })
 }

@@ -62,13 +62,12 @@ pub(super) fn proposals<'a>(
     changes: impl Iterator<Item = &'a Change>,
 ) -> Proposals {
     let class = changes.map(Change::class).max();
-    let breaks = class == Some(Class::Plc);
-    let file = if breaks {
-        Step::First
-    } else if if scope.is_everything() { shows_in_eds(old, new) } else { class.is_some() } {
-        Step::Second
-    } else {
-        Step::None
+    let file = match class {
+        None => Step::None,
+        Some(Class::Plc) => Step::First,
+        // Whatever was compared stands in both files.
+        Some(_) if !scope.is_everything() || shows_in_eds(old, new) => Step::Second,
+        Some(_) => Step::None,
     };
     let revision = match class {
         Some(Class::Plc) => Step::First,

@@ -92,13 +92,13 @@ impl Systems<'_> {
         let old = of(self.old, &self.devices.old.key);
         let new = of(self.new, &self.devices.new.key);
         let names: BTreeSet<&str> = old.iter().chain(&new).map(|one| one.name.as_str()).collect();
+        let written = |one: &Constraint| (shape(&one.require), one.when.as_ref().map(shape));
         let mut changes = Vec::new();
         for name in names {
             let find = |list: &[Constraint]| list.iter().position(|one| one.name == name);
             let place = Place::Constraint(name.to_owned());
             match (find(&old).map(|at| &old[at]), find(&new).map(|at| &new[at])) {
                 (Some(before), Some(after)) => {
-                    let written = |one: &Constraint| (shape(&one.require), one.when.as_ref().map(shape));
                     if written(before) != written(after) {
                         let change =
                             Change::text(place.clone(), Fact::Requirement, &text(before), &text(after));
@@ -109,15 +109,22 @@ impl Systems<'_> {
                     let language = self.devices.language;
                     changes.extend(texts(&place, Fact::About, &before.about, &after.about, language));
                 }
-                (Some(before), None) => changes.push(
-                    Change::removed(place, text(before))
-                        .so(Class::Addition, "more settings are accepted")
-                        .with(self.gone()),
-                ),
-                (None, Some(after)) => changes.push(
-                    Change::added(place, text(after))
-                        .so(Class::Plc, "settings that were accepted can be refused"),
-                ),
+                (Some(before), None) => {
+                    let (class, because) = if new.iter().any(|one| written(one) == written(before)) {
+                        (Class::Documents, "the same is asked under another name")
+                    } else {
+                        (Class::Addition, "more settings are accepted")
+                    };
+                    changes.push(Change::removed(place, text(before)).so(class, because).with(self.gone()));
+                }
+                (None, Some(after)) => {
+                    let (class, because) = if old.iter().any(|one| written(one) == written(after)) {
+                        (Class::Documents, "the same was asked under another name")
+                    } else {
+                        (Class::Plc, "settings that were accepted can be refused")
+                    };
+                    changes.push(Change::added(place, text(after)).so(class, because));
+                }
                 (None, None) => {}
             }
         }
@@ -203,6 +210,7 @@ impl Systems<'_> {
             }
         }
         changes.extend(self.transitions(place, &old.transitions, &new.transitions));
+        changes.extend(effects(place, old, new));
         changes
     }
 
@@ -241,6 +249,26 @@ impl Systems<'_> {
         }
         changes
     }
+}
+
+/// The transitions that a command causes.
+fn effects(place: &Place, old: &StateMachine, new: &StateMachine) -> Vec<Change> {
+    let list = |numbers: &[u8]| {
+        let numbers: Vec<String> = numbers.iter().map(u8::to_string).collect();
+        if numbers.is_empty() { "none".to_owned() } else { numbers.join(", ") }
+    };
+    let changes = old.commands.iter().filter_map(|before| {
+        let after = new.commands.iter().find(|command| command.name == before.name)?;
+        let change = Change::text(
+            place.clone(),
+            Fact::Reaction,
+            &list(&before.transitions),
+            &list(&after.transitions),
+        )?;
+        let part = format!("command {}, transitions", after.name);
+        Some(change.part(part).so(Class::Behaviour, "the command does something else"))
+    });
+    changes.collect()
 }
 
 fn shape(condition: &Expr) -> impl PartialEq + use<> {

@@ -16,7 +16,6 @@
 //! | default | COB-ID | plc | messages that a project waits for have another identifier |
 //! | | identity, device type | plc | masters compare them at start-up |
 //! | | any other | behaviour | what the device does until somebody writes the entry |
-//! | default, limit | the same value in another scale | documents | that the scale is another is said at the unit |
 //! | limits | narrower on a writable entry | plc | values that were accepted are refused |
 //! | | wider on a writable entry | addition | |
 //! | | wider on a read-only entry | behaviour | it may have values that it could not have before |
@@ -136,21 +135,26 @@ pub(super) fn mapping(before: PdoMapping, after: PdoMapping) -> Consequences {
 }
 
 /// The value after factory reset.
-pub(super) fn default(id: EntryId) -> Consequences {
+pub(super) fn default(id: EntryId, entry: &Entry) -> Consequences {
     if is_cob_id(id) {
-        return one(Class::Plc, "the message has another identifier");
+        return one(Class::Plc, "the message has another identifier or other flags");
     }
+    let because = if entry.access == Access::Const {
+        "the constant has another value"
+    } else {
+        "the device starts with another value"
+    };
     match (Role::of(id.index), id.sub.0) {
         (Role::DeviceType, _) => device_type(),
         (Role::Identity, 1 | 2) => identity(),
         (Role::Identity, 3) => revision(),
-        _ => one(Class::Behaviour, "the device starts with another value"),
+        _ => one(Class::Behaviour, because),
     }
 }
 
-/// A value that is the same in a unit of another scale; that the scale is another is said at the unit.
+/// A default that is the same amount in a unit of another scale.
 pub(super) fn rescaled() -> Consequences {
-    one(Class::Documents, "the same value in another scale")
+    one(Class::Behaviour, "the same amount is another raw value")
 }
 
 /// Whether an entry is the identifier of a message (CiA 301).
@@ -186,7 +190,9 @@ pub(super) fn limit(entry: &Entry, before: i128, after: i128) -> Consequences {
         (std::cmp::Ordering::Less, true) => one(Class::Plc, "values that were accepted are refused"),
         (std::cmp::Ordering::Greater, true) => one(Class::Addition, "more values are accepted"),
         (std::cmp::Ordering::Less, false) => one(Class::Documents, "each value was possible before"),
-        (std::cmp::Ordering::Greater, false) => one(Class::Behaviour, "values can lie outside the old limits"),
+        (std::cmp::Ordering::Greater, false) => {
+            one(Class::Behaviour, "values can lie outside the old limits")
+        }
     }
 }
 

@@ -175,7 +175,8 @@ impl Members<'_> {
     }
 
     fn bits(&self, base: DataType, old: &[BitField], new: &[BitField]) -> Vec<Change> {
-        let mut ranges: Vec<(u8, u8)> = old.iter().chain(new).map(|field| (field.first, field.last)).collect();
+        let mut ranges: Vec<(u8, u8)> =
+            old.iter().chain(new).map(|field| (field.first, field.last)).collect();
         ranges.sort_unstable();
         ranges.dedup();
         let mut changes = self.free_bits(old, new);
@@ -259,7 +260,14 @@ impl Members<'_> {
         };
         let details = [
             (Fact::Meaning, " active level", level(before), level(after), Class::Plc, "1 means what 0 meant"),
-            (Fact::Meaning, " edge", edge(before), edge(after), Class::Behaviour, "another write triggers it"),
+            (
+                Fact::Meaning,
+                " edge",
+                edge(before),
+                edge(after),
+                Class::Behaviour,
+                "another write triggers it",
+            ),
             (
                 Fact::BitErrors,
                 "",
@@ -310,7 +318,9 @@ impl Members<'_> {
             if let Some(change) = Change::of(self.place.clone(), Fact::Meaning, name(before), name(after)) {
                 let consequences = match (before, after) {
                     (Some(before), Some(after)) => rules::meaning(&before.name, &after.name, false),
-                    (Some(_), None) => vec![Consequence::new(Class::Plc, "the bits mean nothing in the mode")],
+                    (Some(_), None) => {
+                        vec![Consequence::new(Class::Plc, "the bits mean nothing in the mode")]
+                    }
                     (None, _) => vec![Consequence::new(Class::Addition, "the bits had no meaning")],
                 };
                 let gone = before.and_then(|before| {

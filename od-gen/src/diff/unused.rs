@@ -25,8 +25,7 @@ pub(super) fn changes(old: &System, new: &System, language: &str) -> Vec<Change>
         &|name| (old.types.get(name).map(AsRef::as_ref), new.types.get(name).map(AsRef::as_ref)),
         &|name| Place::Type(name.to_owned()),
         &|before: &NamedType, after: &NamedType, place: Place| {
-            let base =
-                Change::text(place.clone(), Fact::Type, before.base.name(), after.base.name());
+            let base = Change::text(place.clone(), Fact::Type, before.base.name(), after.base.name());
             let members = Members { place, names: Names::Nowhere, language };
             members.of(before, after).into_iter().chain(base).collect()
         },

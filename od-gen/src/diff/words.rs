@@ -15,14 +15,16 @@ pub(super) fn value(index: Index, entry: &Entry, value: &Value) -> String {
 /// A unit: what one raw step is worth, and what the symbol is in terms of a more basic one.
 pub(super) fn unit(unit: &Unit) -> String {
     let step = VALUES.counted_step(unit);
-    let base = unit.base.as_ref().map(|base| format!(", 1 {} is {} {}", unit.symbol, base.factor, base.symbol));
+    let base =
+        unit.base.as_ref().map(|base| format!(", 1 {} is {} {}", unit.symbol, base.factor, base.symbol));
     let formula = unit.formula.as_ref().map(|formula| format!(", {}", formula.text));
     format!("{step}{}{}", base.unwrap_or_default(), formula.unwrap_or_default())
 }
 
 /// What an entry is, for one that came or went: `unsigned16 rw`.
 pub(super) fn entry(entry: &Entry) -> String {
-    let named = entry.named_type.as_ref().map(|named: &std::sync::Arc<NamedType>| format!(" ({})", named.name));
+    let named =
+        entry.named_type.as_ref().map(|named: &std::sync::Arc<NamedType>| format!(" ({})", named.name));
     format!("{}{} {}", entry.data_type.name(), named.unwrap_or_default(), WORDS.access(entry))
 }
 

@@ -14,7 +14,7 @@ fn file(proposal: Proposal) -> Option<String> {
         if to.0 == from.0 {
             format!("FileRevision {} → {}", from.1, to.1)
         } else {
-            format!("FileVersion {} → {}, FileRevision {} → {}", from.0, to.0, from.1, to.1)
+            format!("FileVersion {} → {}, FileRevision {}", from.0, to.0, to.1)
         }
     };
     Some(match proposal.advice {
@@ -37,7 +37,10 @@ fn revision(proposal: Proposal) -> Option<String> {
         Advice::Raise(to) => raise(to),
         Advice::RaiseFirst(to) => format!("{}, as the minor part {} is the largest", raise(to), from.1),
         Advice::UsedUp => {
-            format!("nothing: the major part {} of RevisionNumber is the largest and cannot be raised", from.0)
+            format!(
+                "nothing: the major part {} of RevisionNumber is the largest and cannot be raised",
+                from.0
+            )
         }
     })
 }

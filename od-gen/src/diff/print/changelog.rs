@@ -19,7 +19,11 @@ pub(super) fn entry(difference: &Difference, device: &DeviceDifference) -> Strin
         }
         let _ = writeln!(text, "\n**{}**\n", heading(*class));
         if *class == Class::Documents {
-            let _ = writeln!(text, "- {}", super::counted(of_class.len(), "description", "descriptions and remarks"));
+            let _ = writeln!(
+                text,
+                "- {}",
+                super::counted(of_class.len(), "description", "descriptions and remarks")
+            );
             continue;
         }
         for change in of_class {

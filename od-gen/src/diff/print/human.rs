@@ -26,8 +26,9 @@ pub fn human(difference: &Difference, colour: bool) -> String {
         for one in &device.unknown {
             let _ = writeln!(text, "  note: {}", unknown(*one));
         }
-        for sentence in advice::sentences(&device.proposals) {
-            let _ = writeln!(text, "  proposed: {sentence}");
+        let sentences = advice::sentences(&device.proposals);
+        if !sentences.is_empty() {
+            let _ = writeln!(text, "  proposed: {}", sentences.join("; "));
         }
     }
     let _ = writeln!(text, "{}", summary(difference));

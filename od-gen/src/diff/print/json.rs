@@ -1,7 +1,9 @@
 //! For programs; the format is described in `docs/json.md`.
 
+use od_spec::model::Fact;
 use serde_json::{Value as Json, json};
 
+use super::super::words::fact;
 use super::super::{Advice, Change, Class, Difference, Parts, Place, Proposal, Scope, Unknown};
 use super::changelog;
 
@@ -48,7 +50,7 @@ fn change(change: &Change) -> Json {
         "place": place(&change.place),
         "name": change.name,
         "part": change.part,
-        "fact": super::super::words::fact(change.fact),
+        "fact": if change.fact == Fact::Presence { "presence" } else { fact(change.fact) },
         "before": change.before,
         "after": change.after,
         "consequences": consequences,

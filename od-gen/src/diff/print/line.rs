@@ -21,7 +21,7 @@ pub(super) struct Style {
 pub(super) fn place(change: &Change) -> String {
     let name = change.name.as_str();
     let place = match &change.place {
-        Place::System => String::new(),
+        Place::System => "system".to_owned(),
         Place::Device => format!("device {name}").trim_end().to_owned(),
         Place::Object(index) => format!("{index} {name}"),
         Place::Entries { index, first, last } if first == last => format!("{index}.{first} {name}"),
@@ -33,7 +33,6 @@ pub(super) fn place(change: &Change) -> String {
         Place::Constraint(constraint) => format!("condition `{constraint}`"),
     };
     match &change.part {
-        Some(part) if place.is_empty() => part.clone(),
         Some(part) => format!("{place}, {part}"),
         None => place,
     }
@@ -75,7 +74,7 @@ const fn is_prose(fact: Fact) -> bool {
 /// The whole line without what follows: `~ 3005h test status: type: unsigned8 → unsigned16`.
 pub(super) fn line(change: &Change, style: Style) -> String {
     let (place, values) = (place(change), values(change, style));
-    let between = if place.is_empty() || values.is_empty() { "" } else { ": " };
+    let between = if values.is_empty() { "" } else { ": " };
     format!("{} {place}{between}{values}", change.kind().sign())
 }
 

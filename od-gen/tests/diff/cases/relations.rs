@@ -1,0 +1,154 @@
+//! Error codes, conditions between entries, state machines, the manual.
+
+use crate::Case;
+
+pub(crate) const CASES: &[Case] = &[
+    Case {
+        name: "an error code goes",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage, on: pmm}\n",
+        replace: "",
+        expected: &["pmm: - error 3120h Grid under voltage: Grid under voltage [plc, firmware]"],
+    },
+    Case {
+        name: "an error code comes",
+        at: "errors:",
+        find: "  0x3120: {",
+        replace: "  0x3121: {name: Grid missing, on: pmm}\n  0x3120: {",
+        expected: &["pmm: + error 3121h Grid missing: Grid missing [addition]"],
+    },
+    Case {
+        name: "an error code is called otherwise",
+        at: "errors:",
+        find: "name: Grid under voltage",
+        replace: "name: Mains under voltage",
+        expected: &[
+            "pmm: ~ error 3120h Mains under voltage: name: Grid under voltage -> Mains under voltage [firmware]",
+        ],
+    },
+    Case {
+        name: "another reaction to an error",
+        at: "errors:",
+        find: "priority: A, reaction: The motor is switched off.",
+        replace: "priority: B, reaction: The motor runs on.",
+        expected: &[
+            "pmc: ~ error 2310h Over current at controller output: reaction: The motor is switched off. -> The motor runs on. [behaviour]",
+            "pmc: ~ error 2310h Over current at controller output: priority: A -> B [behaviour]",
+        ],
+    },
+    Case {
+        name: "another condition",
+        at: "  shutdown after ride-through:",
+        find: "0x30E0 < 0x30E1",
+        replace: "0x30E0 <= 0x30E1",
+        expected: &[
+            "pmm: ~ condition `shutdown after ride-through`: require: 0x30E0 < 0x30E1 -> 0x30E0 <= 0x30E1 [plc]",
+        ],
+    },
+    Case {
+        name: "the same condition with other blanks",
+        at: "  shutdown after ride-through:",
+        find: "0x30E0 < 0x30E1",
+        replace: "0x30E0<0x30E1",
+        expected: &[],
+    },
+    Case {
+        name: "a condition under another name",
+        at: "  shutdown after ride-through:",
+        find: "  shutdown after ride-through:",
+        replace: "  ride-through before shutdown:",
+        expected: &[
+            "pmm: + condition `ride-through before shutdown`: 0x30E0 < 0x30E1 [documents]",
+            "pmm: - condition `shutdown after ride-through`: 0x30E0 < 0x30E1 [firmware]",
+        ],
+    },
+    Case {
+        name: "a condition goes",
+        at: "constraints:",
+        find: "  shutdown after ride-through:\n    on: pmm\n    about: The time to the shutdown has to cover the bridged power failure and, after it, the travel to the feather position.\n    require: \"0x30E0 < 0x30E1\"\n",
+        replace: "",
+        expected: &["pmm: - condition `shutdown after ride-through`: 0x30E0 < 0x30E1 [firmware, addition]"],
+    },
+    Case {
+        name: "a state has another pattern",
+        at: "state-machines:",
+        find: "Fault: {pattern: \"xxxx xxxx x0xx 1000\"",
+        replace: "Fault: {pattern: \"xxxx xxxx xxxx 1000\"",
+        expected: &[
+            "pmc: ~ state machine `power drive`, state Fault: meaning: xxxxxxxxx0xx1000 -> xxxxxxxxxxxx1000 [plc]",
+        ],
+    },
+    Case {
+        name: "a command goes",
+        at: "state-machines:",
+        find: "      Disable operation: {pattern: \"xxxx xxx1 0xx0 0111\", send: 0x0107, transitions: [5], about: The axis stops and stays switched on.}\n",
+        replace: "",
+        expected: &[
+            "pmc: - state machine `power drive`, command Disable operation: xxxxxxx10xx00111, sent as 0x107 [plc, firmware]",
+        ],
+    },
+    Case {
+        name: "a command causes more",
+        at: "state-machines:",
+        find: "transitions: [5],",
+        replace: "transitions: [5, 7],",
+        expected: &[
+            "pmc: ~ state machine `power drive`, command Disable operation, transitions: reaction: 5 -> 5, 7 [behaviour]",
+        ],
+    },
+    Case {
+        name: "a transition leads elsewhere",
+        at: "state-machines:",
+        find: "        from: Fault reaction active\n        to: Fault\n",
+        replace: "        from: Fault reaction active\n        to: Switch-on disabled\n",
+        expected: &[
+            "pmc: ~ state machine `power drive`, transition 14: meaning: from Fault reaction active to Fault -> from Fault reaction active to Switch-on disabled [plc]",
+        ],
+    },
+    Case {
+        name: "the title",
+        at: "title:",
+        find: "Pitch Control System",
+        replace: "Pitch system",
+        expected: &["*: ~ system: name: Pitch Control System -> Pitch system [documents]"],
+    },
+    Case {
+        name: "the languages",
+        at: "languages:",
+        find: "[en]",
+        replace: "[en, de]",
+        expected: &["*: ~ system: languages: en -> en, de [documents]"],
+    },
+    Case {
+        name: "the issue of the manual",
+        at: "revision:",
+        find: "\"1.09\"",
+        replace: "\"1.10\"",
+        expected: &["*: ~ system, issue: document: 1.09 -> 1.10 [documents]"],
+    },
+    Case {
+        name: "an abbreviation",
+        at: "glossary:",
+        find: "pulse width modulation, the way the motor is driven",
+        replace: "pulse width modulation",
+        expected: &[
+            "*: ~ system, term PWM: document: pulse width modulation, the way the motor is driven -> pulse width modulation [documents]",
+        ],
+    },
+    Case {
+        name: "a section",
+        at: "document:",
+        find: "title: Introduction",
+        replace: "title: Overview",
+        expected: &["*: ~ system, section 1: document: Introduction -> Overview [documents]"],
+    },
+    Case {
+        name: "an erratum",
+        at: "errata:",
+        find: "reads: vendor number 0",
+        replace: "reads: the number 0",
+        expected: &[
+            "*: ~ system, erratum (gap) title pages: errata: vendor number 0; product code 0 and product revision 0 for b… -> the number 0; product code 0 and product revision 0 for both… [documents]",
+        ],
+    },
+];
