@@ -9,6 +9,9 @@ use super::rules::{self, Consequences};
 use super::texts::texts;
 use super::words::yes_no;
 
+/// How a fact of `[FileInfo]` reads.
+type Show = fn(&FileInfo) -> String;
+
 impl Devices<'_> {
     /// Facts of `[DeviceInfo]` and `[FileInfo]`, names and texts.
     pub(super) fn device(self) -> Vec<Change> {
@@ -117,7 +120,6 @@ impl Devices<'_> {
     /// What the EDS says about itself.
     fn file(self) -> Vec<Change> {
         let (old, new) = (&self.old.file, &self.new.file);
-        type Show = fn(&FileInfo) -> String;
         let rows: [(&str, Show); 7] = [
             ("description", |file| file.description.clone()),
             ("created", |file| moment(file.created)),

@@ -86,7 +86,7 @@ impl Devices<'_> {
         changes.extend(map);
         for change in &mut changes {
             if change.name.is_empty() {
-                change.name = self.name(old, new, &change.place);
+                change.name = name(old, new, &change.place);
             }
         }
         changes
@@ -148,15 +148,15 @@ impl Devices<'_> {
         let [before, after] = self.vendors;
         agrees(self.old, before) && agrees(self.new, after)
     }
+}
 
-    /// What a place is called: of an entry that came or went, on the side that has it.
-    fn name(self, old: &Object, new: &Object, place: &Place) -> String {
-        let Place::Entries { first, .. } = place else { return new.name.clone() };
-        match (new.entry(*first), old.entry(*first)) {
-            (Some(entry), _) => format!("{}.{}", new.name, entry.name),
-            (None, Some(entry)) => format!("{}.{}", old.name, entry.name),
-            (None, None) => new.name.clone(),
-        }
+/// What a place is called: of an entry that came or went, on the side that has it.
+fn name(old: &Object, new: &Object, place: &Place) -> String {
+    let Place::Entries { first, .. } = place else { return new.name.clone() };
+    match (new.entry(*first), old.entry(*first)) {
+        (Some(entry), _) => format!("{}.{}", new.name, entry.name),
+        (None, Some(entry)) => format!("{}.{}", old.name, entry.name),
+        (None, None) => new.name.clone(),
     }
 }
 

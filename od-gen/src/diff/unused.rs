@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_spec::model::{Entry, Fact, NamedType, System, Unit};
+use od_spec::model::{Dictionary, Entry, Fact, NamedType, System, Unit};
 
 use super::change::{Change, Class, Consequence, Place};
 use super::types::{Members, Names};
@@ -40,7 +40,7 @@ pub(super) fn changes(old: &System, new: &System, language: &str) -> Vec<Change>
 /// Names that an entry on either side uses.
 fn used(old: &System, new: &System, name: impl Fn(&Entry) -> Option<String>) -> BTreeSet<String> {
     let devices = old.devices.iter().chain(&new.devices);
-    devices.flat_map(|device| device.entries()).filter_map(|(.., entry)| name(entry)).collect()
+    devices.flat_map(Dictionary::entries).filter_map(|(.., entry)| name(entry)).collect()
 }
 
 type Both<'a, T> = (Option<&'a T>, Option<&'a T>);

@@ -6,6 +6,7 @@ mod build;
 mod check;
 mod codes;
 mod dcf;
+mod diff;
 mod docs;
 mod new;
 mod provoked;

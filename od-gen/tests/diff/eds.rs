@@ -17,7 +17,7 @@ fn as_eds(system: &System, key: &str) -> System {
     eds.constraints.clear();
     eds.errata.clear();
     eds.document = od_spec::model::Document::default();
-    eds.title = "an EDS".to_owned();
+    "an EDS".clone_into(&mut eds.title);
     eds.vendor.name = transliterate(&eds.vendor.name);
     for device in &mut eds.devices {
         device.about = Text::default();

@@ -32,8 +32,7 @@ pub fn markdown(difference: &Difference) -> String {
         }
         let sentences = advice::sentences(&device.proposals);
         if !sentences.is_empty() {
-            let list: String = sentences.iter().map(|sentence| format!("- {sentence}\n")).collect();
-            let _ = write!(text, "\nProposed:\n\n{list}");
+            let _ = writeln!(text, "\nProposed:\n\n- {}", sentences.join("\n- "));
         }
         let _ = write!(text, "\nChangelog:\n\n{}", changelog::entry(difference, device));
     }

@@ -1,6 +1,7 @@
 //! The table of cases: one change of the pitch control system for each kind of fact and each direction, with its class.
 
 mod device;
+mod manual;
 mod meanings;
 mod objects;
 mod relations;
@@ -79,13 +80,19 @@ fn the_device_as_a_whole() {
 
 #[test]
 fn what_is_beside_the_objects() {
-    check(PITCH, &PITCH_SYSTEM, relations::CASES);
+    check(&DEVICES, &DEVICES_SYSTEM, relations::CASES);
+}
+
+#[test]
+fn the_printed_manual() {
+    check(PITCH, &PITCH_SYSTEM, manual::CASES);
 }
 
 /// A fact or a class without a case would not be noticed when it got lost.
 #[test]
 fn every_fact_and_every_class_has_a_case() {
-    let lists = [objects::CASES, values::CASES, meanings::CASES, device::CASES, relations::CASES];
+    let lists =
+        [objects::CASES, values::CASES, meanings::CASES, device::CASES, relations::CASES, manual::CASES];
     let lines: Vec<&str> = lists.into_iter().flatten().flat_map(|case| case.expected).copied().collect();
     for class in Class::ALL {
         let has_class = |line: &&&str| {

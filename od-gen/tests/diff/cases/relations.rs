@@ -1,4 +1,4 @@
-//! Error codes, conditions between entries, state machines, the manual.
+//! Error codes, conditions between entries, state machines.
 
 use crate::Case;
 
@@ -103,52 +103,6 @@ pub(crate) const CASES: &[Case] = &[
         replace: "        from: Fault reaction active\n        to: Switch-on disabled\n",
         expected: &[
             "pmc: ~ state machine `power drive`, transition 14: meaning: from Fault reaction active to Fault -> from Fault reaction active to Switch-on disabled [plc]",
-        ],
-    },
-    Case {
-        name: "the title",
-        at: "title:",
-        find: "Pitch Control System",
-        replace: "Pitch system",
-        expected: &["*: ~ system: name: Pitch Control System -> Pitch system [documents]"],
-    },
-    Case {
-        name: "the languages",
-        at: "languages:",
-        find: "[en]",
-        replace: "[en, de]",
-        expected: &["*: ~ system: languages: en -> en, de [documents]"],
-    },
-    Case {
-        name: "the issue of the manual",
-        at: "revision:",
-        find: "\"1.09\"",
-        replace: "\"1.10\"",
-        expected: &["*: ~ system, issue: document: 1.09 -> 1.10 [documents]"],
-    },
-    Case {
-        name: "an abbreviation",
-        at: "glossary:",
-        find: "pulse width modulation, the way the motor is driven",
-        replace: "pulse width modulation",
-        expected: &[
-            "*: ~ system, term PWM: document: pulse width modulation, the way the motor is driven -> pulse width modulation [documents]",
-        ],
-    },
-    Case {
-        name: "a section",
-        at: "document:",
-        find: "title: Introduction",
-        replace: "title: Overview",
-        expected: &["*: ~ system, section 1: document: Introduction -> Overview [documents]"],
-    },
-    Case {
-        name: "an erratum",
-        at: "errata:",
-        find: "reads: vendor number 0",
-        replace: "reads: the number 0",
-        expected: &[
-            "*: ~ system, erratum (gap) title pages: errata: vendor number 0; product code 0 and product revision 0 for b… -> the number 0; product code 0 and product revision 0 for both… [documents]",
         ],
     },
 ];
