@@ -270,8 +270,8 @@ impl Change {
     /// Whether something came, went or is another.
     pub const fn kind(&self) -> Kind {
         match (self.fact, &self.before, &self.after) {
-            (Fact::Presence, None, _) => Kind::Added,
-            (Fact::Presence, Some(_), None) => Kind::Removed,
+            (Fact::Presence | Fact::Special, None, Some(_)) => Kind::Added,
+            (Fact::Presence | Fact::Special, Some(_), None) => Kind::Removed,
             _ => Kind::Changed,
         }
     }

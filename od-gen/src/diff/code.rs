@@ -24,8 +24,8 @@ struct EntryCode {
     call: Option<String>,
     /// Its names where entries of many objects stand together.
     names: [String; 2],
-    /// What its values are, in words.
-    values: String,
+    /// What its values are.
+    values: [String; Part::ALL.len()],
 }
 
 impl Code {
@@ -50,34 +50,70 @@ impl EntryCode {
     fn of(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Self {
         let kind = &entry.kind;
         let special = kind.special.and_then(|at| plan.specials.get(at)).map(|special| special.name.clone());
-        let parts = [kind.named.clone(), kind.unit.clone(), special];
-        let mut values = kind.data_type.name().to_owned();
-        for part in parts.into_iter().flatten() {
-            values = format!("{values} as {part}");
-        }
-        match entry.place {
-            Lies::Constant(_) => values.push_str(", constant"),
-            Lies::Alias if !entry.entry.access.is_writable() => values.push_str(", never set"),
-            Lies::Image(_) | Lies::Alias | Lies::Application => {}
-        }
+        let changes = match entry.place {
+            Lies::Constant(_) => "never changes",
+            Lies::Alias if !entry.entry.access.is_writable() => "is not set",
+            Lies::Image(_) | Lies::Alias | Lies::Application => "is set",
+        };
+        let values = Part::ALL.map(|part| match part {
+            Part::Number => kind.data_type.name().to_owned(),
+            Part::Type => kind.named.clone().unwrap_or_default(),
+            Part::Unit => kind.unit.clone().unwrap_or_default(),
+            Part::Special => special.clone().unwrap_or_default(),
+            Part::Setter => changes.to_owned(),
+        });
         let names = [entry.variant.clone(), entry.name.clone()];
         Self { call: call(plan, entry), names, values }
+    }
+}
+
+/// What the value of an entry consists of in generated code.
+#[derive(Clone, Copy)]
+enum Part {
+    /// The number.
+    Number,
+    /// The enum or bit field around it.
+    Type,
+    /// The unit around it.
+    Unit,
+    /// The special values beside it.
+    Special,
+    /// Whether code sets it.
+    Setter,
+}
+
+impl Part {
+    const ALL: [Self; 5] = [Self::Number, Self::Type, Self::Unit, Self::Special, Self::Setter];
+
+    /// The facts that it follows from; those of a later row where none of an earlier one has changed.
+    const fn causes(self) -> &'static [&'static [Fact]] {
+        match self {
+            Self::Number => &[&[Fact::Type], &[Fact::ObjectType]],
+            Self::Type => &[&[Fact::Meaning]],
+            // A number with a type of its own has no unit and no special values around it.
+            Self::Unit => &[&[Fact::Unit], &[Fact::Type, Fact::Meaning]],
+            Self::Special => &[&[Fact::Special], &[Fact::Type, Fact::Meaning]],
+            Self::Setter => &[&[Fact::Alias], &[Fact::Access, Fact::Default]],
+        }
+    }
+
+    const fn consequence(self) -> Consequence {
+        Consequence::new(
+            Class::Firmware,
+            match self {
+                Self::Number | Self::Type | Self::Unit | Self::Special => {
+                    "generated code has another type for it"
+                }
+                Self::Setter => "generated code has no setter for it, or another one",
+            },
+        )
     }
 }
 
 /// Facts that names in generated code are made from.
 const NAMES: &[&[Fact]] = &[&[Fact::Name, Fact::Identifier]];
 
-/// Facts from which follows what values are in generated code: those that decide it and, where none of them has changed, those
-/// that make a constant of a value.
-const VALUES: &[&[Fact]] = &[
-    &[Fact::Type, Fact::Meaning, Fact::Unit, Fact::Special, Fact::Alias, Fact::ObjectType],
-    &[Fact::Access, Fact::Default],
-];
-
 const OTHER_NAME: Consequence = Consequence::new(Class::Firmware, "generated code has another name for it");
-const OTHER_TYPE: Consequence =
-    Consequence::new(Class::Firmware, "generated code has another type or no setter for it");
 const NO_FIELD: Consequence = Consequence::new(Class::Firmware, "the PDO has lost a field in generated code");
 const GONE: Consequence = Consequence::new(Class::Firmware, "it is gone from generated code");
 
@@ -95,7 +131,7 @@ pub(super) fn judge(old: &Code, new: &Code, device: &str, changes: &mut Vec<Chan
         if change.fact == Fact::Map && fields(old).iter().any(|field| !now.contains(field)) {
             change.follows([NO_FIELD]);
         }
-        if change.kind() == Kind::Removed {
+        if change.fact == Fact::Presence && change.kind() == Kind::Removed {
             change.follows([GONE]);
         }
     }
@@ -106,9 +142,9 @@ pub(super) fn judge(old: &Code, new: &Code, device: &str, changes: &mut Vec<Chan
             let calls = [&before.call, &after.call].map(|call| call.clone().unwrap_or_default());
             attribute(*id, NAMES, &OTHER_NAME, calls, changes);
         }
-        if before.values != after.values {
-            let values = [before.values.clone(), after.values.clone()];
-            attribute(*id, VALUES, &OTHER_TYPE, values, changes);
+        let values = before.values.iter().zip(&after.values);
+        for (part, (old, new)) in Part::ALL.into_iter().zip(values).filter(|(_, (old, new))| old != new) {
+            attribute(*id, part.causes(), &part.consequence(), [old.clone(), new.clone()], changes);
         }
     }
 }

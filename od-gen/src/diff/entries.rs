@@ -199,7 +199,7 @@ impl Pair<'_> {
         let mut changes = Vec::new();
         for raw in raws {
             let (before, after) = (find(old, raw), find(new, raw));
-            let part = format!("value {}", VALUES.special_number(self.new, raw));
+            let part = format!("special value {}", VALUES.special_number(self.new, raw));
             let names = [&before, &after].map(|one| one.as_ref().map(|special| special.name.clone()));
             let [old_name, new_name] = names;
             if let Some(change) = self.of(Fact::Special, old_name, new_name) {

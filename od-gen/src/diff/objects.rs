@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use od_spec::model::{Dictionary, Entry, EntryId, Fact, Index, Object, PdoTarget, Role, SubIndex, Value};
+use od_spec::model::{
+    Dictionary, Entry, EntryId, Fact, Index, Object, Pdo, PdoTarget, Role, SubIndex, Value,
+};
 
 use super::change::{Change, Class, Place};
 use super::entries::Pair;
@@ -43,6 +45,21 @@ impl Devices<'_> {
                 ),
                 (None, None) => {}
             }
+        }
+        changes.extend(self.pdos());
+        changes
+    }
+
+    /// Texts about PDOs; everything else about them is in their parameter objects.
+    fn pdos(self) -> Vec<Change> {
+        let mut changes = Vec::new();
+        for new in &self.new.pdos {
+            let is_same = |old: &&Pdo| (old.direction, old.number) == (new.direction, new.number);
+            let Some(old) = self.old.pdos.iter().find(is_same) else { continue };
+            let place = Place::Object(Index(new.communication_index()));
+            let name = format!("{} {}", new.direction.pdo(), new.number);
+            let found = texts(&place, Fact::About, &old.about, &new.about, self.language);
+            changes.extend(found.into_iter().map(|change| change.named(&name)));
         }
         changes
     }

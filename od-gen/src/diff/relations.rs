@@ -76,10 +76,7 @@ impl Systems<'_> {
             Change::of(place.clone(), Fact::Priority, before.priority.clone(), after.priority.clone())
                 .map(|change| change.so(Class::Behaviour, "the device treats the error otherwise"));
         let reaction = texts(&place, Fact::Reaction, &before.reaction, &after.reaction, language);
-        let reaction = reaction.into_iter().map(|mut change| {
-            change.consequences.clear();
-            change.so(Class::Behaviour, "the device does something else")
-        });
+        let reaction = reaction.into_iter().map(|change| behaves(change, DOES_SOMETHING_ELSE));
         let about = texts(&place, Fact::About, &before.about, &after.about, language);
         let found = name.into_iter().chain(priority).chain(reaction).chain(about);
         found.map(|change| change.named(&after.name)).collect()
@@ -229,10 +226,16 @@ impl Systems<'_> {
                 (Some(before), Some(after)) => {
                     let change = Change::text(place.clone(), Fact::Meaning, &ways(before), &ways(after));
                     let change = change.map(|change| change.so(Class::Plc, "it leads elsewhere"));
-                    let event = texts(place, Fact::About, &before.event, &after.event, language);
-                    let action = texts(place, Fact::Reaction, &before.action, &after.action, language);
-                    let found = change.into_iter().chain(event).chain(action);
-                    changes.extend(found.map(|change| change.part(part.clone())));
+                    changes.extend(change.map(|change| change.part(part.clone())));
+                    let words = [
+                        ("event", &before.event, &after.event, "something else causes it"),
+                        ("action", &before.action, &after.action, DOES_SOMETHING_ELSE),
+                    ];
+                    for (word, before, after, because) in words {
+                        let found = texts(place, Fact::Reaction, before, after, language);
+                        let found = found.into_iter().map(|change| behaves(change, because));
+                        changes.extend(found.map(|change| change.part(format!("{part}, {word}"))));
+                    }
                 }
                 (Some(before), None) => changes.push(
                     Change::removed(place.clone(), ways(before))
@@ -249,6 +252,14 @@ impl Systems<'_> {
         }
         changes
     }
+}
+
+const DOES_SOMETHING_ELSE: &str = "the device does something else";
+
+/// A text that says how the device behaves, and so is more than words.
+fn behaves(mut change: Change, because: &'static str) -> Change {
+    change.consequences.clear();
+    change.so(Class::Behaviour, because)
 }
 
 /// The transitions that a command causes.

@@ -158,7 +158,11 @@ impl Members<'_> {
             changes.push(
                 change
                     .part(part)
-                    .with(rules::meaning(&before.name, &after.name, is_anothers))
+                    .with(if before.supported || after.supported {
+                        rules::meaning(&before.name, &after.name, is_anothers)
+                    } else {
+                        support(false, false)
+                    })
                     .with(self.gone_from(&before.name, now)),
             );
         }

@@ -114,7 +114,7 @@ fn what_an_eds_states_is_compared() {
         lines.lines().collect::<Vec<_>>(),
         [
             "pmm: ~ 3068h test voltage: name: battery test voltage -> test voltage [plc]",
-            "pmm: ~ 30E3h selftest time: max: nothing -> 600 [plc]",
+            "pmm: ~ 30E3h selftest time: max: none -> 600 [plc]",
         ]
     );
     let text = human(&found, false);

@@ -66,7 +66,7 @@ const CASES: &[Case] = &[
         replace: "access: rw, elements: {3: {unit: percent}}}",
         expected: &[
             "lamp: ~ 2002h levels: identifier: levels(1) -> levels().level_1() [firmware]",
-            "lamp: ~ 2002h.3 levels.level 3: unit: nothing -> 1 % [firmware]",
+            "lamp: ~ 2002h.3 levels.level 3: unit: none -> 1 % [firmware]",
         ],
     },
     Case {
@@ -76,7 +76,7 @@ const CASES: &[Case] = &[
         replace: "access: const, default: 0",
         expected: &[
             "lamp: ~ 2003h mode: access: rw -> const [plc, firmware]",
-            "lamp: ~ 2003h mode: default: nothing -> 0: steady [firmware, behaviour]",
+            "lamp: ~ 2003h mode: default: none -> 0: steady [firmware, behaviour]",
         ],
     },
     Case {
@@ -84,7 +84,7 @@ const CASES: &[Case] = &[
         at: "0x2003",
         find: "type: mode",
         replace: "type: unsigned8",
-        expected: &["lamp: ~ 2003h mode: meaning: mode -> nothing [firmware, addition]"],
+        expected: &["lamp: ~ 2003h mode: meaning: mode -> none [firmware, addition]"],
     },
     Case {
         name: "a type that no entry uses",
@@ -153,7 +153,7 @@ fn what_cannot_be_code_breaks_no_firmware() {
     let found = changed("capacity: 16, access", "access");
     let device = &found.devices[0];
     assert_eq!(device.unknown, [Unknown::Firmware, Unknown::Stored]);
-    assert_eq!(short(&found), "lamp: ~ 2001h place: capacity: 16 bytes -> nothing [documents]\n");
+    assert_eq!(short(&found), "lamp: ~ 2001h place: capacity: 16 bytes -> none [documents]\n");
 }
 
 /// The numbers of the old file are 1 and 9, and 0.0.

@@ -18,7 +18,8 @@ pub fn human(difference: &Difference, colour: bool) -> String {
         paint.changes(&mut text, &difference.system);
     }
     for device in &difference.devices {
-        if device.changes.is_empty() {
+        let sentences = advice::sentences(&device.proposals);
+        if device.changes.is_empty() && sentences.is_empty() {
             continue;
         }
         let _ = writeln!(text, "{}", paint.bold(&format!("{}  {}", device.key, device.name)));
@@ -26,7 +27,6 @@ pub fn human(difference: &Difference, colour: bool) -> String {
         for one in &device.unknown {
             let _ = writeln!(text, "  note: {}", unknown(*one));
         }
-        let sentences = advice::sentences(&device.proposals);
         if !sentences.is_empty() {
             let _ = writeln!(text, "  proposed: {}", sentences.join("; "));
         }

@@ -52,7 +52,7 @@ fn users(list: &str) -> String {
 
 /// The fact with its values: `type: unsigned8 → unsigned16`.
 pub(super) fn values(change: &Change, style: Style) -> String {
-    let whole = |value: &Option<String>| value.clone().unwrap_or_else(|| "nothing".to_owned());
+    let whole = |value: &Option<String>| value.clone().unwrap_or_else(|| "none".to_owned());
     let (before, after) = (whole(&change.before), whole(&change.after));
     let (before, after) = match style.longest {
         Some(longest) if is_prose(change.fact) => cut(&before, &after, longest),

@@ -159,4 +159,11 @@ pub(crate) const CASES: &[Case] = &[
             "pmc: + 1A04h TPDO 5 mapping parameter: RECORD with 9 entries [stored, addition]",
         ],
     },
+    Case {
+        name: "a description of a PDO",
+        at: "pdos:",
+        find: "1: {cob-id: $NODEID + 0x200, map: [0x6040]}",
+        replace: "1: {cob-id: $NODEID + 0x200, map: [0x6040], about: The commands.}",
+        expected: &["pmc: ~ 1400h RPDO 1: about: none -> The commands. [documents]"],
+    },
 ];

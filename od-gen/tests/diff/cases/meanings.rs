@@ -145,6 +145,15 @@ pub(crate) const CASES: &[Case] = &[
         at: "  0x5094:",
         find: "    type: encoder code\n    access: rw\n    default: ENDAT",
         replace: "    type: unsigned16\n    access: rw\n    default: 0",
-        expected: &["pmc: ~ 5094h encoder code: meaning: encoder code -> nothing [firmware, addition]"],
+        expected: &["pmc: ~ 5094h encoder code: meaning: encoder code -> none [firmware, addition]"],
+    },
+    Case {
+        name: "another name of a value that is not supported",
+        at: "  battery type:",
+        find: "name: sealed lead,",
+        replace: "name: lead gel,",
+        expected: &[
+            "pmm: ~ type `battery type` (3020h.1), value 25: meaning: sealed lead -> lead gel [firmware]",
+        ],
     },
 ];

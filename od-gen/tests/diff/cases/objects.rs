@@ -72,14 +72,14 @@ pub(crate) const CASES: &[Case] = &[
         at: "  0x3001:",
         find: "    on: pmm\n",
         replace: "    on: pmm\n    identifier: charger\n",
-        expected: &["pmm: ~ 3001h charger status: identifier: nothing -> charger [firmware]"],
+        expected: &["pmm: ~ 3001h charger status: identifier: none -> charger [firmware]"],
     },
     Case {
         name: "an identifier that changes nothing",
         at: "  0x3001:",
         find: "    on: pmm\n",
         replace: "    on: pmm\n    identifier: charger_status\n",
-        expected: &["pmm: ~ 3001h charger status: identifier: nothing -> charger_status [documents]"],
+        expected: &["pmm: ~ 3001h charger status: identifier: none -> charger_status [documents]"],
     },
     Case {
         name: "an array becomes a record",
@@ -170,7 +170,7 @@ pub(crate) const CASES: &[Case] = &[
         at: "  0x3005:",
         find: "    on: pmm\n",
         replace: "    on: pmm\n    category: optional\n",
-        expected: &["pmm: ~ 3005h test status: category: nothing -> optional [documents]"],
+        expected: &["pmm: ~ 3005h test status: category: none -> optional [documents]"],
     },
     Case {
         name: "the issue that brought it",
@@ -193,8 +193,6 @@ pub(crate) const CASES: &[Case] = &[
         at: "  0x3006:",
         find: ", 5: 0x4410}",
         replace: "}",
-        expected: &[
-            "pmm: ~ 3006h battery temperature status, bit 5: bit-errors: 4410h -> nothing [documents]",
-        ],
+        expected: &["pmm: ~ 3006h battery temperature status, bit 5: bit-errors: 4410h -> none [documents]"],
     },
 ];

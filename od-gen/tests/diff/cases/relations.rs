@@ -105,4 +105,20 @@ pub(crate) const CASES: &[Case] = &[
             "pmc: ~ state machine `power drive`, transition 14: meaning: from Fault reaction active to Fault -> from Fault reaction active to Switch-on disabled [plc]",
         ],
     },
+    Case {
+        name: "a transition has another action",
+        at: "state-machines:",
+        find: "action: The watchdog contact closes.",
+        replace: "action: The watchdog contact stays closed.",
+        expected: &[
+            "pmc: ~ state machine `power drive`, transition 15, action: reaction: The watchdog contact closes. -> The watchdog contact stays closed. [behaviour]",
+        ],
+    },
+    Case {
+        name: "a priority comes",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage,",
+        replace: "  0x3120: {priority: B, name: Grid under voltage,",
+        expected: &["pmm: ~ error 3120h Grid under voltage: priority: none -> B [behaviour]"],
+    },
 ];
