@@ -50,17 +50,17 @@ impl EntryCode {
     fn of(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Self {
         let kind = &entry.kind;
         let special = kind.special.and_then(|at| plan.specials.get(at)).map(|special| special.name.clone());
-        let changes = match entry.place {
-            Lies::Constant(_) => "never changes",
-            Lies::Alias if !entry.entry.access.is_writable() => "is not set",
-            Lies::Image(_) | Lies::Alias | Lies::Application => "is set",
+        let setter = match entry.place {
+            Lies::Image(_) => "set",
+            Lies::Alias if entry.entry.access.is_writable() => "set through another entry",
+            Lies::Constant(_) | Lies::Alias | Lies::Application => "",
         };
         let values = Part::ALL.map(|part| match part {
             Part::Number => kind.data_type.name().to_owned(),
             Part::Type => kind.named.clone().unwrap_or_default(),
             Part::Unit => kind.unit.clone().unwrap_or_default(),
             Part::Special => special.clone().unwrap_or_default(),
-            Part::Setter => changes.to_owned(),
+            Part::Setter => setter.to_owned(),
         });
         let names = [entry.variant.clone(), entry.name.clone()];
         Self { call: call(plan, entry), names, values }
@@ -78,7 +78,7 @@ enum Part {
     Unit,
     /// The special values beside it.
     Special,
-    /// Whether code sets it.
+    /// How code sets it, if it can.
     Setter,
 }
 
@@ -143,7 +143,12 @@ pub(super) fn judge(old: &Code, new: &Code, device: &str, changes: &mut Vec<Chan
             attribute(*id, NAMES, &OTHER_NAME, calls, changes);
         }
         let values = before.values.iter().zip(&after.values);
-        for (part, (old, new)) in Part::ALL.into_iter().zip(values).filter(|(_, (old, new))| old != new) {
+        for (part, (old, new)) in Part::ALL.into_iter().zip(values) {
+            // A setter that comes breaks nothing.
+            let is_new_setter = matches!(part, Part::Setter) && old.is_empty();
+            if old == new || is_new_setter {
+                continue;
+            }
             attribute(*id, part.causes(), &part.consequence(), [old.clone(), new.clone()], changes);
         }
     }

@@ -1,7 +1,7 @@
 //! How facts read in a report. Values are written as in a comment of an EDS, with the raw number that a project sends; words
 //! are those of the specification.
 
-use od_spec::model::{Entry, Fact, Index, NamedType, Unit, Value};
+use od_spec::model::{Entry, Fact, Index, Unit, Value};
 use od_spec::wording::{Notation, Wording};
 
 pub(super) const VALUES: Wording = Wording::english(Notation::Eds);
@@ -23,8 +23,7 @@ pub(super) fn unit(unit: &Unit) -> String {
 
 /// What an entry is, for one that came or went: `unsigned16 rw`.
 pub(super) fn entry(entry: &Entry) -> String {
-    let named =
-        entry.named_type.as_ref().map(|named: &std::sync::Arc<NamedType>| format!(" ({})", named.name));
+    let named = entry.named_type.as_ref().map(|named| format!(" ({})", named.name));
     format!("{}{} {}", entry.data_type.name(), named.unwrap_or_default(), WORDS.access(entry))
 }
 

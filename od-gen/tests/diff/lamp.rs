@@ -147,6 +147,18 @@ fn devices_come_and_go() {
     assert_eq!(lines, "*: - device torch: Torch [plc, firmware]\n");
 }
 
+/// A setter that comes breaks no code; one that goes does.
+#[test]
+fn a_constant_becomes_a_value() {
+    let constant = LAMP.replace("type: mode, access: rw", "type: mode, access: const, default: 0");
+    let value = LAMP.replace("type: mode, access: rw", "type: mode, access: rw, default: 0");
+    let (constant, value) = (system(&constant), system(&value));
+    let there = short(&difference(&constant, &value, Scope::Everything));
+    assert_eq!(there, "lamp: ~ 2003h mode: access: const -> rw [behaviour, addition]\n");
+    let back = short(&difference(&value, &constant, Scope::Everything));
+    assert_eq!(back, "lamp: ~ 2003h mode: access: rw -> const [plc, firmware]\n");
+}
+
 /// Nothing is said about what cannot be known.
 #[test]
 fn what_cannot_be_code_breaks_no_firmware() {
