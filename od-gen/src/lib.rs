@@ -8,6 +8,8 @@ mod artifact;
 mod artifacts;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "diff")]
+pub mod diff;
 #[cfg(feature = "docs")]
 pub mod docs;
 #[cfg(feature = "eds")]

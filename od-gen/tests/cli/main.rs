@@ -8,6 +8,7 @@ mod check_inputs;
 mod check_policy;
 mod codes;
 mod dcf;
+mod diff;
 mod docs;
 mod foreign;
 mod formats;
