@@ -98,6 +98,7 @@ pub fn specification(
 ) -> Result<Specification, Diagnostics> {
     let mut draft = Draft { system: system.clone(), device: device.clone() };
     let left_out = leave_out(&mut draft);
+    name_device(&mut draft);
     let mut remarks = Remarks::default();
     names::settle(&mut draft.device, &mut remarks.repairs);
     let plain = mended(&mut draft, options, &mut remarks)?;
@@ -127,6 +128,19 @@ fn leave_out(draft: &mut Draft) -> Vec<String> {
         }
     }
     left_out
+}
+
+/// A specification has a title and its device a name, which no EDS shows; where the model has none, the product's stands in.
+fn name_device(draft: &mut Draft) {
+    let (title, device) = (&mut draft.system.title, &mut draft.device);
+    let named = |text: &str| !text.trim().is_empty();
+    if !named(&device.name) {
+        let product = Some(&device.info.product_name).filter(|name| named(name));
+        device.name = product.unwrap_or(&device.key).clone();
+    }
+    if !named(title) {
+        title.clone_from(&device.name);
+    }
 }
 
 /// The errors of a text.
