@@ -4,9 +4,12 @@
 //! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
 //! read, mended, compared and written back before anybody has understood it.
 
+pub(crate) mod check;
 pub(crate) mod codes;
 mod document;
 mod encoding;
+pub(crate) mod example;
+mod findings;
 pub(crate) mod names;
 pub(crate) mod number;
 mod scan;
@@ -14,3 +17,7 @@ pub(crate) mod view;
 
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
 pub use encoding::{Encoding, decode, encode};
+pub use findings::findings;
+
+#[cfg(test)]
+mod examples;

@@ -1,0 +1,53 @@
+//! Everything that can be said about an EDS or DCF.
+
+use super::check::{self, FormatRule};
+use super::document::Document;
+use super::encoding::Encoding;
+use super::view::{FileFacts, View};
+use crate::diag::Diagnostics;
+use crate::source::{FileId, SourceMap};
+
+/// What is wrong with the EDS or DCF `file` of `sources`, as serious as the standard takes it; sorted by place.
+///
+/// `encoding` is what [`decode`](super::decode) told about the file's bytes. The file is taken as a DCF if its name says so.
+///
+/// ```
+/// use od_spec::eds::{Encoding, findings};
+/// use od_spec::source::SourceMap;
+///
+/// let mut sources = SourceMap::new();
+/// let file = sources.add("lamp.eds", "[Comments]\nLines=1\n");
+/// let found = findings(&sources, file, Encoding::Ascii);
+/// assert!(found.iter().any(|one| one.message == "`Lines` is 1, but there are no entries"));
+/// ```
+pub fn findings(sources: &SourceMap, file: FileId, encoding: Encoding) -> Diagnostics {
+    findings_with(check::RULES.iter(), sources, file, encoding)
+}
+
+/// The same under some of the rules.
+pub(crate) fn findings_with<'r>(
+    rules: impl Iterator<Item = &'r FormatRule>,
+    sources: &SourceMap,
+    file: FileId,
+    encoding: Encoding,
+) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
+    let source = sources.file(file);
+    let name = file_name(source.name());
+    let document = Document::scan(file, source.text());
+    let facts = FileFacts { name, encoding };
+    let view = View::new(&document, file, is_dcf(name), facts);
+    check::document_with(rules, &view, &mut diagnostics);
+    diagnostics.sort();
+    diagnostics
+}
+
+/// The name of a file without its directories.
+pub(crate) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+/// Whether a file is called a DCF.
+pub(crate) fn is_dcf(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("dcf"))
+}
