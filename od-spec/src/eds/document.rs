@@ -299,9 +299,28 @@ impl<'t> Line<'t> {
         Span { file, start: self.start + part.start, end: self.start + part.end }
     }
 
-    /// The parts of the text that are name, key or value.
-    pub(super) const fn content(&self) -> Content {
-        self.content
+    /// The name in a header.
+    pub(super) const fn name_part(&self) -> Option<Part> {
+        match self.content {
+            Content::Header { name } => Some(name),
+            Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => None,
+        }
+    }
+
+    /// The key in front of the equals sign.
+    pub(super) const fn key_part(&self) -> Option<Part> {
+        match self.content {
+            Content::KeyValue { key, .. } => Some(key),
+            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
+        }
+    }
+
+    /// The value behind the equals sign.
+    pub(super) const fn value_part(&self) -> Option<Part> {
+        match self.content {
+            Content::KeyValue { value, .. } => Some(value),
+            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
+        }
     }
 }
 

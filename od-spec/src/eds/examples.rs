@@ -2,17 +2,19 @@
 //! accepted.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
+use super::Encoding;
 use super::check::{FormatRule, RULES};
-use super::encoding::Encoding;
 use super::findings::findings_with;
 use crate::diag::{Diagnostics, Example};
 use crate::source::SourceMap;
 
 fn said<'r>(rules: impl Iterator<Item = &'r FormatRule>, example: Example, text: &str) -> Diagnostics {
+    let rules: Vec<&FormatRule> = rules.collect();
     let mut sources = SourceMap::new();
     let file = sources.add(example.language.file_name(), example.whole(text));
-    findings_with(rules, &sources, file, Encoding::Ascii)
+    findings_with(&rules, &sources, file, Encoding::Ascii)
 }
 
 fn codes(diagnostics: &Diagnostics) -> BTreeSet<&'static str> {
@@ -25,7 +27,9 @@ fn example(rule: &FormatRule) -> Example {
 
 /// What is said, in a form that people can read.
 fn told(diagnostics: &Diagnostics) -> String {
-    diagnostics.iter().map(|one| format!("\n  {}: {}", one.code, one.message)).collect()
+    let lines: Vec<String> =
+        diagnostics.iter().map(|one| format!("\n  {}: {}", one.code, one.message)).collect();
+    lines.concat()
 }
 
 #[test]
@@ -35,11 +39,11 @@ fn the_example_of_a_rule_is_refused_by_it_and_accepted_when_put_right() {
         let (id, example) = (rule.code.id, example(rule));
         let before = said(RULES.iter(), example, example.before);
         if codes(&before) != BTreeSet::from([id]) {
-            wrong.push_str(&format!("\n{id}, before:{}", told(&before)));
+            let _ = write!(wrong, "\n{id}, before:{}", told(&before));
         }
         let after = said(RULES.iter(), example, example.after);
         if !after.is_empty() {
-            wrong.push_str(&format!("\n{id}, after:{}", told(&after)));
+            let _ = write!(wrong, "\n{id}, after:{}", told(&after));
         }
     }
     assert!(wrong.is_empty(), "{wrong}");

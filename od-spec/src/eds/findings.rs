@@ -1,8 +1,8 @@
 //! Everything that can be said about an EDS or DCF.
 
-use super::check::{self, FormatRule};
+use super::Encoding;
+use super::check;
 use super::document::Document;
-use super::encoding::Encoding;
 use super::view::{FileFacts, View};
 use crate::diag::Diagnostics;
 use crate::source::{FileId, SourceMap};
@@ -21,23 +21,34 @@ use crate::source::{FileId, SourceMap};
 /// assert!(found.iter().any(|one| one.message == "`Lines` is 1, but there are no entries"));
 /// ```
 pub fn findings(sources: &SourceMap, file: FileId, encoding: Encoding) -> Diagnostics {
-    findings_with(check::RULES.iter(), sources, file, encoding)
+    said(sources, file, encoding, check::document)
 }
 
 /// The same under some of the rules.
-pub(crate) fn findings_with<'r>(
-    rules: impl Iterator<Item = &'r FormatRule>,
+#[cfg(test)]
+pub(super) fn findings_with(
+    rules: &[&check::FormatRule],
     sources: &SourceMap,
     file: FileId,
     encoding: Encoding,
+) -> Diagnostics {
+    said(sources, file, encoding, |view, diagnostics| {
+        check::document_with(rules.iter().copied(), view, diagnostics);
+    })
+}
+
+fn said(
+    sources: &SourceMap,
+    file: FileId,
+    encoding: Encoding,
+    check: impl FnOnce(&View<'_>, &mut Diagnostics),
 ) -> Diagnostics {
     let mut diagnostics = Diagnostics::new();
     let source = sources.file(file);
     let name = file_name(source.name());
     let document = Document::scan(file, source.text());
-    let facts = FileFacts { name, encoding };
-    let view = View::new(&document, file, is_dcf(name), facts);
-    check::document_with(rules, &view, &mut diagnostics);
+    let view = View::new(&document, file, is_dcf(name), FileFacts { name, encoding });
+    check(&view, &mut diagnostics);
     diagnostics.sort();
     diagnostics
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::document::{Content, Document, Line, LineKind, SectionRef};
-use super::encoding::Encoding;
+use super::Encoding;
+use super::document::{Document, Line, LineKind, SectionRef};
 use super::names::{ElementList, List, ModuleTopic, Topic, topic};
 use crate::model::Index;
 use crate::source::{FileId, Span, Spanned};
@@ -201,17 +201,12 @@ impl<'d> Part<'d> {
 
 /// The place of the name in a header.
 pub(crate) fn name_place(header: &Line<'_>, file: FileId) -> Span {
-    match header.content() {
-        Content::Header { name } => header.part(file, name),
-        Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => {
-            Span { file, start: 0, end: 0 }
-        }
-    }
+    header.name_part().map_or(Span { file, start: 0, end: 0 }, |name| header.part(file, name))
 }
 
 /// A line's key and value with their places; `None` for a line without.
 pub(crate) fn entry<'d>(line: &'d Line<'d>, file: FileId) -> Option<Entry<'d>> {
-    let Content::KeyValue { key, value } = line.content() else { return None };
+    let (key, value) = (line.key_part()?, line.value_part()?);
     Some(Entry {
         key: Spanned::new(line.key()?, line.part(file, key)),
         value: Spanned::new(line.value()?, line.part(file, value)),

@@ -83,7 +83,7 @@ impl Time {
         }
         let hour = match (half, hour) {
             (None, 0..=23) => hour,
-            (Some((_, "AM")), 1..=11) => hour,
+            (Some((_, "AM")), 0..=11) => hour,
             (Some((_, "AM")), 12) => 0,
             (Some((_, "PM")), 1..=11) => hour + 12,
             // A time of 24 hours that says once more that it is after noon.
@@ -164,10 +164,11 @@ mod tests {
             ("00:07", "12:07AM"),
             ("12:05:34", "12:05PM"),
             ("17:27PM", "05:27PM"),
+            ("00:30AM", "12:30AM"),
         ] {
             assert_eq!(Time::read(text).map(|time| time.to_string()).as_deref(), Some(time), "{text}");
         }
-        for text in ["", "17:27AM", "00:30PM", "00:30AM", "24:00", "12:60", "12", "1:2:3:4", "ab:cd"] {
+        for text in ["", "17:27AM", "00:30PM", "24:00", "12:60", "12", "1:2:3:4", "ab:cd"] {
             assert_eq!(Time::read(text), None, "{text}");
         }
     }

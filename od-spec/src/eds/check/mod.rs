@@ -6,11 +6,17 @@ mod calendar;
 mod edits;
 mod enumeration;
 mod keys;
+mod numbered;
+mod object_form;
 mod repeated;
 mod rule;
 
+mod commissioning;
 mod information;
 mod lines;
+mod lists;
+mod modules;
+mod objects;
 
 use crate::diag::Diagnostics;
 use crate::eds::view::View;
@@ -58,8 +64,43 @@ pub(crate) static RULES: &[FormatRule] = &[
     information::pdo_counts_agree::RULE,
     information::implied_pdos_are_whole::RULE,
     information::dynamic_channels_agree::RULE,
-    information::dummies_are_types::RULE,
+    information::dummies_are_allowed_or_not::RULE,
     information::every_dummy_is_mentioned::RULE,
+    information::dummies_are_static_types::RULE,
+    lists::lists_exist::RULE,
+    lists::counts_agree::RULE,
+    lists::lists_are_numbered::RULE,
+    lists::entries_are_indices::RULE,
+    lists::objects_are_listed_once::RULE,
+    lists::listed_objects_are_described::RULE,
+    lists::objects_are_listed::RULE,
+    lists::objects_are_in_their_list::RULE,
+    lists::mandatory_objects_are_those_of_the_standard::RULE,
+    lists::data_types_are_not_listed::RULE,
+    lists::lists_ascend::RULE,
+    objects::structured_objects_have_no_value::RULE,
+    objects::single_values_have_no_sub_indices::RULE,
+    objects::sub_indices_are_counted_in_one_way::RULE,
+    objects::sub_indices_are_counted::RULE,
+    objects::sub_number_agrees::RULE,
+    objects::flags_are_defined::RULE,
+    objects::flags_are_needed::RULE,
+    objects::links_lead_somewhere::RULE,
+    modules::modules_are_described::RULE,
+    modules::modules_bring_something::RULE,
+    modules::objects_of_modules_are_one_thing::RULE,
+    modules::shared_objects_agree::RULE,
+    modules::extensions_can_be_counted::RULE,
+    modules::connected_modules_are_supported::RULE,
+    commissioning::a_node_is_commissioned::RULE,
+    commissioning::commissioning_has_its_name::RULE,
+    commissioning::node_id_is_one::RULE,
+    commissioning::node_is_identified::RULE,
+    commissioning::bit_rate_is_standard::RULE,
+    commissioning::bit_rate_is_supported::RULE,
+    commissioning::serial_numbers_agree::RULE,
+    commissioning::files_belong_to_domains::RULE,
+    commissioning::settings_belong_to_a_dcf::RULE,
 ];
 
 /// Applies all rules to a text.

@@ -1,5 +1,7 @@
 //! One finding for what a file does on many lines.
 
+use std::fmt::Write as _;
+
 use crate::diag::{Diagnostic, Diagnostics, Edit};
 use crate::source::Span;
 
@@ -35,10 +37,18 @@ impl Repeated {
         let Some((_, mut diagnostic)) = self.first else { return };
         if self.places > 1 {
             let more = self.places - 1;
-            let places = if more == 1 { places.strip_suffix('s').unwrap_or(places) } else { places };
-            diagnostic.message.push_str(&format!("; {more} more {places} like this"));
+            let _ = write!(diagnostic.message, "; {more} more {} like this", counted(places, more));
         }
         diagnostic.edits.extend(self.edits);
         diagnostics.push(diagnostic);
+    }
+}
+
+/// A plural, or the singular for one.
+fn counted(plural: &str, count: usize) -> String {
+    match (count, plural.strip_suffix("ies")) {
+        (1, Some(stem)) => format!("{stem}y"),
+        (1, None) => plural.strip_suffix('s').unwrap_or(plural).to_owned(),
+        _ => plural.to_owned(),
     }
 }

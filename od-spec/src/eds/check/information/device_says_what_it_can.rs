@@ -46,7 +46,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(part) = view.section(Topic::DeviceInfo) else { return };
     let missing: Vec<&str> = KEYS.into_iter().filter(|key| part.value(key).is_none()).collect();
     if !missing.is_empty() {
-        let message = format!("`[DeviceInfo]` does not say {}, which counts as 0", enumeration(&missing));
+        let counts = if missing.len() == 1 { "counts" } else { "count" };
+        let message = format!("`[DeviceInfo]` does not say {}, which {counts} as 0", enumeration(&missing));
         diagnostics.push(Diagnostic::new(CODE, part.place(), message).help("add the keys"));
     }
 }

@@ -1,5 +1,6 @@
 //! The device says how many PDOs it has.
 
+use super::super::edits;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
 use crate::eds::names::Topic;
@@ -36,14 +37,22 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         }
         let entry = part.key(key);
         let place = entry.map_or(part.place(), |entry| entry.value.span);
-        let message = format!("`{key}` is {declared}, but the file describes {described} {what} PDOs");
+        let message =
+            format!("`{key}` is {declared}, but the number of {what} PDOs that are described is {described}");
         let mut diagnostic = Diagnostic::new(CODE, place, message);
-        diagnostic.edits.extend(entry.map(|_| Edit { span: place, text: described.to_string() }));
-        diagnostics.push(diagnostic.help(if compact == 0 {
-            "write the number of PDOs that are described; `odgen fix` does"
-        } else {
-            "a device may have more PDOs than it describes, but not fewer; `odgen fix` writes the number"
-        }));
+        // What is described is there; whether the others are, only the maker knows.
+        if declared > described {
+            diagnostics
+                .push(diagnostic.help("describe the others, or write the number of PDOs that are described"));
+            continue;
+        }
+        let last = part.sections.first().map(edits::last_line);
+        diagnostic.edits.extend(match (entry, last) {
+            (Some(_), _) => Some(Edit { span: place, text: described.to_string() }),
+            (None, Some(line)) => Some(edits::below(view, line, [format!("{key}={described}").as_str()])),
+            (None, None) => None,
+        });
+        diagnostics.push(diagnostic.help(format!("write `{key}={described}`; `odgen fix` does")));
     }
 }
 

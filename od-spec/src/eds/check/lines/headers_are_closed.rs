@@ -3,7 +3,7 @@
 use super::super::edits;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::document::{Content, LineKind};
+use crate::eds::document::LineKind;
 use crate::eds::names::{Topic, topic};
 use crate::eds::view::View;
 
@@ -25,19 +25,19 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     for line in view.document.lines() {
         let text = line.text();
         let place = edits::place(view, line);
-        let (name, edit) = match line.content() {
-            Content::Header { name } if !text.contains(']') => {
+        let (name, edit) = match (line.kind(), line.name_part()) {
+            (LineKind::Header, Some(name)) if !text.contains(']') => {
                 let rest = place.part(name.end as usize, text.len());
                 (line.name().unwrap_or_default(), Edit { span: rest, text: "]".to_owned() })
             }
-            Content::Unreadable => {
+            (LineKind::Unreadable, _) => {
                 let bare = text.trim_end().strip_suffix(']').unwrap_or_default();
                 (
                     bare.trim_start(),
                     Edit { span: place.part(0, text.len() - text.trim_start().len()), text: "[".to_owned() },
                 )
             }
-            Content::Header { .. } | Content::Blank | Content::Comment | Content::KeyValue { .. } => continue,
+            _ => continue,
         };
         let is_known = topic(name) != Topic::Unknown;
         if line.kind() == LineKind::Unreadable && !is_known {

@@ -18,8 +18,8 @@ const CODE: &Code = &Code {
         no key for anybody: editors of CANopen and PLC tools refuse files with it or find no objects.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
-        "[OptionalObjects]\nSupported Objects=0",
-        "[OptionalObjects]\nSupportedObjects=0",
+        "[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nScale-Factor=10",
+        "; scale factor: 10\n[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro",
     )),
 };
 

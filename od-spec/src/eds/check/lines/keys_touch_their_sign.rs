@@ -4,7 +4,6 @@ use super::super::edits;
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::document::Content;
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -24,7 +23,7 @@ const CODE: &Code = &Code {
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for line in view.document.lines() {
-        let Content::KeyValue { key, .. } = line.content() else { continue };
+        let Some(key) = line.key_part() else { continue };
         let (start, end) = (key.start as usize, key.end as usize);
         let Some(sign) = line.text()[end..].find('=').map(|at| end + at) else { continue };
         if (start == 0 && end == sign) || line.text().starts_with('\u{FEFF}') {

@@ -2,7 +2,7 @@
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
-use crate::eds::encoding::Encoding;
+use crate::eds::Encoding;
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

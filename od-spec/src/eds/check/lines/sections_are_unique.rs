@@ -29,7 +29,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     for section in &view.unknown {
         unknown.entry(section.name().to_ascii_lowercase()).or_default().push(*section);
     }
-    unknown.values().for_each(|sections| compare(view, sections, diagnostics));
+    for sections in unknown.values() {
+        compare(view, sections, diagnostics);
+    }
 }
 
 fn compare<'d>(view: &View<'d>, sections: &[SectionRef<'d, 'd>], diagnostics: &mut Diagnostics) {

@@ -5,7 +5,7 @@ use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::document::{Content, Line};
+use crate::eds::document::{Line, LineKind};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -48,12 +48,12 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
 /// The changes that make a name, text or comment ASCII; none for the values of objects and for what has no transcription.
 fn transliterated(view: &View<'_>, line: &Line<'_>) -> Vec<Edit> {
     let text = line.text();
-    let start = match line.content() {
-        Content::Comment => 0,
-        Content::KeyValue { value, .. } if !is_value(line.key().unwrap_or_default()) => value.start as usize,
-        Content::KeyValue { .. } | Content::Blank | Content::Header { .. } | Content::Unreadable => {
-            return Vec::new();
+    let start = match (line.kind(), line.value_part()) {
+        (LineKind::Comment, _) => 0,
+        (LineKind::KeyValue, Some(value)) if !is_value(line.key().unwrap_or_default()) => {
+            value.start as usize
         }
+        _ => return Vec::new(),
     };
     let place = edits::place(view, line);
     let mut edits = Vec::new();
