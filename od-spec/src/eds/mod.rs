@@ -10,6 +10,7 @@ mod document;
 mod encoding;
 pub(crate) mod example;
 mod findings;
+mod fix;
 pub(crate) mod names;
 pub(crate) mod number;
 mod scan;
@@ -18,6 +19,7 @@ pub(crate) mod view;
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
 pub use encoding::{Encoding, decode, encode};
 pub use findings::findings;
+pub use fix::{Change, Fixed, fix};
 
 #[cfg(test)]
 mod examples;

@@ -20,6 +20,7 @@ mod objects;
 
 use crate::diag::Diagnostics;
 use crate::eds::view::View;
+pub(crate) use lines::nothing_stands_before_the_text::CODE as BYTE_ORDER_MARK;
 pub(crate) use rule::FormatRule;
 
 /// All rules, by code.

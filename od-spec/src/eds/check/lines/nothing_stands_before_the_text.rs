@@ -7,7 +7,7 @@ use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
-const CODE: &Code = &Code {
+pub(crate) const CODE: &Code = &Code {
     id: "EDS102",
     severity: Severity::Warning,
     foreign: Severity::Warning,
