@@ -7,6 +7,7 @@ mod check;
 mod codes;
 mod dcf;
 mod docs;
+mod fix;
 mod new;
 mod provoked;
 mod shipped;
