@@ -12,7 +12,7 @@ use crate::source::{SourceMap, Spanned};
 /// The codes of what is said about a specification, and about settings of node `node` of its first device.
 fn said(text: &str, node: u8, settings: &[&str]) -> Vec<&'static str> {
     let mut sources = SourceMap::new();
-    let root = sources.add("case.od.yaml", Example::whole(text));
+    let root = sources.add("case.od.yaml", Example::whole_specification(text));
     let compiled = compile(&mut sources, root, &mut NoFiles);
     let mut diagnostics = compiled.diagnostics;
     let Some(system) = compiled.system.filter(|_| !settings.is_empty()) else { return codes(&diagnostics) };
@@ -205,7 +205,7 @@ fn the_structure_of_an_object_does_not_count() {
   0x2000: {name: level, type: unsigned32, access: ro, pdo: transmit}
   0x2001: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";
     let mut sources = SourceMap::new();
-    let root = sources.add("case.od.yaml", Example::whole(text));
+    let root = sources.add("case.od.yaml", Example::whole_specification(text));
     let mut system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
     for object in system.devices[0].objects.values_mut().filter(|object| object.is_structured()) {
         let (sub, name) = (SubIndex::STRUCTURE, "structure of object".to_owned());
@@ -230,7 +230,7 @@ fn the_structure_of_an_object_does_not_count() {
 fn a_count_without_a_value_is_said_once() {
     let text = "objects:\n  0x2000: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";
     let mut sources = SourceMap::new();
-    let root = sources.add("case.od.yaml", Example::whole(text));
+    let root = sources.add("case.od.yaml", Example::whole_specification(text));
     let mut system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
     let levels = system.devices[0].objects.get_mut(&Index(0x2000)).unwrap();
     levels.entries[0].default = None;

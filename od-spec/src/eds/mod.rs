@@ -4,9 +4,13 @@
 //! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
 //! read, mended, compared and written back before anybody has understood it.
 
+pub(crate) mod check;
 pub(crate) mod codes;
 pub(crate) mod dates;
 mod document;
+pub(crate) mod example;
+#[cfg(test)]
+mod findings;
 pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod owner;
@@ -26,6 +30,11 @@ pub fn has_eds_name(name: &str) -> bool {
     ends_with(name, ".eds") || is_dcf(name)
 }
 
+/// The name of a file without its directories.
+pub(crate) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
 /// Whether a file is named like a DCF.
 pub(crate) fn is_dcf(name: &str) -> bool {
     ends_with(name, ".dcf")
@@ -38,3 +47,6 @@ fn ends_with(name: &str, extension: &str) -> bool {
 
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
 pub use owner::{Owner, Remark};
+
+#[cfg(test)]
+mod examples;

@@ -7,6 +7,7 @@ mod dcf;
 mod diff;
 mod docs;
 mod errata;
+mod fix;
 mod git;
 mod import;
 mod new;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Dump(args) => dump(&args, directory, &report),
         Command::Errata(args) => errata::run(&args, directory, &report),
         Command::Import(args) => import::run(&args, &report),
+        Command::Fix(args) => fix::run(&args, &report),
         Command::New(args) => new::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
