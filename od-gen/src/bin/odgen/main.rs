@@ -7,6 +7,7 @@ mod dcf;
 mod docs;
 mod errata;
 mod fix;
+mod line_diff;
 mod new;
 mod output;
 mod report;
