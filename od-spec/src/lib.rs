@@ -54,6 +54,7 @@ mod standard;
 pub mod wording;
 pub mod yaml;
 
+pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::Commissioning;

@@ -91,6 +91,7 @@ fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
 fn describe(name: &str, objects: usize, imported: &Imported) -> String {
     let mut line = format!("{name}: {objects} objects");
     for (count, what) in [
+        (imported.allowed.len(), "rules that it breaks allowed, see `allow:`"),
         (imported.repairs.len(), "changed because a specification refuses it, see the comments"),
         (imported.without_place, "without a place in a specification, listed at the end"),
     ] {
