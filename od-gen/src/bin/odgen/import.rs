@@ -9,11 +9,11 @@ use od_gen::source::{FileLoader, compile_file};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::source::SourceMap;
 
+use super::ERRORS;
 use super::args::ImportArgs;
 use super::output::{clash, save};
 use super::report::{Report, print};
 use super::specs::stem;
-use super::{ERRORS, SUCCESS};
 
 pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
     let mut set = Vec::new();
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
         Ok(_) => {
             if let [only] = set.as_slice() {
                 let name = args.out.join(&only.path);
-                let _ = write!(summary, "next: odgen build --rust --docs html {}\n", name.display());
+                let _ = writeln!(summary, "next: odgen build --rust --docs html {}", name.display());
             }
             print(&summary)
         }
