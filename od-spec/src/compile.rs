@@ -112,7 +112,8 @@ fn compile_eds(
     eds::check::document(&view, &mut diagnostics);
     let Read { spec, node } = read(&view, file.name(), &mut diagnostics);
     let Resolved { system, .. } = resolve::resolve(&spec, &[], &mut diagnostics);
-    check::foreign(rules, &system, &mut diagnostics);
+    let id = node.as_ref().and_then(|node| node.node);
+    check::foreign(rules, &system, id, &mut diagnostics);
     let device = system.devices.first();
     let node = node.zip(device).map(|(node, device)| of_node(rules, &system, device, node, &mut diagnostics));
     if strictness == Strictness::Foreign {

@@ -172,8 +172,8 @@ fn mended(
             return Ok((written, found));
         }
         let effort = if round < ROUNDS_FOR_FACTS { Effort::Fact } else { Effort::Object };
-        let before = remarks.count();
-        let allowed: BTreeSet<&str> = remarks.allowed.keys().copied().collect();
+        let before = remarks.decisions();
+        let allowed: BTreeSet<&'static str> = remarks.allowed.keys().copied().collect();
         let mut mended: BTreeSet<usize> = BTreeSet::new();
         for error in &errors {
             if remarks.allow(error, &allowed) {
@@ -192,7 +192,7 @@ fn mended(
             }
         }
         last = errors;
-        if remarks.count() == before {
+        if remarks.decisions() == before {
             break;
         }
     }

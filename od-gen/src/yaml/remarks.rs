@@ -44,14 +44,20 @@ pub(super) struct Remarks {
     pub repairs: Vec<Repair>,
     /// Rules that the model breaks, by code, with the first thing that each found.
     pub allowed: BTreeMap<&'static str, String>,
+    /// Codes that reading says as well: what cannot be read cannot be allowed.
+    of_reading: BTreeSet<&'static str>,
 }
 
 impl Remarks {
     /// Allows a rule to be broken; `false` where it is no rule's finding, where names have to differ, and where it was
     /// allowed before and that was not enough.
-    pub(super) fn allow(&mut self, error: &Diagnostic, before: &BTreeSet<&str>) -> bool {
+    pub(super) fn allow(&mut self, error: &Diagnostic, before: &BTreeSet<&'static str>) -> bool {
         let is_name = error.code == od_spec::rule_codes::DUPLICATE_NAME;
-        if is_name || !od_spec::can_be_allowed(error.code) || before.contains(error.code.id) {
+        if before.contains(error.code.id) {
+            self.allowed.remove(error.code.id);
+            self.of_reading.insert(error.code.id);
+        }
+        if is_name || !od_spec::can_be_allowed(error.code) || self.of_reading.contains(error.code.id) {
             return false;
         }
         let reason = || format!("as in the original: {}", error.message);
@@ -59,9 +65,9 @@ impl Remarks {
         true
     }
 
-    /// How much is said.
-    pub(super) fn count(&self) -> usize {
-        self.repairs.len() + self.allowed.len()
+    /// What has been decided so far; it grows with every decision.
+    pub(super) fn decisions(&self) -> (usize, usize, usize) {
+        (self.repairs.len(), self.of_reading.len(), self.allowed.len())
     }
 
     /// What is to be said at a place.

@@ -81,7 +81,8 @@ fn github_gets_a_command_for_each_finding() {
     assert_eq!((code(&output), stderr(&output)), (1, String::new()));
     let said = stdout(&output);
     let lines: Vec<&str> = said.lines().collect();
-    assert_eq!(lines.len(), 3, "{said}");
+    assert_eq!(lines.len(), 4, "{said}");
+    let lines = &lines[1..];
     assert!(lines[0].starts_with("::notice file=50%25%2Cfan.eds,line=137,col=10,title=EDS503%3A "), "{said}");
     assert!(lines[1].starts_with("::error file=50%25%2Cfan.eds,line=147,col=12,title=EDS406%3A "), "{said}");
     assert!(

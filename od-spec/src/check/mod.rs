@@ -164,25 +164,31 @@ pub(crate) fn system(
         }
         let mut found = Diagnostics::new();
         for rule in rules.iter().filter(|rule| rule.needs == needs) {
-            apply(rule, system, library, &mut found);
+            apply(rule, system, library, None, &mut found);
         }
         diagnostics.append(allowed.soften(found));
     }
     allowed.report_unused(diagnostics);
 }
 
-/// Applies the rules to a device that was read from a foreign file. What is wrong there prevents nothing, so that every rule
+/// Applies the rules to a device that was read from a foreign file, or to the node that a DCF is for. What is wrong there prevents nothing, so that every rule
 /// has its say.
-pub(crate) fn foreign(rules: &[&Rule], system: &System, diagnostics: &mut Diagnostics) {
+pub(crate) fn foreign(rules: &[&Rule], system: &System, node: Option<u8>, diagnostics: &mut Diagnostics) {
     for rule in rules {
-        apply(rule, system, None, diagnostics);
+        apply(rule, system, None, node, diagnostics);
     }
 }
 
-fn apply(rule: &Rule, system: &System, library: Option<&Dictionary>, diagnostics: &mut Diagnostics) {
+fn apply(
+    rule: &Rule,
+    system: &System,
+    library: Option<&Dictionary>,
+    node: Option<u8>,
+    diagnostics: &mut Diagnostics,
+) {
     let mut look = |check: fn(&Subject<'_>, &mut Findings), device: &Dictionary| {
         let mut findings = Findings::of(device);
-        check(&Subject { system, device, node: None }, &mut findings);
+        check(&Subject { system, device, node }, &mut findings);
         diagnostics.append(findings.into_diagnostics());
     };
     match rule.check {

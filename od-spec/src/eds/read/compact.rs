@@ -2,7 +2,7 @@
 
 use super::entry::{self, Context};
 use super::objects::{declaration, members, with_shape};
-use super::{made, value};
+use super::{made, value, without_place};
 use crate::ast::{EntryDecl, ObjectDecl};
 use crate::diag::{Diagnostic, shorten};
 use crate::eds::codes;
@@ -52,7 +52,7 @@ pub(super) fn object(
     let values = listed(part, ElementList::Value, count, context);
     if let Some(denoted) = part.elements.get(&ElementList::Denotation) {
         let message = format!("the application names of {index} are left out");
-        context.push(Diagnostic::new(codes::NO_PLACE, denoted.place(), message));
+        context.push(without_place(codes::NO_PLACE, denoted.place(), message));
     }
     let mut explicit: BTreeMap<u8, (Spanned<SubIndex>, EntryDecl)> =
         members(index, part, context).into_iter().map(|member| (member.0.value.0, member)).collect();

@@ -2,7 +2,7 @@
 
 use super::comments::Meanings;
 use super::node::NodeDecl;
-use super::{made, owned, value};
+use super::{made, owned, value, without_place};
 use crate::ast::{EdsDecl, EntryDecl};
 use crate::diag::{Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
@@ -45,13 +45,14 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
             node.values.push((id, read));
         } else if context.node.is_none() {
             let message = format!("the parameter value of {id} is left out: this is no DCF");
-            context.push(Diagnostic::new(codes::NO_PLACE, value.span, message));
+            let help = "make it the default, or call the file a DCF";
+            context.push(Diagnostic::new(codes::NO_PLACE, value.span, message).help(help));
         }
     }
     for key in ["Denotation", "UploadFile", "DownloadFile", "ParamRefd"] {
         if let Some(text) = part.value(key) {
             let message = format!("`{key}` of {id} is left out");
-            context.push(Diagnostic::new(codes::NO_PLACE, text.span, message));
+            context.push(without_place(codes::NO_PLACE, text.span, message));
         }
     }
     let name = name(part, id, context);

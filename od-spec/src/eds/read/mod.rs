@@ -15,7 +15,7 @@ mod value;
 
 use super::view::View;
 use crate::ast::Spec;
-use crate::diag::Diagnostics;
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{Span, Spanned};
 
 pub(crate) use node::NodeDecl;
@@ -65,6 +65,12 @@ pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -
         front_end: crate::ast::FrontEnd::Eds,
     };
     Read { spec, node }
+}
+
+/// Something that is right, and that a dictionary has no place for.
+fn without_place(code: &'static Code, place: Span, message: String) -> Diagnostic {
+    Diagnostic::new(code, place, message)
+        .help("keep the file for tools that need it; what is made from it does without")
 }
 
 /// A text with the place that it follows from.

@@ -22,11 +22,11 @@ pub(super) fn add(view: &View<'_>, objects: &mut Vec<ObjectDecl>, context: &mut 
         return;
     };
     let connected = connected(view);
-    let message = match connected.len() {
-        0 => format!("{} modules are described, and none is connected", view.modules.len()),
-        count => format!("{} modules are described, {count} connected", view.modules.len()),
-    };
-    context.push(Diagnostic::new(codes::MODULES, supported.place(), message));
+    let message = format!("modules described: {}, connected: {}", view.modules.len(), connected.len());
+    context.push(
+        Diagnostic::new(codes::MODULES, supported.place(), message)
+            .help("name the modules that are plugged in under `[ConnectedModules]` of a DCF"),
+    );
     let mut fixed = BTreeSet::new();
     let mut extensions: BTreeMap<Index, Extension> = BTreeMap::new();
     for number in connected {

@@ -5,6 +5,7 @@ use super::compact;
 use super::entry::{self, Context};
 use super::modules;
 use super::node::NodeDecl;
+use super::without_place;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::diag::{Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
@@ -37,7 +38,7 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
     let place = first.place();
     if index.0 < 0x1000 {
         let message = format!("{index} is no entry of the dictionary; it is left out");
-        context.push(Diagnostic::new(codes::OBJECT_LEFT_OUT, place, message));
+        context.push(without_place(codes::OBJECT_LEFT_OUT, place, message));
         return None;
     }
     let Some(main) = &part.object else {
@@ -106,7 +107,7 @@ fn kind(
         (Some(_), Some(9)) => Some(ObjectKind::Record),
         (Some(text), Some(0 | 5 | 6)) => {
             let message = format!("{index} describes a data type, or nothing; it is left out");
-            context.push(Diagnostic::new(codes::OBJECT_LEFT_OUT, text.span, message));
+            context.push(without_place(codes::OBJECT_LEFT_OUT, text.span, message));
             return None;
         }
         (Some(_), _) => None,

@@ -1,6 +1,6 @@
 //! Values: from the notations of EDS files to that of a specification.
 
-use super::made;
+use super::{made, without_place};
 use crate::ast::Name;
 use crate::diag::{Code, Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
@@ -18,7 +18,7 @@ pub(super) fn value(text: Spanned<&str>, data_type: DataType, diagnostics: &mut 
         Family::UnicodeString => text.value.to_owned(),
         Family::Time | Family::Domain => {
             let message = format!("the value of a {data_type} is left out");
-            diagnostics.push(Diagnostic::new(codes::NO_PLACE, text.span, message));
+            diagnostics.push(without_place(codes::NO_PLACE, text.span, message));
             return None;
         }
     };
@@ -45,8 +45,11 @@ pub(super) fn limit(text: Spanned<&str>, data_type: DataType, diagnostics: &mut 
         | Family::Time
         | Family::Domain => (codes::LIMIT_ON_TYPE, format!("a {data_type} has no limits")),
     };
-    let finding = Diagnostic::new(code, text.span, message);
-    diagnostics.push(if code == codes::LIMIT_ON_TYPE { finding.help("remove the limit") } else { finding });
+    diagnostics.push(if code == codes::LIMIT_ON_TYPE {
+        Diagnostic::new(code, text.span, message).help("remove the limit")
+    } else {
+        without_place(code, text.span, message)
+    });
     None
 }
 
