@@ -135,9 +135,11 @@ fn facts_stay(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), Str
 }
 
 fn import_again(name: &str, bytes: &[u8]) -> Result<(), String> {
+    // What the libraries say about an object comes with the first import, and what its EDS says of that with the second.
     let first = turn(name, bytes)?;
     let second = turn(name, &first.eds)?;
-    match other_line(&first.imported.text, &second.imported.text) {
+    let third = turn(name, &second.eds)?;
+    match other_line(&second.imported.text, &third.imported.text) {
         Some(what) => Err(what),
         None => Ok(()),
     }
@@ -179,6 +181,7 @@ fn fixing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String>
     }
     let before = device(&models.0)?;
     let found = differences(before, device(&models.1)?);
-    except(Round::Fix, name, before, found, checked);
+    let codes: Vec<&str> = fixed.counts().into_keys().map(|code| code.id).collect();
+    except(Round::Fix(&codes), name, before, found, checked);
     Ok(())
 }
