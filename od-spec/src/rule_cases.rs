@@ -59,7 +59,7 @@ fn a_fixed_mapping_counts_all_of_its_entries() {
 fn formulas_of_a_configured_node_are_numbers() {
     let text = "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {sync-start: 0, map: [level]}}}";
     assert_eq!(said(text, 5, &["1A00.0=$NODEID+60"]), ["OD0508"]);
-    assert_eq!(said(text, 5, &["1A00.2=$NODEID+0x20990003"]), ["OD0310"]);
+    assert_eq!(said(text, 5, &["1A00.2=$NODEID+0x20990003"]), ["OD0502"]);
     assert_eq!(said(text, 125, &["1800.2=$NODEID+120"]), ["OD0505"]);
     assert_eq!(said(text, 125, &["1800.6=$NODEID+120"]), ["OD0508"]);
     // That the entry is mapped twice shows that the formula was read as 20000008h.

@@ -29,7 +29,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
-use od_spec::model::{Dictionary, Index, System};
+use od_spec::model::{Dictionary, EntryId, Index, System, Value};
 use od_spec::source::SourceMap;
 use od_spec::{LIBRARIES, Library, NoFiles, compile, library};
 
@@ -101,6 +101,7 @@ pub fn specification(
     let mut draft = Draft { system: system.clone(), device: device.clone() };
     let mut left_out = leave_out(&mut draft);
     name_device(&mut draft);
+    withhold(&mut draft);
     let mut remarks = Remarks::default();
     names::settle(&mut draft.device, &mut remarks.repairs);
     let (plain, found) = mended(&mut draft, options, &mut remarks)?;
@@ -133,6 +134,25 @@ fn leave_out(draft: &mut Draft) -> Vec<String> {
         }
     }
     left_out
+}
+
+/// A device fills in its type, name and identity where no value is stated; of values that the model leaves open, the EDS shall
+/// show none.
+fn withhold(draft: &mut Draft) {
+    let Draft { system, device } = draft;
+    let open: Vec<(EntryId, Value)> = device
+        .entries()
+        .filter(|(.., entry)| entry.default.is_none())
+        .filter_map(|(id, ..)| Some((id, entry::device_value(system, device, id.index, id.sub)?)))
+        .collect();
+    for (id, value) in open {
+        let object = device.objects.get_mut(&id.index);
+        let entry = object.and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == id.sub));
+        if let Some(entry) = entry {
+            entry.default = Some(value);
+            entry.eds.default = false;
+        }
+    }
 }
 
 /// A specification has a title and its device a name, which no EDS shows; where the model has none, the product's stands in.

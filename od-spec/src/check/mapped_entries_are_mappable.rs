@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::pdo::{Parameter, target, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity, codes};
+use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Direction, EntryId, Object, Pdo, PdoMapping, PdoTarget};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "an entry that cannot be mapped into this PDO",
-    explanation: "The entry's `pdo:` does not allow this direction, or none at all, or the mapping parameter says another length than the entry has. \
+    explanation: "The entry's `pdo:` does not allow this direction, or none at all, or the mapping parameter names an entry that is not there, or says another length than the entry has. \
         A device answers such a mapping with abort code 0604 0041h; one that does not would send or take other bits than the master expects. \
         Give the entry `pdo: receive` or `pdo: transmit`, or map another one.",
     clause: Some("CiA 301, objects 1600h and 1A00h (PDO mapping parameters)"),
@@ -48,7 +48,7 @@ fn finding(
     let Some((object, entry)) = object.and_then(|object| Some((object, object.entry(id.sub)?))) else {
         let message = format!("{at}: there is no entry {id}");
         let help = "map an entry of the device; bits 31..16: index, 15..8: sub-index, 7..0: length in bits";
-        return Some(Diagnostic::new(codes::UNKNOWN_ENTRY, place, message).help(help));
+        return Some(Diagnostic::new(CODE, place, message).help(help));
     };
     if !entry.pdo.allows(pdo.direction) {
         let direction = match entry.pdo {

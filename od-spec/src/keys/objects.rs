@@ -30,7 +30,7 @@ pub static OBJECT: Keys = Keys {
 
 /// Keys that only arrays have.
 const ARRAY_KEYS: &[Key] = key_list! {
-    "count": Shape::Integer(1, 254), "number of elements; the highest of `elements` unless given";
+    "count": Shape::Integer(0, 254), "number of elements; the highest of `elements` unless given";
     "name": Shape::Text, "name of the elements; `{n}` stands for the sub-index", "\"block {n}\"";
     "elements": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "what single elements have of their own", "{1: {name: nominal value, default: 560 V}}";
 };

@@ -37,7 +37,7 @@ fn entries() -> Vec<Case> {
         refused(about, &single(mapping, parameter), NOT_MAPPABLE, A::NOT_MAPPABLE)
     };
     let unknown =
-        |mapping, parameter| refused("no entry", &single(mapping, parameter), "OD0310", A::NO_OBJECT);
+        |mapping, parameter| refused("no entry", &single(mapping, parameter), "OD0502", A::NO_OBJECT);
     vec![
         accepted("an entry for RPDOs", &single(RECEIVE, 0x2020_0008)),
         accepted("an entry for both", &single(RECEIVE, 0x2025_0010)),
@@ -80,7 +80,7 @@ fn placeholders() -> Vec<Case> {
             "OD0506",
             A::NOT_MAPPABLE,
         )),
-        refused("no placeholder has a sub-index", &single(RECEIVE, 0x0005_0108), "OD0310", A::NO_OBJECT),
+        refused("no placeholder has a sub-index", &single(RECEIVE, 0x0005_0108), "OD0502", A::NO_OBJECT),
     ]
 }
 

@@ -171,7 +171,7 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         1600.0=2: error[OD0508]: 1600h: RPDO 1 maps 2 entries, but entry 2 is empty
         1600.2=0x60670020: error[OD0502]: 1600h.2: 6067h (speed) cannot be mapped into RPDOs
         1600.2=0x60640010: error[OD0502]: 1600h.2: 6064h has 32 bits, not 16
-        1600.2=0x70640010: error[OD0310]: 1600h.2: there is no entry 7064h
+        1600.2=0x70640010: error[OD0502]: 1600h.2: there is no entry 7064h
         1600.2=0x20000008: error[OD0502]: 1600h.2: 2000h (mode) cannot be mapped into PDOs
         1600.0=2, 1600.2=0x60640020: warning[OD0819]: RPDO 1 maps 6064h twice, at 1600h.1 and 1600h.2
         1600.0=3, 1600.2=0x60640020, 1600.3=0x00050008: error[OD0507]: RPDO 1 carries 72 bits

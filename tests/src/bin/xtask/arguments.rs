@@ -17,6 +17,8 @@ pub(crate) enum Task {
     CheckGenerated,
     /// Package the crates that users depend on.
     Package,
+    /// Take a directory of foreign EDS and DCF files through everything.
+    Corpus(String),
     /// Measure beside other tools, with the arguments of tests/bench/run.py.
     Bench(Vec<String>),
     /// Print a text about a task, or about all.
@@ -49,6 +51,7 @@ cargo xtask TASK
   browser             the part of `test` that reads the documents in Chromium
   generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
   package             package the crates that users depend on, and build each from its package
+  corpus DIR          take the EDS and DCF files of a directory through everything
   bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
   help [TASK]         this text, or one about a task
 ";
@@ -90,6 +93,17 @@ Packages the crates that users depend on, as `cargo publish` would, and builds e
 lacks its README, a licence text or a fact that a registry shows.
 ";
 
+const CORPUS: &str = "\
+cargo xtask corpus DIR
+
+Takes every EDS and DCF below a directory through everything, and prints a line for each problem and a table of the rest:
+bytes to text and back, reading it as it is and as the standard wants it, importing it, the EDS of the import, the import of
+that, and putting it right. Facts that do not come back are problems, but for those with a reason in
+tests/src/foreign/exceptions.rs. Fast with `cargo run --profile tool --package od-tests --bin xtask -- corpus DIR`.
+
+Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong command line.
+";
+
 const BENCH: &str = "\
 cargo xtask bench [ARGUMENT…]
 
@@ -110,6 +124,8 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
         ["generate"] => Ok(Task::Generate),
         ["generate", "--check"] => Ok(Task::CheckGenerated),
         ["package"] => Ok(Task::Package),
+        ["corpus", directory] => Ok(Task::Corpus((*directory).to_owned())),
+        ["corpus"] => Err("`corpus` wants a directory".to_owned()),
         [task, rest @ ..] => {
             help(task)?;
             Err(format!("`{task}` does not take `{}`", rest.join(" ")))
@@ -123,6 +139,7 @@ fn help(task: &str) -> Result<Task, String> {
         "browser" => Ok(Task::Help(BROWSER)),
         "generate" => Ok(Task::Help(GENERATE)),
         "package" => Ok(Task::Help(PACKAGE)),
+        "corpus" => Ok(Task::Help(CORPUS)),
         "bench" => Ok(Task::Help(BENCH)),
         "help" => Ok(Task::Help(HELP)),
         _ => Err(format!("there is no task `{task}`")),
@@ -165,6 +182,7 @@ mod tests {
         assert_eq!(parse(&["generate"]), Ok(Task::Generate));
         assert_eq!(parse(&["generate", "--check"]), Ok(Task::CheckGenerated));
         assert_eq!(parse(&["package"]), Ok(Task::Package));
+        assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned())));
         assert_eq!(parse(&["bench", "--help"]), Ok(Task::Bench(vec!["--help".to_owned()])));
     }
 
@@ -173,7 +191,7 @@ mod tests {
         let lines =
             HELP.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
         let tasks: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
-        assert_eq!(tasks, ["test", "browser", "generate", "package", "bench", "help"]);
+        assert_eq!(tasks, ["test", "browser", "generate", "package", "corpus", "bench", "help"]);
         for task in tasks {
             assert!(matches!(parse(&["help", task]), Ok(Task::Help(_))), "{task}");
         }
@@ -190,6 +208,8 @@ mod tests {
         assert_eq!(wrong(&["tset", "--help"]), "there is no task `tset`");
         assert_eq!(wrong(&["tset", "--all"]), "there is no task `tset`");
         assert_eq!(wrong(&["help", "tset"]), "there is no task `tset`");
+        assert_eq!(wrong(&["corpus"]), "`corpus` wants a directory");
+        assert_eq!(wrong(&["corpus", "a", "b"]), "`corpus` does not take `a b`");
         assert_eq!(wrong(&["test", "--al"]), "`test` does not take `--al`");
         assert_eq!(wrong(&["generate", "--chekc"]), "`generate` does not take `--chekc`");
         assert_eq!(

@@ -5,6 +5,7 @@
 mod arguments;
 mod browser;
 mod configured;
+mod corpus;
 mod package;
 mod parts;
 mod readers;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         Ok(Task::Generate) => write(),
         Ok(Task::CheckGenerated) => check(),
         Ok(Task::Package) => package::package(),
+        Ok(Task::Corpus(directory)) => corpus::corpus(&directory),
         Ok(Task::Bench(rest)) => {
             let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
             Runner::default().python("tests/bench/run.py", &rest)

@@ -1,0 +1,178 @@
+//! Which facts of two models of one device differ.
+
+use std::fmt::{self, Debug};
+
+use od_spec::ascii::transliterate;
+use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, PdoMapping, Role, SubIndex, Value};
+
+/// A fact that an EDS states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stated {
+    /// That the object or entry is there.
+    Existence,
+    /// `ObjectType`.
+    Kind,
+    /// `DataType`.
+    Type,
+    /// `AccessType`.
+    Access,
+    /// `PDOMapping`.
+    Mapping,
+    /// `DefaultValue`.
+    Default,
+    /// `LowLimit`.
+    LowLimit,
+    /// `HighLimit`.
+    HighLimit,
+    /// `ObjFlags`.
+    Flags,
+    /// `ParameterName`.
+    Name,
+    /// A fact of `[FileInfo]`, `[DeviceInfo]` or `[DummyUsage]`.
+    Device(&'static str),
+}
+
+impl fmt::Display for Stated {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Stated::Existence => "existence",
+            Stated::Kind => "object type",
+            Stated::Type => "data type",
+            Stated::Access => "access",
+            Stated::Mapping => "mapping",
+            Stated::Default => "default",
+            Stated::LowLimit => "low limit",
+            Stated::HighLimit => "high limit",
+            Stated::Flags => "flags",
+            Stated::Name => "name",
+            Stated::Device(fact) => fact,
+        })
+    }
+}
+
+/// A fact that two models state differently.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// Where; `None` for the device.
+    pub place: Option<EntryId>,
+    /// Which fact.
+    pub fact: Stated,
+    /// What the first model says.
+    pub before: String,
+    /// What the second model says.
+    pub after: String,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { place, fact, before, after } = self;
+        match place {
+            Some(id) => write!(f, "{id}: {fact}: {before}, then {after}"),
+            None => write!(f, "{fact}: {before}, then {after}"),
+        }
+    }
+}
+
+/// Every fact that a file made of the second model states otherwise than one made of the first.
+pub fn differences(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
+    let mut found = device(before, after);
+    let indices = before.objects.keys().chain(after.objects.keys().filter(|at| !before.objects.contains_key(at)));
+    for &index in indices {
+        match (before.objects.get(&index), after.objects.get(&index)) {
+            (Some(one), Some(other)) => object(one, other, &mut found),
+            (one, other) => found.push(existence(index, SubIndex(0), one.is_some(), other.is_some())),
+        }
+    }
+    found
+}
+
+fn device(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
+    let (one, other) = (&before.info, &after.info);
+    let texts = |text: &str| transliterate(text);
+    [
+        fact(None, Stated::Device("product name"), &texts(&one.product_name), &texts(&other.product_name)),
+        fact(None, Stated::Device("product"), &one.product, &other.product),
+        fact(None, Stated::Device("product revision"), &one.product_revision, &other.product_revision),
+        fact(None, Stated::Device("order code"), &texts(&one.order_code), &texts(&other.order_code)),
+        fact(None, Stated::Device("bit rates"), &one.bit_rates, &other.bit_rates),
+        fact(None, Stated::Device("device type"), &one.device_type, &other.device_type),
+        fact(None, Stated::Device("granularity"), &one.granularity, &other.granularity),
+        fact(None, Stated::Device("boot-up master"), &one.boot_up_master, &other.boot_up_master),
+        fact(None, Stated::Device("boot-up slave"), &one.boot_up_slave, &other.boot_up_slave),
+        fact(None, Stated::Device("group messaging"), &one.group_messaging, &other.group_messaging),
+        fact(None, Stated::Device("LSS"), &one.lss, &other.lss),
+        fact(None, Stated::Device("placeholders"), &one.dummies, &other.dummies),
+        fact(None, Stated::Device("description"), &texts(&before.file.description), &texts(&after.file.description)),
+        fact(None, Stated::Device("created"), &before.file.created, &after.file.created),
+        fact(None, Stated::Device("created by"), &texts(&before.file.created_by), &texts(&after.file.created_by)),
+        fact(None, Stated::Device("modified"), &before.file.modified, &after.file.modified),
+        fact(None, Stated::Device("modified by"), &texts(&before.file.modified_by), &texts(&after.file.modified_by)),
+        fact(None, Stated::Device("file version"), &before.file.version, &after.file.version),
+        fact(None, Stated::Device("file revision"), &before.file.revision, &after.file.revision),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn fact<T: PartialEq + Debug>(place: Option<EntryId>, fact: Stated, before: &T, after: &T) -> Option<Difference> {
+    (before != after).then(|| Difference { place, fact, before: format!("{before:?}"), after: format!("{after:?}") })
+}
+
+fn existence(index: Index, sub: SubIndex, before: bool, after: bool) -> Difference {
+    let word = |is_there: bool| if is_there { "there" } else { "missing" }.to_owned();
+    let place = Some(EntryId { index, sub });
+    Difference { place, fact: Stated::Existence, before: word(before), after: word(after) }
+}
+
+fn object(before: &Object, after: &Object, found: &mut Vec<Difference>) {
+    let index = before.index;
+    let whole = Some(EntryId { index, sub: SubIndex(0) });
+    found.extend(fact(whole, Stated::Kind, &before.kind, &after.kind));
+    // A parameter object that `pdos:` makes has the name that every such object has.
+    let named = |id, one: &str, other: &str| {
+        let is_kept = Role::of(index).is_pdo_parameter();
+        fact(id, Stated::Name, &transliterate(one), &transliterate(other)).filter(|_| !is_kept)
+    };
+    found.extend(named(whole, &before.name, &after.name));
+    for one in &before.entries {
+        let id = EntryId { index, sub: one.sub };
+        match after.entry(one.sub) {
+            Some(other) => {
+                found.extend(entry(id, one, other));
+                if before.is_structured() {
+                    found.extend(named(Some(id), &one.name, &other.name));
+                }
+            }
+            None => found.push(existence(index, one.sub, true, false)),
+        }
+    }
+    let more = after.entries.iter().filter(|other| before.entry(other.sub).is_none());
+    found.extend(more.map(|other| existence(index, other.sub, false, true)));
+}
+
+fn entry(id: EntryId, before: &Entry, after: &Entry) -> impl Iterator<Item = Difference> {
+    let is_mapped = |entry: &Entry| entry.pdo != PdoMapping::None;
+    let ((low, high), (other_low, other_high)) = (before.hull(), after.hull());
+    let place = Some(id);
+    [
+        fact(place, Stated::Type, &before.data_type, &after.data_type),
+        fact(place, Stated::Access, &before.eds.access, &after.eds.access),
+        fact(place, Stated::Mapping, &is_mapped(before), &is_mapped(after)),
+        fact(place, Stated::Default, &default(before), &default(after)),
+        fact(place, Stated::LowLimit, &low, &other_low),
+        fact(place, Stated::HighLimit, &high, &other_high),
+        fact(place, Stated::Flags, &before.eds.flags(), &after.eds.flags()),
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// A default to the last bit, if the file states it.
+fn default(entry: &Entry) -> Option<String> {
+    entry.default.as_ref().filter(|_| entry.eds.default).map(|default| match default {
+        Value::Real(number) => format!("real {:X}", number.to_bits()),
+        Value::Text(text) => format!("{:?}", transliterate(text)),
+        other @ (Value::Integer(_) | Value::NodeId(_) | Value::Bytes(_)) => format!("{other:?}"),
+    })
+}
