@@ -33,6 +33,8 @@ use od_spec::model::{Dictionary, EntryId, Index, System, Value};
 use od_spec::source::SourceMap;
 use od_spec::{LIBRARIES, Library, NoFiles, compile, library};
 
+use crate::plan::decided;
+use crate::rust::Rust;
 use context::Style;
 use emit::Written;
 use mend::{Draft, Effort};
@@ -104,6 +106,8 @@ pub fn specification(
     withhold(&mut draft);
     let mut remarks = Remarks::default();
     names::settle(&mut draft.device, &mut remarks.repairs);
+    // What code needs of it, as it is decided for code made from the EDS itself.
+    draft.device = decided(&draft.system, &draft.device, &Rust).into_owned();
     let (plain, found) = mended(&mut draft, options, &mut remarks)?;
     let not_said = compare::differing(&draft.device, &found);
     left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));

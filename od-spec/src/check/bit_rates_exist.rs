@@ -1,6 +1,7 @@
 //! A device supports at least one bit rate.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -26,7 +27,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     if device.info.bit_rates.is_empty() {
         findings.push(
             Diagnostic::new(CODE, device.span, format!("device `{}` supports no bit rate", device.key))
-                .help("add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without"),
+                .help(subject.help(Help {
+                    specification: "add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without",
+                    eds: "write 1 for each bit rate of the device, such as `BaudRate_125=1`; a PLC refuses a device without",
+                    setting: "the device has to tell its bit rates; a PLC refuses one without",
+                })),
         );
     }
 }

@@ -1,6 +1,7 @@
 //! The COB-IDs of PDOs, SYNC, TIME, EMCY and SDO channels are 11-bit identifiers that no other service has for itself, on every node.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::{NO_REMOTE_FRAMES, NOT_VALID, Parameter};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
@@ -54,8 +55,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (parameter, bit_31) in pdos.chain(services(subject)) {
         if let Some(problem) = subject.nodes().find_map(|node| problem(subject, &parameter, bit_31, node)) {
             let message = format!("{}: {problem}", parameter.id);
+            let of_pdo = "write a free identifier; bits 31 (no PDO) and 30 (no remote frames) are flags";
             let help = if is_of_pdo(&parameter) {
-                "write a free identifier; bits 31 (no PDO, `valid: no`) and 30 (no remote frames, `no-rtr: yes`) are flags"
+                subject.help(Help {
+                    specification: "write a free identifier; bits 31 (no PDO, `valid: no`) and 30 (no remote frames, `no-rtr: yes`) are flags",
+                    eds: of_pdo,
+                    setting: of_pdo,
+                })
             } else {
                 "write a free identifier; bits 31 and 30 are flags"
             };

@@ -1,6 +1,7 @@
 //! PDOs and further SDO channels that exist after start-up, and the services SYNC, TIME and EMCY, have COB-IDs of their own.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::{NOT_VALID, Parameter, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
@@ -120,7 +121,11 @@ fn finding(subject: &Subject<'_>, first: &User<'_>, second: &User<'_>, node: u8)
         format!("{} and {} of `{}` have one COB-ID{on_node}", first.name, second.name, subject.device.key);
     let diagnostic = Diagnostic::new(CODE, blamed.place, message)
         .label(blamed.name.clone())
-        .help("give one of them another COB-ID, or switch one off: for a PDO `valid: no` (bit 31)");
+        .help(subject.help(Help {
+        specification: "give one of them another COB-ID, or switch one off: for a PDO `valid: no` (bit 31)",
+        eds: "give one of them another COB-ID, or switch one off: bit 31, but for SYNC and TIME",
+        setting: "give one of them another COB-ID, or switch one off: bit 31, but for SYNC and TIME",
+    }));
     // What a library says has no place in the specification.
     if namesake.place == subject.device.span {
         return diagnostic;

@@ -1,6 +1,7 @@
 //! A command that has a default is marked as one that tools do not write.
 
 use super::findings::{Findings, others};
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -35,8 +36,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let id = EntryId { index: object.index, sub: entry.sub };
         let message =
             format!("{id} ({}) is a command, and its default invites tools to write it", entry.name);
-        let diagnostic = Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
-            .help("add `eds: {flags: [no-write]}`, or remove the default");
+        let diagnostic =
+            Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(subject.help(Help {
+                specification: "add `eds: {flags: [no-write]}`, or remove the default",
+                eds: "write `ObjFlags=1`, which keeps tools from writing it, or remove `DefaultValue`",
+                setting: "leave the entry out; writing it triggers the command",
+            }));
         findings.push(match written.count() {
             0 => diagnostic,
             more => diagnostic.note(format!("the same holds for {}", others(more))),

@@ -1,6 +1,7 @@
 //! A constant is not stored: it never changes.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -27,10 +28,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if entry.access == Access::Const && entry.stored != Storage::No {
             let message =
                 format!("{id} ({}) is constant and stored, but a constant never changes", entry.name);
-            findings.push(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message)
-                    .help("remove `stored:`, or correct the access"),
-            );
+            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message).help(
+                subject.help(Help {
+                    specification: "remove `stored:`, or correct the access",
+                    eds: "remove the comment that it is stored, or correct `AccessType`",
+                    setting: "leave the entry out; a constant cannot be written",
+                }),
+            ));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A constant states its value.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -31,7 +32,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             Some(library) => {
                 format!("write it among the objects: `0x{:04X}: {{from: {library}, default: …}}`", id.index.0)
             }
-            None => "add `default:`, or make it `ro`".to_owned(),
+            None => subject
+                .help(Help {
+                    specification: "add `default:`, or make it `ro`",
+                    eds: "add `DefaultValue`, or write `AccessType=ro`",
+                    setting: "the device has to tell its value; a constant cannot be set",
+                })
+                .to_owned(),
         };
         let message =
             format!("{id} ({}) of `{}` is constant, but has no value", object.name, subject.device.key);

@@ -1,6 +1,7 @@
 //! Sub-index 0 tells the highest sub-index, where its value is fixed.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -37,7 +38,7 @@ fn count(subject: &Subject<'_>, object: &Object, entry: &Entry) -> Option<Diagno
     let index = object.index;
     if !entry.access.is_readable() || entry.data_type != DataType::Unsigned8 {
         let message = format!("{index}: sub-index 0 is not a readable UNSIGNED8");
-        let help = "correct `sub0:`; CiA 301 fixes its type, and every client reads it";
+        let help = "correct its type and access; CiA 301 fixes the type, and every client reads it";
         let place = subject.place(entry, Fact::Type);
         return Some(Diagnostic::new(super::mapping_follows_access::CODE, place, message).help(help));
     }
@@ -50,8 +51,9 @@ fn count(subject: &Subject<'_>, object: &Object, entry: &Entry) -> Option<Diagno
         return None;
     }
     let message = format!("{index}: sub-index 0 is {shown}, the highest sub-index {highest}");
-    Some(
-        Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
-            .help("remove `default:` from `sub0:`; the value follows from the entries"),
-    )
+    Some(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(subject.help(Help {
+        specification: "remove `default:` from `sub0:`; the value follows from the entries",
+        eds: "correct `DefaultValue` of sub-index 0, or describe the missing sub-indices",
+        setting: "leave the entry out; the value follows from the entries",
+    })))
 }

@@ -1,6 +1,7 @@
 //! Sub-index 0 of an array or record tells a number that nothing changes.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -34,22 +35,25 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let id = EntryId { index: object.index, sub: SubIndex(0) };
         let told = is_told(object);
         let problem = if count.access.is_writable() && !told {
-            Some((
-                format!("{id} is `{}`, although it only tells the highest sub-index", count.access.word()),
-                Fact::Access,
-            ))
+            let what =
+                format!("{id} is `{}`, although it only tells the highest sub-index", count.access.word());
+            Some((what, Fact::Access, "write `AccessType=ro`"))
         } else if count.pdo != PdoMapping::None {
-            Some((format!("{id} is mappable, although it only tells the highest sub-index"), Fact::Mapping))
+            let what = format!("{id} is mappable, although it only tells the highest sub-index");
+            Some((what, Fact::Mapping, "write `PDOMapping=0`"))
         } else if count.default.is_none() && !told {
-            Some((format!("{id} does not say which the highest sub-index is"), Fact::Default))
+            let what = format!("{id} does not say which the highest sub-index is");
+            Some((what, Fact::Default, "write the highest sub-index as `DefaultValue`"))
         } else {
             None
         };
-        if let Some((message, fact)) = problem {
-            findings.push(
-                Diagnostic::new(CODE, subject.place(count, fact), message)
-                    .help("remove what `sub0:` says about it; type, access and value follow"),
-            );
+        if let Some((message, fact, eds)) = problem {
+            let help = subject.help(Help {
+                specification: "remove what `sub0:` says about it; type, access and value follow",
+                eds,
+                setting: "leave the entry out; it tells the highest sub-index",
+            });
+            findings.push(Diagnostic::new(CODE, subject.place(count, fact), message).help(help));
         }
     }
 }

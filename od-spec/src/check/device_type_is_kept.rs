@@ -1,6 +1,7 @@
 //! A device has what its device type promises: the objects of every drive, the types of the profiles that it unites.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -54,8 +55,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let message =
         format!("the device type of `{}` names {what}, but there is no {}", device.key, missing.join(", "));
     findings.push(Diagnostic::new(CODE, parameter.place, message).help(if is_united {
-        "add the types of the profiles, or correct `device-type:`"
+        "add the types of the profiles, or correct the device type"
     } else {
-        "add the feature `drive` of `cia402`, or correct `device-type:`"
+        subject.help(Help {
+            specification: "add the feature `drive` of `cia402`, or correct the device type",
+            eds: "add these objects, or correct the device type",
+            setting: "the device has to have these objects, or another device type",
+        })
     }));
 }

@@ -1,6 +1,7 @@
 //! A device has heartbeat or node guarding.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -28,9 +29,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     if !guarding && !has(0x1017) {
         let message =
             format!("`{}` has neither heartbeat (1017h) nor node guarding (100Ch, 100Dh)", device.key);
-        findings.push(
-            Diagnostic::new(CODE, device.span, message)
-                .help("add the feature `heartbeat producer` of `cia301`"),
-        );
+        findings.push(Diagnostic::new(CODE, device.span, message).help(subject.help(Help {
+            specification: "add the feature `heartbeat producer` of `cia301`",
+            eds: "add 1017h, the producer heartbeat time",
+            setting: "the device has to have one of the two",
+        })));
     }
 }

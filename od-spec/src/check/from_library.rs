@@ -1,5 +1,7 @@
 //! Objects of CiA 301 as a device has them: taken from the library, or written in full.
 
+use super::help::Help;
+use super::subject::Subject;
 use crate::model::Object;
 use crate::standard;
 
@@ -10,11 +12,11 @@ pub(super) fn is_from_library(object: &Object) -> bool {
 }
 
 /// What to do about an object that is not as CiA 301 has it: the library has most of them.
-pub(super) fn help(object: &Object) -> String {
+pub(super) fn help(subject: &Subject<'_>, object: &Object) -> String {
     let index = object.index;
-    if standard::is_in_library(index) {
-        format!("correct it, or take the object from the library: `0x{:04X}: {{from: cia301}}`", index.0)
-    } else {
-        "correct it; masters know the object as CiA 301 describes it".to_owned()
-    }
+    let from_library =
+        format!("correct it, or take the object from the library: `0x{:04X}: {{from: cia301}}`", index.0);
+    let as_described = "correct it; masters know the object as CiA 301 describes it";
+    let specification = if standard::is_in_library(index) { &from_library } else { as_described };
+    subject.help(Help { specification, eds: as_described, setting: as_described }).to_owned()
 }

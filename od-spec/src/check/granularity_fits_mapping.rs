@@ -1,6 +1,7 @@
 //! Granularity 0 means "no mapping can be changed", and nothing else does; placeholders are no shorter than the granularity.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -40,8 +41,12 @@ fn mapping(subject: &Subject<'_>, findings: &mut Findings) {
         (1.., None) => (first, "granularity is not 0, but no mapping can be changed"),
         (0, None) | (1.., Some(_)) => return,
     };
-    let diagnostic = Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key))
-        .help("correct the device's `granularity:`, or `mapping:` of the PDOs");
+    let diagnostic =
+        Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key)).help(subject.help(Help {
+            specification: "correct the device's `granularity:`, or `mapping:` of the PDOs",
+            eds: "correct `Granularity`, or `AccessType` of the mapping parameters",
+            setting: "the granularity and the mappings of the device have to be corrected",
+        }));
     findings.push(match device.facts.get(Fact::Granularity) {
         Some(granularity) => diagnostic.with(granularity.span, "the granularity"),
         None => diagnostic,
@@ -56,9 +61,12 @@ fn placeholders(subject: &Subject<'_>, findings: &mut Findings) {
     if let Some(short) = device.info.dummies.iter().find(is_short) {
         let message =
             format!("`{}` takes {short} placeholders, but its granularity is {granularity}", device.key);
-        findings.push_each(
-            Diagnostic::new(CODE, device.place(Fact::Granularity), message)
-                .help("take the type out of `dummies:`, or lower the device's `granularity:`"),
-        );
+        findings.push_each(Diagnostic::new(CODE, device.place(Fact::Granularity), message).help(
+            subject.help(Help {
+                specification: "take the type out of `dummies:`, or lower the device's `granularity:`",
+                eds: &format!("write `Dummy{:04X}=0`, or lower `Granularity`", short.code()),
+                setting: "the granularity and the placeholders of the device have to be corrected",
+            }),
+        ));
     }
 }

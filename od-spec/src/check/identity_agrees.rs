@@ -1,11 +1,12 @@
 //! 1000h and 1018h say what vendor and device say.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use super::subject::entry_id;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, Value};
+use crate::model::{Fact, SystemSource, Value};
 use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -27,13 +28,14 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let info = &subject.device.info;
+    // An EDS tells the device type in 1000h alone.
     let identity = [
-        (entry_id(0x1000, 0), info.device_type),
-        (entry_id(0x1018, 1), subject.system.vendor.number),
-        (entry_id(0x1018, 2), info.product),
-        (entry_id(0x1018, 3), info.product_revision),
+        (entry_id(0x1000, 0), info.device_type, "the device type"),
+        (entry_id(0x1018, 1), subject.system.vendor.number, "`VendorNumber`"),
+        (entry_id(0x1018, 2), info.product, "`ProductNumber`"),
+        (entry_id(0x1018, 3), info.product_revision, "`RevisionNumber`"),
     ];
-    for (id, number) in identity {
+    for (id, number, key) in identity {
         let Some(entry) = subject.device.entry(id) else { continue };
         let Some(stated) = entry.default.as_ref() else { continue };
         let number = Value::Integer(i128::from(number));
@@ -43,10 +45,26 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 Diagnostic::new(
                     CODE,
                     subject.place(entry, Fact::Default),
-                    format!("{id} ({}) says {stated}, the device {number}", entry.name),
+                    format!(
+                        "{id} ({}) says {stated}, {} {number}",
+                        entry.name,
+                        said_by(subject.system.source)
+                    ),
                 )
-                .help("remove the default; it follows from the vendor and the device"),
+                .help(subject.help(Help {
+                    specification: "remove the default; it follows from the vendor and the device",
+                    eds: &format!("correct {key} in `[DeviceInfo]`, or `DefaultValue` of {id}"),
+                    setting: "leave the entry out; it tells what the device is",
+                })),
             );
         }
+    }
+}
+
+/// What says the numbers beside the objects.
+const fn said_by(source: SystemSource) -> &'static str {
+    match source {
+        SystemSource::Specification => "the device",
+        SystemSource::Eds => "`[DeviceInfo]`",
     }
 }

@@ -1,6 +1,7 @@
 //! A lock guards an entry that can be written.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -27,7 +28,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
         if entry.locked && !entry.access.is_writable() {
             let message = format!("{id} ({}) is `{}`: it cannot be locked", entry.name, entry.access.word());
-            let help = "`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`";
+            let help = subject.help(Help {
+                specification: "`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`",
+                eds: "correct `AccessType`, or remove the comment that it is writable when unlocked",
+                setting: "leave the entry out; nobody can write it",
+            });
             findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Access), message).help(help));
         }
     }

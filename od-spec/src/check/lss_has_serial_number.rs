@@ -1,6 +1,7 @@
 //! LSS needs the serial number, 1018h.4.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -27,9 +28,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let Some(identity) = device.objects.get(&Index(0x1018)).filter(|_| device.info.lss) else { return };
     if identity.entry(SubIndex(4)).is_none() {
         let message = format!("`{}` supports LSS, but 1018h has no serial number", device.key);
-        findings.push(
-            Diagnostic::new(CODE, subject.object_place(identity), message)
-                .help("add sub-index 4 to 1018h, or remove `lss: yes`"),
-        );
+        findings.push(Diagnostic::new(CODE, subject.object_place(identity), message).help(subject.help(
+            Help {
+                specification: "add sub-index 4 to 1018h, or remove `lss: yes`",
+                eds: "add sub-index 4 to 1018h, or write `LSS_Supported=0`",
+                setting: "the device has to have sub-index 4 of 1018h",
+            },
+        )));
     }
 }

@@ -1,6 +1,7 @@
 //! Every device has 1000h, 1001h and 1018h.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -31,9 +32,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         .collect();
     if !missing.is_empty() {
         let message = format!("`{}` lacks {}", device.key, missing.join(", "));
-        findings.push(
-            Diagnostic::new(CODE, device.span, message)
-                .help("add `uses: [cia301]` at the top of the specification"),
-        );
+        findings.push(Diagnostic::new(CODE, device.span, message).help(subject.help(Help {
+            specification: "add `uses: [cia301]` at the top of the specification",
+            eds: "add what is missing; a master reads it at boot",
+            setting: "the device has to have what is missing; a master reads it at boot",
+        })));
     }
 }

@@ -1,10 +1,11 @@
 //! What can be mapped has a PDO to be mapped into.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Direction, Fact};
+use crate::model::{Direction, Fact, Index};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -35,10 +36,17 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some((id, _, entry)) = mappable.next() {
             let message =
                 format!("{id} can be mapped into {}s, but `{}` has none", direction.pdo(), device.key);
-            findings.push_each(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message)
-                    .help(format!("describe the device's {}s under `pdos:`", direction.pdo())),
-            );
+            let (communication, mapping) = match direction {
+                Direction::Receive => (Index(0x1400), Index(0x1600)),
+                Direction::Transmit => (Index(0x1800), Index(0x1A00)),
+            };
+            findings.push_each(Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message).help(
+                subject.help(Help {
+                    specification: &format!("describe the device's {}s under `pdos:`", direction.pdo()),
+                    eds: &format!("add the device's {}s, from {communication} and {mapping} on, or write `PDOMapping=0`", direction.pdo()),
+                    setting: &format!("the device has to have {}s", direction.pdo()),
+                }),
+            ));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What can be mapped into a PDO has a fixed length.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -26,10 +27,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
         if entry.pdo != PdoMapping::None && !entry.data_type.is_mappable() {
             let message = format!("{id} ({}): {} cannot travel in a PDO", entry.name, entry.data_type);
-            findings.push(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message)
-                    .help("remove `pdo:`; only types of fixed length can be mapped"),
-            );
+            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message).help(
+                subject.help(Help {
+                    specification: "remove `pdo:`; only types of fixed length can be mapped",
+                    eds: "write `PDOMapping=0`; only types of fixed length can be mapped",
+                    setting: "only types of fixed length can be mapped",
+                }),
+            ));
         }
     }
 }

@@ -1,11 +1,13 @@
 //! What a PDO maps is there, can be mapped in its direction, and has the length that the mapping says.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::{Parameter, target, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Direction, EntryId, Object, Pdo, PdoMapping, PdoTarget};
+use crate::model::{Direction, Entry, EntryId, Object, Pdo, PdoMapping, PdoTarget};
+use crate::wording::{Notation, Wording};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -58,9 +60,9 @@ fn finding(
             }
         };
         let message = format!("{at}: {id} ({}) cannot be mapped into {direction}", entry.name);
-        let diagnostic = Diagnostic::new(CODE, place, message).help(help(object, id, pdo.direction));
+        let diagnostic = Diagnostic::new(CODE, place, message).help(help(subject, object, id, pdo.direction));
         return Some(if entry.span.file == subject.device.span.file {
-            diagnostic.with(entry.span, format!("`pdo: {}`, `{}`", entry.pdo.word(), entry.access.word()))
+            diagnostic.with(entry.span, what_it_is(entry))
         } else {
             diagnostic
         });
@@ -74,17 +76,42 @@ fn finding(
 }
 
 /// What to do: perhaps the number of entries was mapped instead of an entry.
-fn help(object: &Object, id: EntryId, direction: Direction) -> String {
+fn help(subject: &Subject<'_>, object: &Object, id: EntryId, direction: Direction) -> String {
     let is_count = object.is_structured() && id.sub.0 == 0;
     let member = object.entries.iter().find(|entry| entry.pdo.allows(direction));
     match member.filter(|_| is_count) {
         None if is_count => {
-            format!("that is the number of its entries, none of which has `pdo: {}`", direction.word())
+            format!(
+                "that is the number of its entries, none of which can be mapped into {}s",
+                direction.pdo()
+            )
         }
         Some(member) => format!(
             "that is the number of its entries; map one of them, such as `0x{:04X}.{}`",
             id.index.0, member.sub
         ),
-        None => format!("give the entry `pdo: {}`, or map another one", direction.word()),
+        None => {
+            let access = match direction {
+                Direction::Receive => "`rw`, `rww` or `wo`",
+                Direction::Transmit => "`ro`, `rw`, `rwr` or `const`",
+            };
+            let help = Help {
+                specification: &format!("give the entry `pdo: {}`, or map another one", direction.word()),
+                eds: &format!("write `PDOMapping=1` with `AccessType` {access}, or map another entry"),
+                setting: "map another entry",
+            };
+            subject.help(help).to_owned()
+        }
     }
+}
+
+/// What keeps an entry out of a PDO: `for TPDOs, `ro``.
+fn what_it_is(entry: &Entry) -> String {
+    let into = match entry.pdo {
+        PdoMapping::None => "not mappable".to_owned(),
+        PdoMapping::Receive | PdoMapping::Transmit | PdoMapping::Both => {
+            format!("for {}s", Wording::english(Notation::Diagnostic).mapping(entry.pdo))
+        }
+    };
+    format!("{into}, `{}`", entry.access.word())
 }

@@ -1,10 +1,11 @@
 //! A TPDO carries what can be read, an RPDO what can be written; and the EDS promises nothing else.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Access, Author, Direction, Entry, EntryId, Fact, PdoMapping};
+use crate::model::{Access, Author, Direction, Entry, EntryId, Fact, PdoMapping, SystemSource};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
@@ -61,7 +62,11 @@ fn against_access(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<D
     Some(
         Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message)
             .with(subject.place(entry, Fact::Access), "the access")
-            .help(format!("write {}, or correct the access", words.join(" or ")))
+            .help(subject.help(Help {
+                specification: &format!("write {}, or correct the access", words.join(" or ")),
+                eds: "write `PDOMapping=0`, or correct `AccessType`",
+                setting: "the mapping or the access has to be corrected",
+            }))
             .note("CiA 306 4.6.3.2: a TPDO carries what can be read, an RPDO what can be written"),
     )
 }
@@ -92,12 +97,15 @@ fn against_eds(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<Diag
     let contradicted = [Direction::Receive, Direction::Transmit]
         .into_iter()
         .find(|direction| entry.pdo.allows(*direction) && !permits(*direction))?;
-    let message = format!(
-        "{id} ({}): mappable into {}s, but the EDS shows `{}`",
-        entry.name,
-        contradicted.pdo(),
-        shown.word()
-    );
-    let help = "remove `pdo:`, or let the EDS show the access; a locked entry is `ro` in the EDS";
+    let but = match subject.system.source {
+        SystemSource::Specification => format!("the EDS shows `{}`", shown.word()),
+        SystemSource::Eds => format!("a locked entry is `{}`", shown.word()),
+    };
+    let message = format!("{id} ({}): mappable into {}s, but {but}", entry.name, contradicted.pdo());
+    let help = subject.help(Help {
+        specification: "remove `pdo:`, or let the EDS show the access; a locked entry is `ro` in the EDS",
+        eds: "write `PDOMapping=0`, or remove the comment that the entry is writable when unlocked",
+        setting: "the mapping or the access has to be corrected",
+    });
     Some(Diagnostic::new(CODE, place, message).help(help))
 }

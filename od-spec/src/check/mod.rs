@@ -7,6 +7,7 @@
 pub(crate) mod allowed;
 mod findings;
 mod from_library;
+mod help;
 mod pdo;
 mod rule;
 mod subject;

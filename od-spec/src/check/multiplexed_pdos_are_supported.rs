@@ -1,6 +1,7 @@
 //! A multiplexed PDO belongs to a device that says it has such, is event-driven, and only one names its source.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::{Parameter, SOURCE_ADDRESS, is_multiplexed, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
@@ -47,8 +48,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         } else {
             continue;
         };
-        findings.push(Diagnostic::new(CODE, count.place, problem).help(
-            "map entries instead; a multiplexed PDO needs `group-messaging: yes` and transmission type 254 or 255, and only one TPDO may have 254 entries",
-        ));
+        findings.push(Diagnostic::new(CODE, count.place, problem).help(subject.help(Help {
+            specification: "map entries instead; a multiplexed PDO needs `group-messaging: yes` and transmission type 254 or 255, and only one TPDO may have 254 entries",
+            eds: "map entries instead; a multiplexed PDO needs `GroupMessaging=1` and transmission type 254 or 255, and only one TPDO may have 254 entries",
+            setting: "map entries instead; a multiplexed PDO needs a device that has such PDOs and transmission type 254 or 255, and only one TPDO may have 254 entries",
+        })));
     }
 }

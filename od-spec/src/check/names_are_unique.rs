@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::ascii::transliterate;
@@ -39,7 +40,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         }
         if DataType::from_name(&object.name).is_some() {
             let message = format!("`{}` is the name of a data type", object.name);
-            let help = "choose another name; in a PDO mapping this one means a placeholder";
+            let help = "choose another name; this one means the data type wherever an object is named";
             findings.push(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
         }
     }
@@ -59,7 +60,7 @@ fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnos
     Diagnostic::new(CODE, blamed.span, message)
         .label(blamed.index.to_string())
         .with(namesake.span, namesake.index.to_string())
-        .help("give one of the two another name; PDO mappings and generated code refer to objects by name")
+        .help("give one of the two another name; people and generated code refer to objects by name")
 }
 
 /// Two entries of one object.
@@ -72,11 +73,15 @@ fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings
         let message = if entry.name == before.name {
             format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(&entry.name))
         } else {
-            format!("{index}.{first} and {index}.{second} have one name in an EDS")
+            format!("{index}.{first} and {index}.{second} have one name in ASCII")
         };
         let diagnostic = Diagnostic::new(CODE, place, message);
         findings.push(if place == before_place {
-            let help = "write `{n}` into the name; it stands for the sub-index";
+            let help = subject.help(Help {
+                specification: "write `{n}` into the name; it stands for the sub-index",
+                eds: "give each entry of an object a name of its own",
+                setting: "give each entry of an object a name of its own",
+            });
             diagnostic.label(format!("sub-index {first} and sub-index {second}")).help(help)
         } else {
             diagnostic

@@ -6,7 +6,7 @@ use super::subject::Subject;
 use super::texts_fit_eds::unfit;
 use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
-use crate::model::{Dictionary, Fact};
+use crate::model::{Dictionary, Fact, SystemSource};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -30,7 +30,7 @@ const CODE: &Code = &Code {
 const LONGEST: usize = 241;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    check_header(subject.device, findings);
+    check_header(subject.system.source, subject.device, findings);
     check_vendor(subject, findings);
     for object in subject.device.objects.values() {
         check_name(&object.name, subject.object_place(object), findings);
@@ -54,20 +54,38 @@ fn check_vendor(subject: &Subject<'_>, findings: &mut Findings) {
 
 /// A text of the EDS's header, and how long it may be.
 struct HeaderText<'a> {
-    key: &'static str,
+    key: HeaderKey,
     text: &'a str,
     longest: usize,
 }
 
+/// What a text of the header is called.
+struct HeaderKey {
+    specification: &'static str,
+    eds: &'static str,
+}
+
+impl HeaderKey {
+    const fn word(&self, source: SystemSource) -> &'static str {
+        match source {
+            SystemSource::Specification => self.specification,
+            SystemSource::Eds => self.eds,
+        }
+    }
+}
+
 /// Texts of `[FileInfo]` and `[DeviceInfo]` with the length that CiA 306 4.4 and 4.5 give them.
-fn check_header(device: &Dictionary, findings: &mut Findings) {
-    let header = |key, text, longest| HeaderText { key, text, longest };
+fn check_header(source: SystemSource, device: &Dictionary, findings: &mut Findings) {
+    let header = |specification, eds, text, longest| {
+        let key = HeaderKey { specification, eds };
+        HeaderText { key, text, longest }
+    };
     let texts = [
-        header("description", &device.file.description, 243),
-        header("created-by", &device.file.created_by, 245),
-        header("modified-by", &device.file.modified_by, 244),
-        header("product-name", &device.info.product_name, 243),
-        header("order-code", &device.info.order_code, 245),
+        header("description", "Description", &device.file.description, 243),
+        header("created-by", "CreatedBy", &device.file.created_by, 245),
+        header("modified-by", "ModifiedBy", &device.file.modified_by, 244),
+        header("product-name", "ProductName", &device.info.product_name, 243),
+        header("order-code", "OrderCode", &device.info.order_code, 245),
     ];
     for (at, HeaderText { key, text, longest }) in texts.iter().enumerate() {
         // One is taken from the other.
@@ -82,7 +100,7 @@ fn check_header(device: &Dictionary, findings: &mut Findings) {
         } else {
             continue;
         };
-        let message = format!("`{key}` of device `{}` {problem}", device.key);
+        let message = format!("`{}` of device `{}` {problem}", key.word(source), device.key);
         findings.push(Diagnostic::new(CODE, device.span, message).help("choose another text"));
     }
 }

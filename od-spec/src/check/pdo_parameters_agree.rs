@@ -2,6 +2,7 @@
 //! flag of a TPDO, and the SYNC counter can reach the start value.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::{NO_REMOTE_FRAMES, is_multiplexed, target, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
@@ -46,10 +47,11 @@ fn count(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     let (count, offered, title) = (parameter.raw(), subject.mapping_capacity(pdo), title(pdo));
     if count > offered {
         let message = format!("{}: {title} maps {count} entries, but offers {offered}", parameter.id);
-        let help = subject.help(
-            "map fewer entries, raise `capacity:`, or lower the device's `granularity:`",
-            "map fewer entries",
-        );
+        let help = subject.help(Help {
+            specification: "map fewer entries, raise `capacity:`, or lower the device's `granularity:`",
+            eds: "map fewer entries, or describe more sub-indices",
+            setting: "map fewer entries",
+        });
         let place = match parameter.entry.facts.get(Fact::Capacity) {
             Some(capacity) if !parameter.entry.is_set() => capacity.span,
             Some(_) | None => parameter.place,
@@ -58,7 +60,11 @@ fn count(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     }
     if count == 0 && !pdo.variable_mapping {
         let message = format!("{title} has a fixed mapping of nothing");
-        let help = "map something, or let the mapping be `variable`";
+        let help = subject.help(Help {
+            specification: "map something, or let the mapping be `variable`",
+            eds: "map something, or write `AccessType=rw` if the mapping can be changed",
+            setting: "map something",
+        });
         return Some(Diagnostic::new(CODE, parameter.place, message).help(help));
     }
     let empty = subject.mapped(pdo).find(|mapped| mapped.raw() == 0)?;
@@ -88,10 +94,11 @@ fn granularity(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         parameter.id,
         title(pdo)
     );
-    Some(Diagnostic::new(CODE, parameter.place, message).help(subject.help(
-        "lower the device's `granularity:`, or map entries of its multiples",
-        "map entries of its multiples",
-    )))
+    Some(Diagnostic::new(CODE, parameter.place, message).help(subject.help(Help {
+        specification: "lower the device's `granularity:`, or map entries of its multiples",
+        eds: "lower `Granularity`, or map entries of its multiples",
+        setting: "map entries of its multiples",
+    })))
 }
 
 fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
@@ -105,10 +112,11 @@ fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         Some(_) | None => parameter.place,
     };
     let message = format!("{}: an RPDO is not asked for by remote frames", parameter.id);
-    let help = subject.help(
-        "leave out `no-rtr:`, and bit 30 of an RPDO's COB-ID 0; it is reserved",
-        "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
-    );
+    let help = subject.help(Help {
+        specification: "leave out `no-rtr:`, and bit 30 of an RPDO's COB-ID 0; it is reserved",
+        eds: "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
+        setting: "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
+    });
     Some(Diagnostic::new(CODE, place, message).help(help))
 }
 

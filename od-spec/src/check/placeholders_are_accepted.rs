@@ -1,6 +1,7 @@
 //! Placeholders stand in RPDOs, and are of types that the device accepts there.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::{placeholder, target, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
@@ -43,7 +44,14 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let message = format!("{}: {problem}", parameter.id);
             findings.push(
                 Diagnostic::new(CODE, parameter.place, message)
-                    .help("list the type in the device's `dummies:`; placeholders stand in RPDOs only, in the length of their type"),
+                    .help(subject.help(Help {
+                        specification: "list the type in the device's `dummies:`; placeholders stand in RPDOs only, in the length of their type",
+                        eds: &format!(
+                            "write `Dummy{:04X}=1` if the device takes the type; placeholders stand in RPDOs only, in the length of their type",
+                            data_type.code()
+                        ),
+                        setting: "map what the device takes; placeholders stand in RPDOs only, in the length of their type",
+                    })),
             );
         }
     }

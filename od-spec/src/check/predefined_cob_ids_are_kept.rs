@@ -55,7 +55,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             (parameter.value.integer_for(node).unwrap_or_default(), format!(" on node {node}"));
         let (id, expected) = (parameter.id, i128::from(service.base) + i128::from(node));
         let message = format!("{id}: {} {raw:X}h{on_node}, masters expect {expected:X}h", uses(service.name));
-        let help = format!("write `$NODEID + 0x{:X}`, or remove the default", service.base);
+        let help = format!("write `$NODEID+0x{:X}`, or remove the default", service.base);
         findings.push(Diagnostic::new(CODE, parameter.place, message).help(help));
     }
     let client = entry_id(0x1200, 3);

@@ -1,6 +1,7 @@
 //! Tools disagree about how a REAL value is written in an EDS.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -28,7 +29,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if matches!(value, Value::Real(_)) && entry.eds.default && !entry.is_set() {
             findings.push(
                 Diagnostic::new(CODE, subject.place(entry, Fact::Default), format!("PLC tools may misread the default of {id}"))
-                    .help("withhold it from the EDS with `eds: {default: withheld}`, or scale the value to an integer"),
+                    .help(subject.help(Help {
+                        specification: "withhold it from the EDS with `eds: {default: withheld}`, or scale the value to an integer",
+                        eds: "leave `DefaultValue` out, or scale the value to an integer",
+                        setting: "the device has to scale the value to an integer",
+                    })),
             );
         }
     }

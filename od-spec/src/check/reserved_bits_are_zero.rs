@@ -2,6 +2,7 @@
 
 use super::findings::Findings;
 use super::from_library::is_from_library;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -49,10 +50,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some(bit) = reserved.flat_map(|field| field.first..=field.last).find(set) {
             let what = if entry.is_set() { "value" } else { "default" };
             let message = format!("the {what} of {id} sets bit {bit}, which is reserved");
-            findings.push(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
-                    .help(format!("correct the {what}, or say what the bit means")),
-            );
+            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(
+                subject.help(Help {
+                    specification: "correct the default, or say what the bit means",
+                    eds: "correct the default; the bit has no meaning",
+                    setting: "correct the value; the bit has no meaning",
+                }),
+            ));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A device whose PDOs wait for SYNC knows SYNC, and one that produces it knows how often.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::pdo::title;
 use super::rule::{Check, Needs, Rule};
 use super::subject::{Subject, entry_id};
@@ -38,18 +39,20 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         device.pdos.iter().filter_map(transmission).filter(|(_, parameter)| is_synchronous(parameter.raw()));
     if let Some((pdo, parameter)) = synchronous.next().filter(|_| !has(SYNC)) {
         let message = format!("{} waits for SYNC, but `{}` has no {}", title(pdo), device.key, Index(SYNC));
-        findings.push(Diagnostic::new(CODE, parameter.place, message).help(subject.help(
-            "add the feature `sync consumer` of `cia301`, or write another transmission type",
-            "write another transmission type; nobody can tell the device which message is SYNC",
-        )));
+        findings.push(Diagnostic::new(CODE, parameter.place, message).help(subject.help(Help {
+            specification: "add the feature `sync consumer` of `cia301`, or write another transmission type",
+            eds: "add 1005h, the COB-ID of SYNC, or write another transmission type",
+            setting: "write another transmission type; nobody can tell the device which message is SYNC",
+        })));
     }
     let Some(sync) = subject.parameter(SYNC, 0).filter(|sync| sync.raw() & PRODUCER != 0) else { return };
     if !has(PERIOD) {
         let message =
             format!("{} of `{}` produces SYNC, but there is no {}", sync.id, device.key, entry_id(PERIOD, 0));
-        findings.push(Diagnostic::new(CODE, sync.place, message).help(subject.help(
-            "add the feature `sync producer` of `cia301`, or clear bit 30 of 1005h",
-            "clear bit 30 of 1005h",
-        )));
+        findings.push(Diagnostic::new(CODE, sync.place, message).help(subject.help(Help {
+            specification: "add the feature `sync producer` of `cia301`, or clear bit 30 of 1005h",
+            eds: "add 1006h, the communication cycle period, or clear bit 30 of 1005h",
+            setting: "clear bit 30 of 1005h",
+        })));
     }
 }

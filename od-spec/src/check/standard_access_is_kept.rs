@@ -35,7 +35,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             {
                 let id = EntryId { index: object.index, sub: entry.sub };
                 let message = format!("{id} ({}) {problem}", entry.name);
-                findings.push(Diagnostic::new(CODE, subject.place(entry, fact), message).help(help(object)));
+                findings.push(
+                    Diagnostic::new(CODE, subject.place(entry, fact), message).help(help(subject, object)),
+                );
             }
         }
     }
@@ -73,6 +75,5 @@ fn mapping(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fac
     let is_free = matches!(object.index.0, 0x1001 | 0x1002 | 0x1013 | 0x1026);
     let is_count = object.is_structured() && entry.sub == SubIndex(0);
     let is_against = entry.pdo != PdoMapping::None && known.pdo == PdoMapping::None && !is_free && !is_count;
-    is_against
-        .then(|| (format!("is mappable (`pdo: {}`), in CiA 301 it is not", entry.pdo.word()), Fact::Mapping))
+    is_against.then(|| ("is mappable, in CiA 301 it is not".to_owned(), Fact::Mapping))
 }

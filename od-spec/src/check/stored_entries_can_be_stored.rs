@@ -1,11 +1,13 @@
 //! What is stored has a command that stores it: 1010h.2, .3 or .4.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use super::subject::entry_id;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, Storage};
+use crate::wording::{Notation, Wording};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -25,7 +27,7 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    let device = subject.device;
+    let (device, wording) = (subject.device, Wording::english(Notation::Diagnostic));
     for (group, sub) in [(Storage::Communication, 2), (Storage::Application, 3), (Storage::Manufacturer, 4)] {
         let command = entry_id(0x1010, sub);
         if device.entry(command).is_some() {
@@ -35,11 +37,14 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let mut entries = device.entries().filter(|(_, object, _)| !object.role().is_pdo_parameter());
         if let Some((id, _, entry)) = entries.find(|(.., entry)| stored(entry)) {
             let message =
-                format!("{id} is `stored: {}`, but `{}` has no {command}", group.word(), device.key);
-            findings.push(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message)
-                    .help("add the feature `store parameters` of `cia301`, or correct `stored:`"),
-            );
+                format!("{id} is {}, but `{}` has no {command}", wording.storage(group), device.key);
+            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message).help(
+                subject.help(Help {
+                    specification: "add the feature `store parameters` of `cia301`, or correct `stored:`",
+                    eds: &format!("add {command}, or correct the comment that the entry is stored"),
+                    setting: "the device has to have what stores it",
+                }),
+            ));
         }
     }
 }

@@ -47,14 +47,6 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// What to do: about a specification, or about a setting.
-    pub(super) const fn help(&self, specification: &'static str, setting: &'static str) -> &'static str {
-        match self.node {
-            None => specification,
-            Some(_) => setting,
-        }
-    }
-
     /// Adds to a message about an entry that its value was set through a view of it.
     pub(super) fn seen_through(&self, id: EntryId, diagnostic: Diagnostic) -> Diagnostic {
         match self.device.views_of(id).find(|view| view.entry.is_set()) {

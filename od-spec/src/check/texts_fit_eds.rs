@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -77,13 +78,17 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         };
         if let Some(problem) = problem {
             let message = format!("{id} ({}): the value {problem}", entry.name);
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(
-                if entry.is_set() {
-                    "choose another value, or write it over the bus"
-                } else {
-                    "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`"
-                },
-            ));
+            let set = "choose another value, or write it over the bus";
+            let help = if entry.is_set() {
+                set
+            } else {
+                subject.help(Help {
+                    specification: "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`",
+                    eds: "choose another text, or leave `DefaultValue` out",
+                    setting: set,
+                })
+            };
+            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help));
         }
     }
 }

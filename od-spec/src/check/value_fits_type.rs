@@ -1,6 +1,7 @@
 //! A value is one of the entry's data type, for every node-ID, and no longer than the string may be.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -82,6 +83,10 @@ fn length(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
     Some(
         Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
             .with(subject.place(entry, Fact::Capacity), "the capacity")
-            .help(subject.help("raise the capacity, or shorten the value", "shorten the value")),
+            .help(subject.help(Help {
+                specification: "raise the capacity, or shorten the value",
+                eds: "shorten the value",
+                setting: "shorten the value",
+            })),
     )
 }

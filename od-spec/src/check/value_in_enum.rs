@@ -1,6 +1,7 @@
 //! A value of an enum is one of those that the enum lists.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -36,10 +37,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let mut raw = subject.nodes_of(value).filter_map(|node| value.integer_for(node));
         if let Some(stranger) = raw.find(|raw| !is_listed(*raw)) {
             let message = format!("{id} ({}): {stranger} is not a value of its enum", entry.name);
-            let help = subject.help(
-                "write the name of a value, or add the value to the type",
-                "write the name of a value; the device refuses any other",
-            );
+            let help = subject.help(Help {
+                specification: "write the name of a value, or add the value to the type",
+                eds: "write one of its values, or add the value to the comment",
+                setting: "write one of its values; the device refuses any other",
+            });
             let diagnostic = Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help);
             findings.push(subject.seen_through(id, diagnostic));
         }

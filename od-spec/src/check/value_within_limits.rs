@@ -1,6 +1,7 @@
 //! A value lies inside the limits of its entry, for every node-ID, or is a special one.
 
 use super::findings::Findings;
+use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -59,10 +60,11 @@ fn finding(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value, nod
     let raw = value.integer_for(node).unwrap_or_default();
     let (shown, on_node) = (format_value(entry, &Value::Integer(raw)), subject.on_node(value, node));
     let message = format!("{id} ({}): {shown} is outside {}{on_node}", entry.name, allowed(entry));
-    let help = subject.help(
-        "correct the value or the limits, or make the value `special`",
-        "write a value within the limits; the device refuses any other",
-    );
+    let help = subject.help(Help {
+        specification: "correct the value or the limits, or make the value `special`",
+        eds: "correct the value or the limits",
+        setting: "write a value within the limits; the device refuses any other",
+    });
     // Where a library says the value, it is the maker's limit that does not fit.
     let places = [Fact::Default, Fact::LowLimit, Fact::HighLimit].map(|fact| subject.place(entry, fact));
     let is_makers = |place: &&Span| **place != subject.device.span && **place != entry.span;

@@ -109,7 +109,7 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
         return (transliterate(text).len() > LONGEST_TEXT).then_some("a text that is too long for a line");
     };
     let entry = before.entry(id)?;
-    let is_counted = before.objects.get(&id.index).is_some_and(|object| object.is_structured());
+    let is_counted = before.objects.get(&id.index).is_some_and(od_spec::model::Object::is_structured);
     match difference.fact {
         Stated::Name => {
             repairs.iter().any(renamed).then_some("a name that clashes, or that an EDS cannot hold")
@@ -143,6 +143,5 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
 /// Why a file that was put right has another fact than before.
 fn fixed(difference: &Difference, codes: &[&str]) -> Option<&'static str> {
     let is_date = matches!(difference.fact, Stated::Device("created" | "modified"));
-    (is_date && codes.iter().any(|code| *code == "EDS210"))
-        .then_some("a date or time that could not be read before")
+    (is_date && codes.contains(&"EDS210")).then_some("a date or time that could not be read before")
 }

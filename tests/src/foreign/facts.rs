@@ -76,7 +76,8 @@ impl fmt::Display for Difference {
 /// Every fact that a file made of the second model states otherwise than one made of the first.
 pub fn differences(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
     let mut found = device(before, after);
-    let indices = before.objects.keys().chain(after.objects.keys().filter(|at| !before.objects.contains_key(at)));
+    let indices =
+        before.objects.keys().chain(after.objects.keys().filter(|at| !before.objects.contains_key(at)));
     for &index in indices {
         match (before.objects.get(&index), after.objects.get(&index)) {
             (Some(one), Some(other)) => object(one, other, &mut found),
@@ -102,11 +103,26 @@ fn device(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
         fact(None, Stated::Device("group messaging"), &one.group_messaging, &other.group_messaging),
         fact(None, Stated::Device("LSS"), &one.lss, &other.lss),
         fact(None, Stated::Device("placeholders"), &one.dummies, &other.dummies),
-        fact(None, Stated::Device("description"), &texts(&before.file.description), &texts(&after.file.description)),
+        fact(
+            None,
+            Stated::Device("description"),
+            &texts(&before.file.description),
+            &texts(&after.file.description),
+        ),
         fact(None, Stated::Device("created"), &before.file.created, &after.file.created),
-        fact(None, Stated::Device("created by"), &texts(&before.file.created_by), &texts(&after.file.created_by)),
+        fact(
+            None,
+            Stated::Device("created by"),
+            &texts(&before.file.created_by),
+            &texts(&after.file.created_by),
+        ),
         fact(None, Stated::Device("modified"), &before.file.modified, &after.file.modified),
-        fact(None, Stated::Device("modified by"), &texts(&before.file.modified_by), &texts(&after.file.modified_by)),
+        fact(
+            None,
+            Stated::Device("modified by"),
+            &texts(&before.file.modified_by),
+            &texts(&after.file.modified_by),
+        ),
         fact(None, Stated::Device("file version"), &before.file.version, &after.file.version),
         fact(None, Stated::Device("file revision"), &before.file.revision, &after.file.revision),
     ]
@@ -115,8 +131,18 @@ fn device(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
     .collect()
 }
 
-fn fact<T: PartialEq + Debug>(place: Option<EntryId>, fact: Stated, before: &T, after: &T) -> Option<Difference> {
-    (before != after).then(|| Difference { place, fact, before: format!("{before:?}"), after: format!("{after:?}") })
+fn fact<T: PartialEq + Debug>(
+    place: Option<EntryId>,
+    fact: Stated,
+    before: &T,
+    after: &T,
+) -> Option<Difference> {
+    (before != after).then(|| Difference {
+        place,
+        fact,
+        before: format!("{before:?}"),
+        after: format!("{after:?}"),
+    })
 }
 
 fn existence(index: Index, sub: SubIndex, before: bool, after: bool) -> Difference {

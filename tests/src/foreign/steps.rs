@@ -63,11 +63,8 @@ fn reading(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String
     let foreign = compile(&mut sources, root, &mut NoFiles);
     let strict = compile_as(Strictness::Standard, &mut sources, root, &mut NoFiles);
     let of = |severity| strict.diagnostics.iter().filter(|one| one.severity() == severity).count();
-    checked.findings = Findings {
-        errors: of(Severity::Error),
-        warnings: of(Severity::Warning),
-        notes: of(Severity::Note),
-    };
+    checked.findings =
+        Findings { errors: of(Severity::Error), warnings: of(Severity::Warning), notes: of(Severity::Note) };
     for diagnostic in foreign.diagnostics.iter().chain(&strict.diagnostics) {
         if let Some(what) = misplaced(&sources, diagnostic) {
             checked.problem(Step::Reading, what);
@@ -172,10 +169,8 @@ fn fixing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String>
         strict.diagnostics.count().0
     };
     let model = |mut source: Source| compile(&mut source.sources, source.root, &mut NoFiles);
-    let (models, errors) = ((model(before), model(after)), (
-        errors(source(name, bytes)?),
-        errors(source(name, &put_right)?),
-    ));
+    let (models, errors) =
+        ((model(before), model(after)), (errors(source(name, bytes)?), errors(source(name, &put_right)?)));
     if errors.1 > errors.0 {
         checked.problem(Step::Fixing, format!("{} errors before, {} after", errors.0, errors.1));
     }

@@ -36,12 +36,15 @@ pub(crate) fn corpus(directory: &str) -> Result<(), Failure> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let outcome = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().try_for_each(|thread| thread.join().unwrap_or_else(|_| Err("a thread failed".into())))
+        threads
+            .into_iter()
+            .try_for_each(|thread| thread.join().unwrap_or_else(|_| Err("a thread failed".into())))
     });
     drop(std::panic::take_hook());
     outcome?;
     let done = done.into_inner().map_err(|error| error.to_string())?;
-    let done: Vec<(String, Checked)> = done.into_iter().map(|(path, checked)| (name(&path), checked)).collect();
+    let done: Vec<(String, Checked)> =
+        done.into_iter().map(|(path, checked)| (name(&path), checked)).collect();
     print!("{}", problems(&done));
     print!("{}", table(&done));
     let failed = done.iter().filter(|(_, checked)| !checked.problems.is_empty()).count();
