@@ -7,7 +7,7 @@ use od_spec::Library;
 use od_spec::model::{DataType, Dictionary, Direction, EntryId, Index, NamedType, System, Unit};
 
 use super::options::{Options, Place};
-use super::remarks::Remarks;
+use super::remarks::{Remarks, Repair};
 
 /// Which defaults the EDS withholds unless an entry says otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +43,8 @@ pub(super) struct Context<'a> {
     pub remarks: &'a Remarks,
     pub style: &'a Style,
     pub eds: EdsDefaults,
+    /// What was changed, by place.
+    repairs: BTreeMap<Place, Vec<&'a Repair>>,
     /// Types of the file's own: by the name in the model, the name in the text.
     types: BTreeMap<String, String>,
     /// Units of the file's own, likewise.
@@ -65,6 +67,7 @@ impl<'a> Context<'a> {
             remarks,
             style,
             eds,
+            repairs: remarks.by_place(),
             types: BTreeMap::new(),
             units: BTreeMap::new(),
         };
@@ -157,7 +160,8 @@ impl<'a> Context<'a> {
 
     fn above(&self, place: Place) -> Vec<String> {
         let given = self.options.comments.get(&place).into_iter().flatten().cloned();
-        given.chain(self.remarks.at(&place)).flat_map(|line| comment(&line)).collect()
+        let repairs = self.repairs.get(&place).into_iter().flatten().map(|repair| repair.comment());
+        given.chain(repairs).flat_map(|line| comment(&line)).collect()
     }
 }
 

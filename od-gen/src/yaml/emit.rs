@@ -12,15 +12,21 @@ const WIDTH: usize = 140;
 #[derive(Debug, Default)]
 pub(super) struct Written {
     pub text: String,
-    /// Byte ranges; what belongs together lies inside each other.
+    /// Byte ranges; what belongs together lies inside each other. They stand in the order of their ends, a part before what
+    /// it is a part of.
     pub spots: Vec<(Range<usize>, Spot)>,
 }
 
 impl Written {
     /// What the text says at a byte: the narrowest part.
     pub(super) fn spot(&self, at: usize) -> Option<&Spot> {
-        let around = self.spots.iter().filter(|(range, _)| range.contains(&at));
-        around.min_by_key(|(range, _)| range.len()).map(|(_, spot)| spot)
+        self.spots.get(self.narrowest(at)?).map(|(_, spot)| spot)
+    }
+
+    /// Which of the spots that is.
+    pub(super) fn narrowest(&self, at: usize) -> Option<usize> {
+        let first = self.spots.partition_point(|(range, _)| range.end <= at);
+        self.spots.get(first..)?.iter().position(|(range, _)| range.start <= at).map(|behind| first + behind)
     }
 
     /// Adds texts that say nothing by themselves.

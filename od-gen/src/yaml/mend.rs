@@ -32,7 +32,7 @@ impl Draft {
     /// Changes what a message is about; `None` where nothing can be done.
     pub(super) fn mend(&mut self, written: &Written, error: &Diagnostic, effort: Effort) -> Option<Repair> {
         let at = usize::try_from(error.labels.first()?.span.start).ok()?;
-        let spot = written.spot(at)?;
+        let (range, spot) = written.spots.get(written.narrowest(at)?)?;
         let because = format!("{} ({})", error.message, error.code.id);
         let mut repair = match (spot, effort) {
             (Spot::EntryFact(id, _) | Spot::Entry(id), Effort::Object) => self.drop_object(id.index),
@@ -49,12 +49,7 @@ impl Draft {
             (Spot::Vendor, _) => self.mend_vendor(),
         }?;
         // What was written tells more than the model does, in the words of a specification.
-        let range = written
-            .spots
-            .iter()
-            .find(|(range, one)| range.contains(&at) && one == spot)
-            .map(|(range, _)| range.clone());
-        let text = range.and_then(|range| written.text.get(range)).unwrap_or_default();
+        let text = written.text.get(range.clone()).unwrap_or_default();
         if let (Some(fact), Spot::EntryFact(..) | Spot::ObjectFact(..)) = (repair.fact, spot)
             && let Some(value) = text.strip_prefix(fact.word()).and_then(|rest| rest.strip_prefix(": "))
         {

@@ -205,12 +205,7 @@ fn mended(
             }
             // Of several messages about one place, the first may take the others with it.
             let at = error.labels.first().map(|label| label.span.start as usize);
-            let spot = at.and_then(|at| {
-                written
-                    .spots
-                    .iter()
-                    .position(|(range, spot)| range.contains(&at) && Some(spot) == written.spot(at))
-            });
+            let spot = at.and_then(|at| written.narrowest(at));
             if spot.is_none_or(|spot| mended.insert(spot)) {
                 remarks.repairs.extend(draft.mend(&written, error, effort));
             }

@@ -18,21 +18,15 @@ pub(super) fn settle(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
 }
 
 fn settle_objects(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
-    let dotted: Vec<(Index, Vec<String>)> = device
-        .objects
-        .values()
-        .filter(|object| object.is_structured())
-        .map(|object| (object.index, object.entries.iter().map(|entry| entry.name.clone()).collect()))
-        .collect();
     let mut taken: BTreeSet<String> = BTreeSet::new();
     let mut full: BTreeSet<String> = BTreeSet::new();
     for object in device.objects.values_mut() {
         let original = object.name.clone();
         let plain = fitting(&original, || format!("object {}", object.index));
-        let entries =
-            dotted.iter().find(|(index, _)| *index == object.index).map_or(&[][..], |(_, names)| names);
+        let entries = if object.is_structured() { object.entries.as_slice() } else { &[] };
         let with_entries = |name: &str| {
-            entries.iter().map(|entry| transliterate(&format!("{name}.{entry}"))).collect::<Vec<_>>()
+            let names = entries.iter().map(|entry| transliterate(&format!("{name}.{}", entry.name)));
+            names.collect::<Vec<_>>()
         };
         let is_free = |name: &str| {
             let ascii = transliterate(name);

@@ -70,8 +70,12 @@ impl Remarks {
         (self.repairs.len(), self.of_reading.len(), self.allowed.len())
     }
 
-    /// What is to be said at a place.
-    pub(super) fn at(&self, place: &Place) -> impl Iterator<Item = String> {
-        self.repairs.iter().filter(move |repair| repair.place == *place).map(Repair::comment)
+    /// What was changed, by place, in the order in which it was.
+    pub(super) fn by_place(&self) -> BTreeMap<Place, Vec<&Repair>> {
+        let mut places: BTreeMap<Place, Vec<&Repair>> = BTreeMap::new();
+        for repair in &self.repairs {
+            places.entry(repair.place).or_default().push(repair);
+        }
+        places
     }
 }

@@ -181,6 +181,11 @@ impl Diagnostics {
         self.list.iter().any(|d| d.severity() == Severity::Error)
     }
 
+    /// Whether an error is among the messages behind the first `count`.
+    pub(crate) fn has_errors_behind(&self, count: usize) -> bool {
+        self.list.iter().skip(count).any(|d| d.severity() == Severity::Error)
+    }
+
     /// Number of errors and of warnings.
     pub fn count(&self) -> (usize, usize) {
         let of = |severity| self.list.iter().filter(|d| d.severity() == severity).count();

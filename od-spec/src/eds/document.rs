@@ -53,9 +53,9 @@ pub struct Line<'t> {
 pub(super) enum Content {
     Blank,
     Comment,
-    /// Between the brackets.
+    /// Where the name ends, which begins behind the first bracket.
     Header {
-        name: Part,
+        end: u32,
     },
     /// Where the equals sign stands.
     KeyValue {
@@ -149,6 +149,13 @@ impl<'t> Document<'t> {
         })
     }
 
+    /// The header of the section that a byte of the file belongs to. The lines of a text that was read ascend.
+    pub(super) fn header_before(&self, start: u32) -> Option<&Line<'t>> {
+        self.file?;
+        let end = self.lines.partition_point(|line| line.start <= start);
+        self.lines[..end].iter().rfind(|line| line.kind() == LineKind::Header)
+    }
+
     /// The text in UTF-8. A text that was read in another encoding is encoded again by who decoded it.
     pub fn to_bytes(&self) -> Vec<u8> {
         self.to_string().into_bytes()
@@ -220,8 +227,8 @@ impl Section {
     /// A section without keys. The name may hold neither brackets nor line breaks.
     pub fn new(name: impl Display) -> Self {
         let text = format!("[{name}]");
-        let name = Part { start: 1, end: length(&text) - 1 };
-        Self { lines: vec![Line::written(text, Content::Header { name })] }
+        let end = length(&text) - 1;
+        Self { lines: vec![Line::written(text, Content::Header { end })] }
     }
 
     /// The section with comments directly above its header, a line each, without their `;`.
@@ -303,7 +310,11 @@ impl<'t> Line<'t> {
     /// The name in a header.
     pub(super) fn name_part(&self) -> Option<Part> {
         match self.content {
-            Content::Header { name } => Some(scan::trimmed(&self.text, name)),
+            Content::Header { end } => {
+                let start = self.text.find('[').map_or(0, |bracket| bracket + 1);
+                let start = u32::try_from(start).unwrap_or(end).min(end);
+                Some(scan::trimmed(&self.text, Part { start, end }))
+            }
             Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => None,
         }
     }

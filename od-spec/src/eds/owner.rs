@@ -25,9 +25,9 @@ pub struct Remark<'d> {
     pub text: &'d str,
 }
 
-/// What a section is about.
-fn owner(section: &SectionRef<'_, '_>) -> Owner {
-    match topic(section.name()) {
+/// What the section of a name is about.
+fn owner(section: &str) -> Owner {
+    match topic(section) {
         Topic::Object(index) | Topic::Elements(index, _) | Topic::ObjectLinks(index) => Owner::Object(index),
         Topic::Sub(index, sub) => match u8::try_from(sub) {
             Ok(sub) => Owner::Entry(EntryId { index, sub: SubIndex(sub) }),
@@ -52,10 +52,7 @@ fn owner(section: &SectionRef<'_, '_>) -> Owner {
 impl Document<'_> {
     /// What a place in the document is about.
     pub fn owner(&self, place: Span) -> Owner {
-        let begins = |section: &SectionRef<'_, '_>| {
-            self.place(section.header()).is_some_and(|header| header.start <= place.start)
-        };
-        self.sections().take_while(begins).last().map_or(Owner::File, |section| owner(&section))
+        self.header_before(place.start).and_then(super::Line::name).map_or(Owner::File, owner)
     }
 
     /// The comments that the reader finds no meaning in, in the order of the file.
@@ -73,9 +70,9 @@ impl Document<'_> {
             let is_key = |line: &super::Line<'_>| !matches!(line.kind(), LineKind::Blank | LineKind::Comment);
             let keys_end = body.iter().rposition(is_key).map_or(0, |last| last + 1);
             for text in body[..keys_end].iter().filter_map(super::Line::comment) {
-                remarks.push(Remark { owner: owner(section), text });
+                remarks.push(Remark { owner: owner(section.name()), text });
             }
-            let next = sections.get(at + 1).map_or(Owner::File, owner);
+            let next = sections.get(at + 1).map_or(Owner::File, |next| owner(next.name()));
             let above = &body[keys_end..];
             let directly = above.iter().rev().take_while(|line| line.kind() == LineKind::Comment).count();
             let (apart, directly) = above.split_at(above.len() - directly);

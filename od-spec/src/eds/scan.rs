@@ -10,35 +10,24 @@ pub(super) const fn is_blank(c: char) -> bool {
 /// The lines of a text; their texts and breaks, one behind the other, are the text.
 pub(super) fn lines(text: &str) -> Vec<Line<'_>> {
     let bytes = text.as_bytes();
+    // Sources are smaller than 4 GiB.
+    let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
     // Real files have 15 bytes a line.
     let mut lines = Vec::with_capacity(bytes.len() / 14 + 1);
     let mut start = 0;
-    for at in memchr::memchr_iter(b'\n', bytes) {
-        let (end, line_end) = match bytes[start..at].last() {
-            Some(b'\r') => (at - 1, LineEnd::CrLf),
-            Some(_) | None => (at, LineEnd::Lf),
+    while start < bytes.len() {
+        let end = memchr::memchr2(b'\r', b'\n', &bytes[start..]).map_or(bytes.len(), |length| start + length);
+        let line_end = match (bytes.get(end), bytes.get(end + 1)) {
+            (Some(b'\r'), Some(b'\n')) => LineEnd::CrLf,
+            (Some(b'\r'), _) => LineEnd::Cr,
+            (Some(_), _) => LineEnd::Lf,
+            (None, _) => LineEnd::EndOfText,
         };
-        pieces(&text[start..end], start, line_end, &mut lines);
-        start = at + 1;
-    }
-    if start < bytes.len() {
-        pieces(&text[start..], start, LineEnd::EndOfText, &mut lines);
+        let line = &text[start..end];
+        lines.push(Line::read(line, offset(start), content(line), line_end));
+        start = end + line_end.text().len();
     }
     lines
-}
-
-/// Adds what lies between two line feeds: a line, or several with carriage returns between them.
-fn pieces<'t>(mut text: &'t str, mut start: usize, end: LineEnd, lines: &mut Vec<Line<'t>>) {
-    // Sources are smaller than 4 GiB.
-    let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-    while let Some(at) = memchr::memchr(b'\r', text.as_bytes()) {
-        lines.push(Line::read(&text[..at], offset(start), content(&text[..at]), LineEnd::Cr));
-        start += at + 1;
-        text = &text[at + 1..];
-    }
-    if !text.is_empty() || end != LineEnd::EndOfText {
-        lines.push(Line::read(text, offset(start), content(text), end));
-    }
 }
 
 fn content(line: &str) -> Content {
@@ -70,8 +59,7 @@ fn header(line: &str, start: usize) -> Option<Content> {
         None if line.contains('=') => return None,
         None => start + line[start..].trim_end_matches([')', '}', '>', ' ', '\t']).len(),
     };
-    let at = |position: usize| u32::try_from(position).unwrap_or(u32::MAX);
-    Some(Content::Header { name: Part { start: at(start), end: at(end) } })
+    Some(Content::Header { end: u32::try_from(end).unwrap_or(u32::MAX) })
 }
 
 /// The first byte that is not blank.

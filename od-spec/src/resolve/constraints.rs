@@ -163,13 +163,13 @@ fn constraint(
     if !conditions.iter().all(|condition| check_known(condition, &all, broken, diagnostics)) {
         return None;
     }
-    let (errors, _) = diagnostics.count();
+    let before = diagnostics.iter().len();
     for condition in &conditions {
         check_names_entries(condition, diagnostics);
         check_operands(condition, devices, diagnostics);
         check_units(condition, devices, diagnostics);
     }
-    if diagnostics.count().0 > errors {
+    if diagnostics.has_errors_behind(before) {
         return None;
     }
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();

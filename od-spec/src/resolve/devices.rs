@@ -133,12 +133,12 @@ impl Builder<'_> {
 
     fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
-            let (errors, _) = diagnostics.count();
+            let before = diagnostics.iter().len();
             if let Some(object) = objects::resolve(one, self.around, diagnostics) {
                 self.objects.insert(*index, object);
             }
             // An object may stand there without the entries that are wrong.
-            if diagnostics.count().0 > errors || !self.objects.contains_key(index) {
+            if diagnostics.has_errors_behind(before) || !self.objects.contains_key(index) {
                 self.broken.add(*index, one.decl.entry.name.as_ref());
             }
         }

@@ -25,6 +25,8 @@ pub(super) struct Meanings {
     units: BTreeMap<String, UnitDecl>,
     /// Types by what they say, with their names.
     types: BTreeMap<String, TypeDecl>,
+    /// The names of these types.
+    type_names: BTreeSet<String>,
 }
 
 impl Meanings {
@@ -99,13 +101,12 @@ impl Meanings {
         if let Some(known) = self.types.get(&content) {
             return known.name.value.clone();
         }
-        let is_taken = |name: &str| {
-            DataType::from_name(name).is_some() || self.types.values().any(|known| known.name.value == name)
-        };
+        let is_taken = |name: &str| DataType::from_name(name).is_some() || self.type_names.contains(name);
         let numbered = (2..).map(|number| format!("{entry} {number}"));
         let name = std::iter::once(entry.to_owned()).chain(numbered).find(|name| !is_taken(name));
         let name = name.unwrap_or_default();
         let place = named.name.span;
+        self.type_names.insert(name.clone());
         self.types.insert(content, TypeDecl { name: made(name.clone(), place), ..named });
         name
     }

@@ -21,6 +21,8 @@ pub(crate) enum Task {
     Corpus(String),
     /// Measure beside other tools, with the arguments of tests/bench/run.py.
     Bench(Vec<String>),
+    /// Measure the reading of EDS files beside other readers, with the arguments of tests/bench/eds/reading.py.
+    BenchReading(Vec<String>),
     /// Print a text about a task, or about all.
     Help(&'static str),
 }
@@ -53,6 +55,8 @@ cargo xtask TASK
   package             package the crates that users depend on, and build each from its package
   corpus DIR          take the EDS and DCF files of a directory through everything
   bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
+  bench eds [ARGUMENT…]
+                      measure the reading of EDS files beside other readers; `bench eds --help` lists the arguments
   help [TASK]         this text, or one about a task
 ";
 
@@ -106,8 +110,11 @@ Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong comma
 
 const BENCH: &str = "\
 cargo xtask bench [ARGUMENT…]
+cargo xtask bench eds [ARGUMENT…]
 
-Measures odgen beside other tools; the arguments are those of tests/bench/run.py, whose `--help` lists them.
+Measures odgen beside other tools; the arguments are those of tests/bench/run.py, whose `--help` lists them. With `eds`, how
+long it takes to read, check, convert and import an EDS beside what others read it with; the arguments are those of
+tests/bench/eds/reading.py.
 ";
 
 /// The task that the arguments mean, or what is wrong with them.
@@ -116,8 +123,9 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
         [] => Err("no task is named".to_owned()),
         ["help" | "--help" | "-h"] => Ok(Task::Help(HELP)),
         ["help", task] => help(task),
-        // The script of the benchmarks answers `--help` itself.
-        ["bench", rest @ ..] => Ok(Task::Bench(rest.iter().map(|&argument| argument.to_owned()).collect())),
+        // The scripts of the benchmarks answer `--help` themselves.
+        ["bench", "eds", rest @ ..] => Ok(Task::BenchReading(owned(rest))),
+        ["bench", rest @ ..] => Ok(Task::Bench(owned(rest))),
         [task, options @ ..] if options.contains(&"--help") || options.contains(&"-h") => help(task),
         ["test", options @ ..] => test(options).map(Task::Test),
         ["browser"] => Ok(Task::Browser),
@@ -131,6 +139,10 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
             Err(format!("`{task}` does not take `{}`", rest.join(" ")))
         }
     }
+}
+
+fn owned(arguments: &[&str]) -> Vec<String> {
+    arguments.iter().map(|&argument| argument.to_owned()).collect()
 }
 
 fn help(task: &str) -> Result<Task, String> {
@@ -184,6 +196,7 @@ mod tests {
         assert_eq!(parse(&["package"]), Ok(Task::Package));
         assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned())));
         assert_eq!(parse(&["bench", "--help"]), Ok(Task::Bench(vec!["--help".to_owned()])));
+        assert_eq!(parse(&["bench", "eds", "--help"]), Ok(Task::BenchReading(vec!["--help".to_owned()])));
     }
 
     #[test]
@@ -191,7 +204,7 @@ mod tests {
         let lines =
             HELP.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
         let tasks: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
-        assert_eq!(tasks, ["test", "browser", "generate", "package", "corpus", "bench", "help"]);
+        assert_eq!(tasks, ["test", "browser", "generate", "package", "corpus", "bench", "bench", "help"]);
         for task in tasks {
             assert!(matches!(parse(&["help", task]), Ok(Task::Help(_))), "{task}");
         }

@@ -38,10 +38,8 @@ fn main() -> ExitCode {
         Ok(Task::CheckGenerated) => check(),
         Ok(Task::Package) => package::package(),
         Ok(Task::Corpus(directory)) => corpus::corpus(&directory),
-        Ok(Task::Bench(rest)) => {
-            let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-            Runner::default().python("tests/bench/run.py", &rest)
-        }
+        Ok(Task::Bench(rest)) => bench("tests/bench/run.py", &rest),
+        Ok(Task::BenchReading(rest)) => bench("tests/bench/eds/reading.py", &rest),
         Ok(Task::Help(text)) => {
             print!("{text}");
             Ok(())
@@ -58,6 +56,11 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn bench(script: &str, arguments: &[String]) -> Result<(), Failure> {
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    Runner::default().python(script, &arguments)
 }
 
 /// Runs every part that can run, and tells what became of each.
