@@ -26,7 +26,10 @@ pub(super) fn add(view: &View<'_>, objects: &mut Vec<ObjectDecl>, context: &mut 
         0 => format!("{} modules are described, and none is connected", view.modules.len()),
         count => format!("{} modules are described, {count} connected", view.modules.len()),
     };
-    context.push(Diagnostic::new(codes::MODULES, supported.place(), message));
+    context.push(
+        Diagnostic::new(codes::MODULES, supported.place(), message)
+            .help("`[ConnectedModules]` of a DCF names the modules of a node"),
+    );
     let mut fixed = BTreeSet::new();
     let mut extensions: BTreeMap<Index, Extension> = BTreeMap::new();
     for number in connected {
