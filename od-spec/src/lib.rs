@@ -48,6 +48,8 @@ mod resolve;
 mod rule_cases;
 #[cfg(test)]
 mod rule_examples;
+#[cfg(test)]
+mod rule_words;
 pub mod scalar;
 pub mod source;
 mod standard;

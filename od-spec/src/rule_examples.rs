@@ -10,7 +10,7 @@ use crate::parameters::assign_with;
 use crate::source::{SourceMap, Spanned};
 
 /// What is said about a text of an example; its lines `# --set ENTRY=VALUE` are settings of node 1.
-fn said(rules: &[&Rule], text: &str) -> Diagnostics {
+pub(crate) fn said(rules: &[&Rule], text: &str) -> Diagnostics {
     let mut sources = SourceMap::new();
     let root = sources.add("example.od.yaml", Example::whole_specification(text));
     let compiled = compile_with(rules, &mut sources, root, &mut NoFiles);
