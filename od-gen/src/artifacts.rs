@@ -1,5 +1,7 @@
 //! The files that a specification becomes for PLC tools and programs.
 
+use std::borrow::Cow;
+
 use od_spec::Commissioning;
 use od_spec::model::{Devices, Dictionary, System};
 
@@ -7,12 +9,14 @@ use crate::artifact::Artifact;
 use crate::{eds, json};
 
 /// What [`artifacts`] makes.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Selection<'a> {
     /// Keys of the devices; empty for all.
     pub devices: &'a [String],
     /// Also a DCF of each device for this node-ID.
     pub node: Option<u8>,
+    /// Where no node-ID is given: the node of the DCF that the system was read from, with its values.
+    pub configured: Option<&'a Commissioning>,
 }
 
 /// The files of one specification: an EDS per device, perhaps a DCF, and the JSON dump under the name `stem`.
@@ -27,8 +31,9 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
                 let path = format!("eds/{}.eds", device.key);
                 let bytes = eds::write_eds(system, device);
                 list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
-                if let Some(node) = selection.node {
-                    let commissioning = Commissioning::of_node(device, node);
+                let node = selection.node.map(|node| Cow::Owned(Commissioning::of_node(device, node)));
+                if let Some(commissioning) = node.or(selection.configured.map(Cow::Borrowed)) {
+                    let node = commissioning.node;
                     let file = format!("{}.dcf", device.key);
                     let bytes = eds::write_dcf(system, device, &commissioning, &file);
                     let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);

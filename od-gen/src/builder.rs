@@ -12,6 +12,7 @@ use od_spec::source::SourceMap;
 
 use crate::expand::unknown_device;
 use crate::files::write_all;
+use crate::foreign::condense;
 use crate::rust::{self, Provenance};
 use crate::source::{FileLoader, compile_file};
 
@@ -82,13 +83,15 @@ impl std::error::Error for BuildError {}
 /// What a build script tells cargo.
 struct Outcome {
     read: Vec<PathBuf>,
+    /// One line about an EDS or DCF, in place of its messages.
+    in_short: Option<String>,
     diagnostics: Diagnostics,
     sources: SourceMap,
     written: Vec<PathBuf>,
 }
 
 impl Builder {
-    /// Of a specification; the path is relative to the package that is built.
+    /// Of a specification, EDS or DCF; the path is relative to the package that is built.
     pub fn new(specification: impl Into<PathBuf>) -> Self {
         Self { specification: specification.into(), devices: Vec::new(), out: None, unformatted: false }
     }
@@ -116,12 +119,16 @@ impl Builder {
     }
 
     /// Writes `KEY.rs` for each device and tells cargo about it. Mistakes in the specification appear as errors of the build,
-    /// with their places and with help, and end the process with exit code 1; warnings appear as warnings.
+    /// with their places and with help, and end the process with exit code 1; warnings appear as warnings. Of an EDS or DCF, which
+    /// is read whatever is wrong with it, one warning says how much that is.
     #[expect(clippy::print_stdout, clippy::print_stderr, reason = "cargo reads what a build script prints")]
     pub fn generate(&self) {
         let outcome = self.run();
         for path in &outcome.read {
             println!("cargo::rerun-if-changed={}", path.display());
+        }
+        if let Some(line) = &outcome.in_short {
+            println!("cargo::warning={line}");
         }
         for diagnostic in &outcome.diagnostics {
             let mut one = Diagnostics::new();
@@ -152,8 +159,9 @@ impl Builder {
 
     fn run(&self) -> Outcome {
         let (mut sources, mut loader) = (SourceMap::new(), FileLoader::default());
-        let Compiled { system, mut diagnostics, .. } =
-            compile_file(&self.specification, &mut sources, &mut loader);
+        let mut compiled = compile_file(&self.specification, &mut sources, &mut loader);
+        let in_short = condense(&self.specification, &mut compiled);
+        let Compiled { system, mut diagnostics, .. } = compiled;
         let mut read = loader.read;
         if !read.contains(&self.specification) {
             read.push(self.specification.clone());
@@ -181,7 +189,7 @@ impl Builder {
                 None => diagnostics.push(not_written("there is no `OUT_DIR`, as this is no build script")),
             }
         }
-        Outcome { read, diagnostics, sources, written }
+        Outcome { read, in_short, diagnostics, sources, written }
     }
 }
 

@@ -8,13 +8,16 @@ use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::SourceMap;
 
+use crate::foreign::condense;
 use crate::rust;
 use crate::source::{FileLoader, compile_file};
 
 /// The module of a device as tokens, with all messages of the run.
 pub fn expand(specification: &Path, device: Option<&str>) -> Expansion {
     let (mut sources, mut loader) = (SourceMap::new(), FileLoader::default());
-    let Compiled { system, mut diagnostics, .. } = compile_file(specification, &mut sources, &mut loader);
+    let mut compiled = compile_file(specification, &mut sources, &mut loader);
+    let in_short = condense(specification, &mut compiled);
+    let Compiled { system, mut diagnostics, .. } = compiled;
     let mut tokens = None;
     if let Some(system) = system {
         let chosen =
@@ -43,12 +46,12 @@ pub fn expand(specification: &Path, device: Option<&str>) -> Expansion {
                 one.push(diagnostic.clone());
                 render(&one, &sources, Format::Human, false).trim_end().to_owned()
             })
-            .collect()
+            .collect::<Vec<_>>()
     };
     Expansion {
         read: loader.read,
         errors: messages(Severity::Error),
-        warnings: messages(Severity::Warning),
+        warnings: in_short.into_iter().chain(messages(Severity::Warning)).collect(),
         tokens,
     }
 }
@@ -60,7 +63,7 @@ pub struct Expansion {
     pub read: Vec<PathBuf>,
     /// Errors, as `odgen check` prints them.
     pub errors: Vec<String>,
-    /// Warnings, as `odgen check` prints them.
+    /// Warnings, as `odgen check` prints them; about an EDS or DCF one line for all.
     pub warnings: Vec<String>,
     /// The items of the module; `None` if there are errors.
     pub tokens: Option<proc_macro2::TokenStream>,

@@ -14,6 +14,7 @@ pub mod docs;
 pub mod eds;
 mod expand;
 pub mod files;
+mod foreign;
 #[cfg(feature = "json")]
 pub mod json;
 mod plan;
@@ -26,6 +27,7 @@ pub use artifacts::{Selection, artifacts};
 #[cfg(feature = "format")]
 pub use builder::{BuildError, Builder};
 pub use expand::{Expansion, expand};
+pub use foreign::condense;
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

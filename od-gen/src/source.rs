@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{Compiled, Loader, add_source, compile};
+use od_spec::{Compiled, Loader, Strictness, add_source, compile_as};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -27,19 +27,45 @@ impl Loader for FileLoader {
     }
 }
 
-/// Compiles the specification in a file. The file's own reading errors are diagnostics, too.
+/// Compiles the specification, EDS or DCF in a file. The file's own reading errors are diagnostics, too.
 pub fn compile_file(path: &Path, sources: &mut SourceMap, loader: &mut FileLoader) -> Compiled {
+    compile_file_as(Strictness::Foreign, path, sources, loader)
+}
+
+/// [`compile_file`], with an EDS or DCF held to the standard or only read.
+pub fn compile_file_as(
+    strictness: Strictness,
+    path: &Path,
+    sources: &mut SourceMap,
+    loader: &mut FileLoader,
+) -> Compiled {
     match open(path, sources) {
         Ok(root) => {
             loader.read.push(path.to_owned());
-            compile(sources, root, loader)
+            compile_as(strictness, sources, root, loader)
         }
-        Err(diagnostic) => {
-            let mut diagnostics = Diagnostics::new();
-            diagnostics.push(*diagnostic);
-            Compiled::refused(diagnostics)
-        }
+        Err(diagnostic) => refused(*diagnostic),
     }
+}
+
+/// [`compile_file_as`], of bytes that were read already: the name stands for the path.
+pub fn compile_bytes_as(
+    strictness: Strictness,
+    name: &str,
+    bytes: Vec<u8>,
+    sources: &mut SourceMap,
+    loader: &mut FileLoader,
+) -> Compiled {
+    match add_source(sources, name, bytes) {
+        Ok(root) => compile_as(strictness, sources, root, loader),
+        Err(diagnostic) => refused(*diagnostic),
+    }
+}
+
+fn refused(diagnostic: Diagnostic) -> Compiled {
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(diagnostic);
+    Compiled::refused(diagnostics)
 }
 
 /// The files of a directory that are called like specifications, `*.od.yaml`, ordered by name; hidden files are left out.
@@ -67,7 +93,7 @@ fn open(path: &Path, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>>
     let bytes = read_bytes(path).map_err(|reason| {
         Box::new(
             Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}"))
-                .help("check the path; a specification is a YAML file, usually named `*.od.yaml`"),
+                .help("check the path; what is read are specifications (`*.od.yaml`), EDS and DCF files"),
         )
     })?;
     add_source(sources, &name, bytes)
@@ -86,5 +112,15 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
     }
     let mut bytes = Vec::new();
     file.take(READ_LIMIT).read_to_end(&mut bytes).map_err(describe)?;
+    Ok(bytes)
+}
+
+/// All of an input such as standard input, but not more than a file may have.
+///
+/// # Errors
+/// It cannot be read.
+pub fn read_input(input: impl io::Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    input.take(READ_LIMIT).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

@@ -21,7 +21,7 @@ use quote::quote;
 
 /// Puts the items of a device's object dictionary where it stands, which should be a module of its own.
 ///
-/// The first argument is the path of the specification, relative to the package (the directory of its `Cargo.toml`);
+/// The first argument is the path of the specification, EDS or DCF, relative to the package (the directory of its `Cargo.toml`);
 /// `device = "KEY"` chooses a device and can be left out if there is only one.
 ///
 /// Mistakes in the specification become errors of the compiler, with their place in the specification and with help; its

@@ -35,6 +35,24 @@ impl Commissioning {
             values: ParameterValues::new(),
         }
     }
+
+    /// The device as this node is: the values stand where the defaults were, and PDOs are what their parameters then say.
+    pub fn configured(&self, device: &Dictionary) -> Dictionary {
+        let mut configured = device.clone();
+        for (id, value) in &self.values {
+            let object = configured.objects.get_mut(&id.index);
+            let entry = object.and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == id.sub));
+            if let Some(entry) = entry {
+                entry.default = Some(value.clone());
+            }
+        }
+        let objects = &configured.objects;
+        for pdo in &mut configured.pdos {
+            pdo.follow(objects);
+        }
+        configured
+    }
+
     /// The writes that bring the values into the node, in the order in which a device takes them; see [`download`].
     ///
     /// # Errors

@@ -244,9 +244,17 @@ fn load(
 /// # Errors
 /// As [`read_text`], but for the encoding of an EDS.
 pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
-    if eds::has_eds_name(name) && bytes.len() <= LARGEST_FILE {
+    let fits = bytes.len() <= LARGEST_FILE;
+    if fits && eds::has_eds_name(name) {
         let (text, encoding) = encoding::decode(bytes);
         return Ok(sources.add_decoded(name, text, encoding));
+    }
+    // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
+    if fits && std::str::from_utf8(&bytes).is_err() {
+        let (text, encoding) = encoding::decode(bytes.clone());
+        if eds::is_eds(name, &text) {
+            return Ok(sources.add_decoded(name, text, encoding));
+        }
     }
     Ok(sources.add(name, read_text(name, bytes)?))
 }

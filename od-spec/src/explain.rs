@@ -4,11 +4,13 @@ use std::fmt::Write as _;
 
 use crate::check::RULES;
 use crate::diag::{Code, codes};
+use crate::eds;
 
 /// All codes, ascending: those of reading and looking up, and those of the rules.
 pub fn all_codes() -> Vec<&'static Code> {
     let mut list: Vec<&Code> = codes::ALL.to_vec();
     list.extend(RULES.iter().map(|rule| rule.code));
+    list.extend(eds::codes::ALL);
     list.sort();
     // One code may be said by several rules.
     list.dedup();

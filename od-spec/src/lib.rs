@@ -57,7 +57,7 @@ pub use commissioning::Commissioning;
 pub use compile::{
     Compiled, LIBRARIES, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text,
 };
-pub use decode::is_device_key;
+pub use decode::{is_device_key, nearest};
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
 #[cfg(feature = "reference")]

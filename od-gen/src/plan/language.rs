@@ -55,7 +55,7 @@ impl Companion {
 }
 
 /// A scope: identifiers that must differ from each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum ScopeKind {
     /// Types beside the dictionary's.
     Dictionary,

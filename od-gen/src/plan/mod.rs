@@ -5,6 +5,7 @@
 
 mod condition;
 mod entries;
+mod foreign;
 mod language;
 mod layout;
 mod names;
@@ -22,6 +23,7 @@ use od_spec::model::{
 use od_spec::source::Span;
 
 pub(crate) use self::condition::{Compare, Condition, Sum};
+pub(crate) use self::foreign::decided;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
 pub(crate) use self::layout::{Layout, Place};
 use self::names::Scope;

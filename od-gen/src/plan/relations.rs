@@ -2,7 +2,7 @@
 
 use od_spec::diag::Diagnostics;
 use od_spec::expr::Expr;
-use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex};
+use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex, SystemSource};
 
 use super::condition::{self, Unusable};
 use super::language::{Role, ScopeKind};
@@ -22,13 +22,27 @@ impl Plan<'_> {
                     && let Some(row) = self.row(id)
                     && let Some(entry) = self.entry(row)
                 {
-                    scope.claim(&entry.name, &format!("{id} in {name}"), pdo.span, diagnostics);
+                    let field_name = self.field_name(&entry.name, &fields);
+                    scope.claim(&field_name, &format!("{id} in {name}"), pdo.span, diagnostics);
                     let (first_bit, bits) = (field.first_bit, field.mapped.bits);
-                    fields.push(PlannedField { name: entry.name.clone(), row, first_bit, bits });
+                    fields.push(PlannedField { name: field_name, row, first_bit, bits });
                 }
             }
             let served = self.served(pdo, &fields);
             self.pdos.push(PlannedPdo { pdo, name, fields, bits: pdo.bits(), served });
+        }
+    }
+
+    /// The name of a mapped entry among those before it. A PDO of an EDS may map an entry twice; the second one has a number.
+    fn field_name(&self, entry: &str, before: &[PlannedField]) -> String {
+        let is_free = |name: &String| before.iter().all(|field| field.name != *name);
+        match self.system.source {
+            SystemSource::Specification => entry.to_owned(),
+            SystemSource::Eds => [entry.to_owned()]
+                .into_iter()
+                .chain((2..=before.len() + 1).map(|n| self.identifier(Role::Field, &format!("{entry} {n}"))))
+                .find(is_free)
+                .unwrap_or_else(|| entry.to_owned()),
         }
     }
 

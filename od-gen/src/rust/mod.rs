@@ -3,7 +3,7 @@
 //! The work has two steps. The plan decides everything that is the same in every language: the place of every value, the
 //! tables, and with the help of `language` the names. `print` writes it down as Rust.
 
-mod language;
+pub(crate) mod language;
 mod print;
 
 use std::collections::BTreeMap;
@@ -15,13 +15,15 @@ use od_spec::source::SourceMap;
 use proc_macro2::TokenStream;
 
 use self::language::Rust;
-use crate::plan::{Plan, PlannedEntry, Shape, plan};
+use crate::plan::{Plan, PlannedEntry, Shape, decided, plan};
 
 /// The items of a device's module. What cannot be code (two names that give one identifier, a string without capacity) is
-/// reported, and nothing comes out.
+/// reported, and nothing comes out. An EDS cannot say what code needs of it, and its objects often share names: there, what would
+/// clash gets its index behind its name, and a text has room for its default and for 32 bytes.
 pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
     let (errors, _) = diagnostics.count();
-    let plan = plan(system, device, &Rust, diagnostics);
+    let device = decided(system, device, &Rust);
+    let plan = plan(system, &device, &Rust, diagnostics);
     (diagnostics.count().0 == errors).then(|| print::tokens(&plan))
 }
 
@@ -29,7 +31,8 @@ pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostic
 /// device cannot be code.
 pub fn accessors(system: &System, device: &Dictionary) -> BTreeMap<EntryId, String> {
     let mut diagnostics = Diagnostics::new();
-    let plan = plan(system, device, &Rust, &mut diagnostics);
+    let device = decided(system, device, &Rust);
+    let plan = plan(system, &device, &Rust, &mut diagnostics);
     if diagnostics.has_errors() {
         return BTreeMap::new();
     }

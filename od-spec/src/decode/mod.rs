@@ -19,7 +19,7 @@ mod spec;
 mod types;
 
 pub use lexical::is_device_key;
-pub(crate) use nearest::nearest;
+pub use nearest::nearest;
 pub(crate) use shape::inside;
 
 use crate::ast::Spec;

@@ -1,7 +1,7 @@
 //! "Did you mean": the candidate that is the fewest slips of the keyboard away.
 
 /// The nearest candidate, if it is near enough to be what was meant.
-pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word: Vec<char> = word.to_lowercase().chars().take(80).collect();
     let allowed = 1 + word.len() / 4;
     candidates

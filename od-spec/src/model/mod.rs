@@ -47,10 +47,21 @@ pub use views::{Carrier, Devices, PdoField, View};
 
 use crate::source::Span;
 
+/// What a system was read from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SystemSource {
+    /// A specification, whose author can be asked to say more.
+    Specification,
+    /// An EDS or DCF, which says what that format has keys for.
+    Eds,
+}
+
 /// Everything that one specification describes.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct System {
+    /// What it was read from.
+    pub source: SystemSource,
     /// Title of the product or family.
     pub title: String,
     /// Language codes; the first is the default.

@@ -22,9 +22,9 @@ mod table_content;
 mod types;
 pub(crate) mod values;
 
-use crate::ast::Spec;
+use crate::ast::{FrontEnd, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, System, Vendor};
+use crate::model::{Dictionary, System, SystemSource, Vendor};
 use crate::source::Span;
 
 use numbers::to_u32;
@@ -66,6 +66,10 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
     let library = devices::of_library(root, libraries, &scope, diagnostics);
     let (devices, broken) = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
     let mut system = System {
+        source: match root.front_end {
+            FrontEnd::Specification => SystemSource::Specification,
+            FrontEnd::Eds => SystemSource::Eds,
+        },
         title: root.title.as_ref().map_or(String::new(), |title| title.value.clone()),
         languages,
         document: document::resolve(root),

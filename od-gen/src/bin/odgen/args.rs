@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
 
-/// Checks specifications of CANopen object dictionaries and makes EDS, DCF, JSON and Rust files from them.
+/// Checks CANopen object dictionaries – specifications, EDS and DCF files – and makes EDS, DCF, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
 #[command(
     name = "odgen",
@@ -49,12 +49,48 @@ pub(crate) enum Format {
     Json,
 }
 
+/// How findings are written. SARIF and GitHub's workflow commands go to standard output, the others to standard error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckFormat {
+    /// With the source lines, as rustc does, and a summary
+    Human,
+    /// One line each
+    Short,
+    /// One JSON object per line
+    Json,
+    /// One SARIF 2.1.0 document, for code scanning services
+    Sarif,
+    /// Workflow commands of GitHub Actions, which show findings beside the source
+    Github,
+}
+
+impl CheckFormat {
+    /// How messages about the command itself are written.
+    fn of_messages(self) -> Format {
+        match self {
+            CheckFormat::Human => Format::Human,
+            CheckFormat::Short | CheckFormat::Sarif | CheckFormat::Github => Format::Short,
+            CheckFormat::Json => Format::Json,
+        }
+    }
+}
+
+impl From<Format> for CheckFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Human => CheckFormat::Human,
+            Format::Short => CheckFormat::Short,
+            Format::Json => CheckFormat::Json,
+        }
+    }
+}
+
 impl Cli {
     /// How messages are written, wherever it was said.
     pub(crate) fn message_format(&self) -> Format {
         let behind = match &self.command {
             Command::Build(args) => args.messages.format,
-            Command::Check(args) => args.messages.format,
+            Command::Check(args) => args.format.map(CheckFormat::of_messages),
             Command::Dcf(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
@@ -99,7 +135,7 @@ pub(crate) enum Color {
 pub(crate) enum Command {
     /// Make the files of a specification: EDS of each device and the JSON dump; all of them or, on an error, none
     Build(BuildArgs),
-    /// Check specifications without writing anything
+    /// Check specifications, EDS and DCF files without writing anything
     Check(CheckArgs),
     /// Make the DCF of one node, with parameter values of your own
     Dcf(DcfArgs),
@@ -135,7 +171,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// Specifications (`*.od.yaml`) [default: those of the current directory]
+    /// Specifications, EDS or DCF files [default: the `*.od.yaml` of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the files
@@ -146,7 +182,7 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_name = "KEY")]
     pub device: Vec<String>,
 
-    /// Also a DCF of each device for this node-ID (1 to 127)
+    /// Also a DCF of each device for this node-ID (1 to 127) [default: of a DCF its own node, with its values]
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
 
@@ -164,53 +200,76 @@ pub(crate) struct BuildArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Specifications (`*.od.yaml`) [default: those of the current directory]
-    pub specs: Vec<PathBuf>,
+    /// Specifications, EDS and DCF files, directories to look for them in, or `-` for standard input [default: the
+    /// `*.od.yaml` of the current directory]
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
 
-    /// Treat warnings as errors
+    /// Take these findings as errors: a code such as EDS503, the codes that begin with EDS5, `warnings` or `notes`
+    #[arg(long, value_name = "CODE")]
+    pub deny: Vec<String>,
+
+    /// Treat warnings as errors, as `--deny warnings` does
     #[arg(long)]
     pub deny_warnings: bool,
 
-    /// Also list the objects that depart from the standard they are taken from
+    /// Leave these findings out: a code or the codes that begin so; errors in a specification stay
+    #[arg(long, value_name = "CODE")]
+    pub allow: Vec<String>,
+
+    /// Hold EDS and DCF files to the standard, as files of one's own, not as files of others that are only read
+    #[arg(long)]
+    pub strict: bool,
+
+    /// Also show notes: what is not wrong but worth knowing, such as objects that depart from the standard they are taken from
     #[arg(long)]
     pub notes: bool,
+
+    /// Show every place of a finding that an EDS or DCF has in many places, not only the first three
+    #[arg(long)]
+    pub all: bool,
 
     /// Also what only Rust code minds: names that give one identifier, strings without a capacity
     #[arg(long)]
     pub rust: bool,
 
-    #[command(flatten)]
-    pub messages: Messages,
+    /// What standard input is called; the name tells what it is, as it does for a file
+    #[arg(long, value_name = "NAME", default_value = "<stdin>", hide_default_value = true)]
+    pub stdin_name: String,
+
+    /// How findings are written [default: human]
+    #[arg(long, value_enum)]
+    pub format: Option<CheckFormat>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct DcfArgs {
-    /// The specification [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
-    /// Key of the device
+    /// Key of the device [default: the only one]
     #[arg(long, value_name = "KEY")]
-    pub device: String,
+    pub device: Option<String>,
 
-    /// Node-ID, 1 to 127
+    /// Node-ID, 1 to 127 [default: of a DCF its own]
     #[arg(long, value_name = "ID")]
-    pub node: String,
+    pub node: Option<String>,
 
-    /// Bit rate in kbit/s [default: 250, or the device's highest]
+    /// Bit rate in kbit/s [default: of a DCF its own; 250, or the device's highest]
     #[arg(long, value_name = "KBIT")]
     pub bit_rate: Option<String>,
 
-    /// Name of the node [default: product name and node-ID]
+    /// Name of the node [default: of a DCF its own; product name and node-ID]
     #[arg(long, value_name = "NAME")]
     pub node_name: Option<String>,
 
-    /// Number of the network
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub net_number: u32,
+    /// Number of the network [default: of a DCF its own; 1]
+    #[arg(long, value_name = "N")]
+    pub net_number: Option<u32>,
 
-    /// Name of the network
-    #[arg(long, value_name = "NAME", default_value = "")]
-    pub net_name: String,
+    /// Name of the network [default: of a DCF its own; none]
+    #[arg(long, value_name = "NAME")]
+    pub net_name: Option<String>,
 
     /// Value of an entry: `607D.2=9000`, `"EFC target position=90.00 °"`, `"sensor selection code=-1"`
     #[arg(long = "set", value_name = "ENTRY=VALUE")]
@@ -226,7 +285,7 @@ pub(crate) struct DcfArgs {
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DocsArgs {
-    /// Specifications (`*.od.yaml`) [default: those of the current directory]
+    /// Specifications, EDS or DCF files [default: the `*.od.yaml` of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the documents; those of a specification go into a directory with its name
@@ -268,7 +327,7 @@ pub(crate) enum DocsFormat {
 
 #[derive(Debug, Args)]
 pub(crate) struct DumpArgs {
-    /// The specification [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// As JSON, the only format there is
@@ -315,7 +374,7 @@ pub(crate) enum Profile {
 
 #[derive(Debug, Args)]
 pub(crate) struct ErrataArgs {
-    /// The specification [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Only this kind of fact, such as `access` or `gap`

@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
-use od_spec::diag::{Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
 use od_spec::rule_codes;
 use od_spec::source::SourceMap;
 
 use super::ERRORS;
 use super::args::BuildArgs;
-use super::output::{clash, write};
-use super::report::{Report, node_id};
+use super::output::{clash, overwritten, write};
+use super::report::{Report, Used, node_id};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
 
@@ -29,8 +29,8 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
     let mut set: Vec<Artifact> = Vec::new();
     let mut summary = String::new();
     for key in &args.device {
-        if !systems.iter().any(|built| built.system.device(key).is_some()) {
-            return report.unknown_device(systems.iter().map(|built| &built.system), key);
+        if !systems.iter().any(|built| built.used.system.device(key).is_some()) {
+            return report.unknown_device(systems.iter().map(|built| &built.used.system), key);
         }
     }
     let templates = match args.docs.as_slice() {
@@ -41,13 +41,17 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    for Built { stem, system, rust } in &mut systems {
+    for Built { stem, used: Used { system, node: configured }, rust } in &mut systems {
         let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
             continue;
         }
         summary.extend(devices.into_iter().map(describe));
-        set.extend(artifacts(system, stem, &Selection { devices: &args.device, node }));
+        set.extend(artifacts(
+            system,
+            stem,
+            &Selection { devices: &args.device, node, configured: configured.as_ref() },
+        ));
         set.append(rust);
         if !templates.is_empty() {
             let options = od_gen::docs::options(system, &args.device, None);
@@ -66,6 +70,15 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             .help("give the devices different keys, or build the specifications into different directories"),
         );
     }
+    if let Some(path) = overwritten(&args.out, &set, &specs) {
+        return report.refuse(
+            Diagnostic::without_place(
+                codes::WRITE_FAILED,
+                format!("cannot write {path}: it is read to make it"),
+            )
+            .help("build into another directory, with `--out`"),
+        );
+    }
     // The process ends next: taking the models apart piece by piece would only cost the user time.
     std::mem::forget(systems);
     write(&args.out, &set, &summary, report)
@@ -74,7 +87,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
 /// A specification that was compiled.
 struct Built {
     stem: String,
-    system: System,
+    used: Used,
     /// Its Rust modules, if they are wanted.
     rust: Vec<Artifact>,
 }
@@ -82,9 +95,9 @@ struct Built {
 /// Compiles everything, so that all messages are shown; `None` if any has errors.
 fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<Vec<Built>> {
     let built = specs.iter().map(|path| {
-        let (system, sources) = report.compile_with_sources(path)?;
-        let rust = if args.rust { modules(args, &system, &sources, report)? } else { Vec::new() };
-        Some(Built { stem: stem(path), system, rust })
+        let (used, sources) = report.compile_with_sources(path)?;
+        let rust = if args.rust { modules(args, &used.system, &sources, report)? } else { Vec::new() };
+        Some(Built { stem: stem(path), used, rust })
     });
     built.collect::<Vec<_>>().into_iter().collect()
 }

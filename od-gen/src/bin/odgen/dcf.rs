@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
+use od_gen::condense;
 use od_gen::eds::write_dcf;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -30,15 +31,19 @@ pub(crate) fn run(args: &DcfArgs, directory: &Path, report: &Report) -> u8 {
 
 fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> {
     let refuse = |diagnostic| report.refuse(diagnostic);
-    let node = node_id(&args.node).map_err(refuse)?;
+    let node = args.node.as_deref().map(node_id).transpose().map_err(refuse)?;
     let spec = specs::one(args.spec.as_deref(), directory, report)?;
     let mut sources = SourceMap::new();
     let mut loader = FileLoader::default();
-    let compiled = od_gen::source::compile_file(&spec, &mut sources, &mut loader);
+    let mut compiled = od_gen::source::compile_file(&spec, &mut sources, &mut loader);
+    if let Some(line) = condense(&spec, &mut compiled) {
+        report.note(&line);
+    }
     report.show(&compiled.diagnostics, &sources);
     let system = compiled.system.ok_or(ERRORS)?;
-    let device = report.device(&system, &args.device)?;
-    let mut commissioning = commissioning(args, device, node).map_err(refuse)?;
+    let device = report.device_or_only(&system, args.device.as_deref())?;
+    let mut commissioning = commissioning(args, device, node, compiled.node).map_err(refuse)?;
+    let node = commissioning.node;
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
     let name = file_name(&path, &loader.read).map_err(refuse)?;
     let settings: Vec<Spanned<String>> = args
@@ -50,32 +55,59 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
         })
         .collect();
     let mut diagnostics = Diagnostics::new();
-    commissioning.values = assign(&system, device, node, &settings, &mut diagnostics);
+    let settings = assign(&system, &commissioning.configured(device), node, &settings, &mut diagnostics);
     diagnostics.sort();
     report.show(&diagnostics, &sources);
     if diagnostics.has_errors() {
         return Err(ERRORS);
     }
+    let count = settings.len();
+    commissioning.values.extend(settings);
+    let kept = match commissioning.values.len() - count {
+        0 => String::new(),
+        kept => format!(", {kept} kept"),
+    };
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
     let artifact = Artifact { path: name, bytes, purpose: String::new() };
     save(directory, std::slice::from_ref(&artifact)).map_err(refuse)?;
     let size = artifact.bytes.len().div_ceil(1024);
-    let count = commissioning.values.len();
-    Ok(format!("  {}  {size} kB  {} node {node}, {count} values set\n", path.display(), device.key))
+    Ok(format!("  {}  {size} kB  {} node {node}, {count} values set{kept}\n", path.display(), device.key))
 }
 
-/// What the command line says about the node, without its parameter values.
-fn commissioning(args: &DcfArgs, device: &Dictionary, node: u8) -> Result<Commissioning, Diagnostic> {
-    let mut commissioning = Commissioning::of_node(device, node);
+/// What the command line says about the node, and else the DCF that it is made from, without the settings.
+fn commissioning(
+    args: &DcfArgs,
+    device: &Dictionary,
+    node: Option<u8>,
+    configured: Option<Commissioning>,
+) -> Result<Commissioning, Diagnostic> {
+    let mut commissioning = match (node, configured) {
+        (Some(node), None) => Commissioning::of_node(device, node),
+        (None, Some(configured)) => configured,
+        (Some(node), Some(mut configured)) => {
+            configured.node = node;
+            configured
+        }
+        (None, None) => {
+            let message = "no node-ID is given";
+            return Err(
+                Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`, 1 to 127")
+            );
+        }
+    };
     if let Some(text) = &args.bit_rate {
         commissioning.bit_rate = bit_rate(device, text)?;
     }
     if let Some(name) = &args.node_name {
         commissioning.node_name = text("--node-name", name, LONGEST_NODE_NAME)?;
     }
-    commissioning.net_number = args.net_number;
-    commissioning.net_name = text("--net-name", &args.net_name, LONGEST_NET_NAME)?;
+    if let Some(number) = args.net_number {
+        commissioning.net_number = number;
+    }
+    if let Some(name) = &args.net_name {
+        commissioning.net_name = text("--net-name", name, LONGEST_NET_NAME)?;
+    }
     Ok(commissioning)
 }
 

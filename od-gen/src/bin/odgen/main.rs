@@ -16,7 +16,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-use args::{Cli, Command};
+use args::{CheckFormat, Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
 use od_spec::diag::{Code, Diagnostic, codes};
 
@@ -30,10 +30,13 @@ const USAGE: u8 = 2;
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let report = report::Report::new(cli.message_format().into(), cli.color);
-    let directory = cli.directory.as_path();
+    let (format, directory) = (cli.format, cli.directory.as_path());
     let code = match cli.command {
         Command::Build(args) => build::run(&args, directory, &report),
-        Command::Check(args) => check::run(&args, directory, &report),
+        Command::Check(args) => {
+            let format = args.format.or(format.map(CheckFormat::from)).unwrap_or(CheckFormat::Human);
+            check::run(&args, format, directory, &report)
+        }
         Command::Dcf(args) => dcf::run(&args, directory, &report),
         Command::Docs(args) => docs::run(&args, directory, &report),
         Command::Dump(args) => dump(&args, directory, &report),

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_gen::files::{Outcome, write_all};
@@ -33,6 +34,16 @@ pub(crate) fn clash(set: &[Artifact]) -> Option<&str> {
     set.iter()
         .find(|artifact| !seen.insert(artifact.path.to_lowercase()))
         .map(|artifact| artifact.path.as_str())
+}
+
+/// The first path at which something that was read would be written over.
+pub(crate) fn overwritten(out: &Path, set: &[Artifact], read: &[PathBuf]) -> Option<String> {
+    let read: Vec<PathBuf> = read.iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
+    let paths = set.iter().map(|artifact| out.join(&artifact.path));
+    paths
+        .into_iter()
+        .find(|path| fs::canonicalize(path).is_ok_and(|path| read.contains(&path)))
+        .map(|path| path.display().to_string())
 }
 
 fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::Path;
 
+use od_gen::condense;
 use od_gen::source::{FileLoader, compile_file};
-use od_spec::Compiled;
 use od_spec::diag::render::{self, Format};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
+use od_spec::{Commissioning, Compiled};
 
 use super::args::Color;
 use super::{ERRORS, SUCCESS, USAGE};
@@ -20,6 +21,13 @@ pub(crate) struct Report {
     colour: bool,
 }
 
+/// What a command works on.
+pub(crate) struct Used {
+    pub(crate) system: System,
+    /// Of a DCF: the node that it configures.
+    pub(crate) node: Option<Commissioning>,
+}
+
 impl Report {
     pub(crate) fn new(format: Format, color: Color) -> Self {
         let colour = match color {
@@ -28,6 +36,19 @@ impl Report {
             Color::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
         };
         Self { format, colour }
+    }
+
+    /// Whether messages are coloured.
+    pub(crate) const fn colour(&self) -> bool {
+        self.colour
+    }
+
+    /// Writes messages that are text already.
+    pub(crate) fn write(&self, text: &str) -> u8 {
+        match std::io::stderr().write_all(text.as_bytes()) {
+            Ok(()) => SUCCESS,
+            Err(_) => ERRORS,
+        }
     }
 
     /// Writes diagnostics and, for people, their number.
@@ -42,22 +63,6 @@ impl Report {
         let _ = std::io::stderr().write_all(text.as_bytes());
     }
 
-    /// Writes notes, a line each, if they are wanted; or else tells people how many there are.
-    pub(crate) fn show_notes(&self, notes: &Diagnostics, sources: &SourceMap, wanted: bool) {
-        let count = notes.iter().count();
-        let text = match (wanted, self.format) {
-            (true, Format::Json) => render::render(notes, sources, Format::Json, false),
-            (true, _) => render::render(notes, sources, Format::Short, self.colour),
-            (false, Format::Human) if count > 0 => {
-                let objects =
-                    if count == 1 { "1 object departs" } else { &format!("{count} objects depart") };
-                format!("note: {objects} from the standard; `odgen check --notes` lists them\n")
-            }
-            (false, _) => String::new(),
-        };
-        let _ = std::io::stderr().write_all(text.as_bytes());
-    }
-
     /// Tells people what the command does unasked; programs that read JSON did not ask.
     pub(crate) fn note(&self, text: &str) {
         if self.format != Format::Json {
@@ -65,18 +70,21 @@ impl Report {
         }
     }
 
-    /// Compiles a file and shows what there is to say; `None` when it has errors.
+    /// Compiles a file and shows what there is to say, about an EDS or DCF how much; `None` when it cannot be used.
     pub(crate) fn compile(&self, path: &Path) -> Option<System> {
-        self.compile_with_sources(path).map(|(system, _)| system)
+        self.compile_with_sources(path).map(|(Used { system, .. }, _)| system)
     }
 
-    /// [`compile`](Self::compile), with the texts that were read.
-    pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(System, SourceMap)> {
+    /// [`compile`](Self::compile), with the node of a DCF and the texts that were read.
+    pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(Used, SourceMap)> {
         let mut sources = SourceMap::new();
-        let Compiled { system, diagnostics, .. } =
-            compile_file(path, &mut sources, &mut FileLoader::default());
+        let mut compiled = compile_file(path, &mut sources, &mut FileLoader::default());
+        if let Some(line) = condense(path, &mut compiled) {
+            self.note(&line);
+        }
+        let Compiled { system, node, diagnostics, .. } = compiled;
         self.show(&diagnostics, &sources);
-        Some((system?, sources))
+        Some((Used { system: system?, node }, sources))
     }
 
     /// Shows one message that has no place in a source text.
@@ -98,6 +106,27 @@ impl Report {
             Diagnostic::without_place(codes::UNKNOWN_DEVICE, format!("there is no device `{key}`"))
                 .help(format!("the devices are {}", keys.collect::<Vec<_>>().join(", "))),
         )
+    }
+
+    /// The device with this key, or the only one.
+    pub(crate) fn device_or_only<'a>(
+        &self,
+        system: &'a System,
+        key: Option<&str>,
+    ) -> Result<&'a Dictionary, u8> {
+        match (key, system.devices.as_slice()) {
+            (Some(key), _) => self.device(system, key),
+            (None, [only]) => Ok(only),
+            (None, devices) => {
+                let keys: Vec<String> = devices.iter().map(|device| format!("`{}`", device.key)).collect();
+                let message = format!("no device is named, and the specification has {}", devices.len());
+                let help = match keys.as_slice() {
+                    [] => "name a specification that describes devices, not a library".to_owned(),
+                    keys => format!("add `--device KEY`: {}", keys.join(", ")),
+                };
+                Err(self.refuse(Diagnostic::without_place(codes::UNKNOWN_DEVICE, message).help(help)))
+            }
+        }
     }
 
     /// The device with this key.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use od_gen::source::specifications_in;
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::eds::has_eds_name;
 
 use super::USAGE;
 use super::report::Report;
@@ -39,9 +40,13 @@ pub(crate) fn one(named: Option<&Path>, directory: &Path, report: &Report) -> Re
     }
 }
 
-/// `pitch.od.yaml` → `pitch`.
+/// `pitch.od.yaml` → `pitch`, `drive.EDS` → `drive`.
 pub(crate) fn stem(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    if has_eds_name(&name) {
+        // Both endings have four characters.
+        return name[..name.len() - 4].to_owned();
+    }
     let name = name.strip_suffix(".yaml").or_else(|| name.strip_suffix(".yml")).unwrap_or(&name);
     name.strip_suffix(".od").unwrap_or(name).to_owned()
 }

@@ -1,0 +1,103 @@
+//! One input and what was found in it.
+
+use std::path::Path;
+
+use od_gen::rust;
+use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input};
+use od_spec::diag::render::Findings;
+use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
+use od_spec::eds::is_eds;
+use od_spec::source::SourceMap;
+use od_spec::{Compiled, Strictness, departures};
+
+use super::inputs::Input;
+use super::policy::{Errors, Policy};
+use crate::args::CheckArgs;
+
+/// What was found in one input.
+pub(super) struct Checked {
+    /// What messages call it.
+    pub name: String,
+    /// What it is.
+    pub kind: Kind,
+    /// How many objects its devices have, where that is known.
+    pub objects: Option<usize>,
+    /// What there is to show.
+    pub shown: Diagnostics,
+    /// Notes that are not wanted.
+    pub hidden_notes: usize,
+    /// The texts that were read.
+    pub sources: SourceMap,
+}
+
+/// What an input is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Specification,
+    Eds,
+    /// It cannot be read.
+    Unknown,
+}
+
+impl Checked {
+    /// For the renderer of a whole run.
+    pub(super) fn findings(&self) -> Findings<'_> {
+        Findings { name: &self.name, diagnostics: &self.shown, sources: &self.sources }
+    }
+}
+
+/// Compiles and checks.
+pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked {
+    let strictness = if args.strict { Strictness::Standard } else { Strictness::Foreign };
+    let mut sources = SourceMap::new();
+    let Compiled { system, mut diagnostics, .. } = compile(input, strictness, &mut sources);
+    if let Some(system) = &system {
+        for device in system.devices.iter().filter(|_| args.rust) {
+            let _ = rust::tokens(system, device, &mut diagnostics);
+        }
+        diagnostics.append(departures(system));
+        diagnostics.sort();
+    }
+    let kind = match sources.files().next() {
+        None => Kind::Unknown,
+        Some((_, file)) if is_eds(file.name(), file.text()) => Kind::Eds,
+        Some(_) => Kind::Specification,
+    };
+    let errors = match kind {
+        Kind::Eds => Errors::CanBeAllowed,
+        Kind::Specification | Kind::Unknown => Errors::Stay,
+    };
+    let (mut shown, mut hidden_notes) = (Diagnostics::new(), 0);
+    for diagnostic in &policy.apply(&diagnostics, errors) {
+        if diagnostic.severity == Severity::Note && !args.notes {
+            hidden_notes += 1;
+        } else {
+            shown.push(diagnostic.clone());
+        }
+    }
+    let objects = system.map(|system| system.devices.iter().map(|device| device.objects.len()).sum());
+    Checked { name: input.name(), kind, objects, shown, hidden_notes, sources }
+}
+
+fn compile(input: &Input, strictness: Strictness, sources: &mut SourceMap) -> Compiled {
+    let loader = &mut FileLoader::default();
+    match input {
+        Input::File(path) => compile_file_as(strictness, path, sources, loader),
+        Input::Stdin(name) => match read_input(std::io::stdin().lock()) {
+            Ok(bytes) => compile_bytes_as(strictness, name, bytes, sources, loader),
+            Err(error) => refused(unreadable(name, &error.to_string())),
+        },
+        Input::Missing { diagnostic, .. } => refused(diagnostic.clone()),
+    }
+}
+
+fn unreadable(name: &str, reason: &str) -> Diagnostic {
+    let name = Path::new(name).display();
+    Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}"))
+}
+
+fn refused(diagnostic: Diagnostic) -> Compiled {
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(diagnostic);
+    Compiled::refused(diagnostics)
+}

@@ -1,0 +1,69 @@
+//! `odgen check`: specifications, EDS and DCF files, as many as there are.
+
+mod checked;
+mod inputs;
+mod listing;
+mod parallel;
+mod policy;
+mod progress;
+mod summary;
+
+use std::path::Path;
+
+use od_spec::diag::render::{Findings, sarif};
+
+use self::checked::{Checked, check};
+use self::inputs::Input;
+use self::policy::Policy;
+use self::progress::Progress;
+use self::summary::Total;
+use super::args::{CheckArgs, CheckFormat};
+use super::report::{Report, print};
+use super::{ERRORS, SUCCESS};
+
+pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, report: &Report) -> u8 {
+    let policy = match Policy::of(args) {
+        Ok(policy) => policy,
+        Err(diagnostic) => return report.refuse(*diagnostic),
+    };
+    let inputs = match inputs::gather(args, format, directory, report) {
+        Ok(inputs) => inputs,
+        Err(code) => return code,
+    };
+    let mut progress = Progress::new(inputs.len(), format);
+    let (mut total, mut document, mut written) = (Total::default(), Vec::new(), SUCCESS);
+    // Printing frames takes longer than finding what they show: that is work for all cores, too.
+    let work = |input: &Input| {
+        let checked = check(input, args, &policy);
+        let text = listing::of_file(&checked, format, args, report.colour());
+        (checked, text)
+    };
+    parallel::in_order(&inputs, work, |finished, results| {
+        for (checked, text) in results {
+            progress.clear();
+            written = written.max(match format {
+                CheckFormat::Human | CheckFormat::Short | CheckFormat::Json => report.write(&text),
+                CheckFormat::Github => print(&text),
+                CheckFormat::Sarif => SUCCESS,
+            });
+            if format == CheckFormat::Human {
+                report.write(&summary::of_file(&checked, inputs.len()).unwrap_or_default());
+            }
+            total.add(&checked);
+            if format == CheckFormat::Sarif {
+                document.push(checked);
+            }
+        }
+        progress.show(finished);
+    });
+    progress.clear();
+    match format {
+        CheckFormat::Human => written = written.max(report.write(&total.text())),
+        CheckFormat::Sarif => {
+            let findings: Vec<Findings<'_>> = document.iter().map(Checked::findings).collect();
+            written = written.max(print(&sarif(env!("CARGO_PKG_VERSION"), &findings)));
+        }
+        CheckFormat::Short | CheckFormat::Json | CheckFormat::Github => {}
+    }
+    if total.has_errors() { ERRORS } else { written }
+}

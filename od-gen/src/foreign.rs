@@ -1,0 +1,22 @@
+//! What is said about an EDS or DCF where it is only used: how much `odgen check` finds in it, and no more. Who uses it can
+//! rarely change it, and it is read whatever is wrong with it.
+
+use std::path::Path;
+
+use od_spec::Compiled;
+use od_spec::diag::Diagnostics;
+use od_spec::diag::render::summary;
+use od_spec::model::SystemSource;
+
+/// Takes the messages about an EDS or DCF away and gives one line for all of them, if there are any: `drive.eds: 3 errors, 14
+/// warnings; …`. The messages about a specification, and about what could not be read at all, stay.
+pub fn condense(path: &Path, compiled: &mut Compiled) -> Option<String> {
+    match compiled.system.as_ref()?.source {
+        SystemSource::Specification => None,
+        SystemSource::Eds => {
+            let counts = summary(&std::mem::take::<Diagnostics>(&mut compiled.diagnostics));
+            let path = path.display();
+            (!counts.is_empty()).then(|| format!("{path}: {counts}; `odgen check {path}` shows them"))
+        }
+    }
+}

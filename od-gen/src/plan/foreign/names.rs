@@ -1,0 +1,179 @@
+//! Objects and entries that one identifier would name are told apart by their index and sub-index.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use od_spec::model::{Dictionary, EntryId, Index, Object, ObjectKind};
+
+use crate::plan::language::{Companion, Language, Role, ScopeKind};
+use crate::plan::names::Words;
+
+/// How much of its own name something keeps; the next step is taken where two still clash.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Step {
+    /// Its name, and behind it the index or sub-index: `speed_2000`.
+    Numbered,
+    /// Nothing but its index or sub-index: `object_2000`.
+    NumberOnly,
+}
+
+/// What has a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Named {
+    Object(Index),
+    /// An entry of an ARRAY or RECORD.
+    Entry(EntryId),
+}
+
+/// A scope; of the members of a group there is one for each object.
+type ScopeOf = (ScopeKind, Option<Index>);
+
+/// Gives an identifier to every object and entry that would share one. Which of them gets which depends on no order.
+pub(super) fn tell_apart(device: &mut Dictionary, language: &dyn Language) {
+    let key = language.identifier(Role::Type, &Words::of(&device.key));
+    if language.reserved(ScopeKind::Dictionary).contains(&key.as_str()) {
+        device.key.push_str(" device");
+    }
+    let mut steps = BTreeMap::new();
+    // Each round takes at least one step, and nothing can take more than two.
+    loop {
+        let mut clashes = Claims::of_objects(device, language).clashing;
+        if clashes.is_empty() {
+            clashes = Claims::of_entries(device, language).clashing;
+        }
+        let mut changed = false;
+        for named in clashes {
+            let next = match steps.get(&named) {
+                None if has_words(device, named) => Step::Numbered,
+                None | Some(Step::Numbered) => Step::NumberOnly,
+                Some(Step::NumberOnly) => continue,
+            };
+            steps.insert(named, next);
+            rename(device, named, next);
+            changed = true;
+        }
+        if !changed {
+            return;
+        }
+    }
+}
+
+/// Whether a name has a letter or digit that an identifier could have.
+fn has_words(device: &Dictionary, named: Named) -> bool {
+    let name = match named {
+        Named::Object(index) => device.objects.get(&index).map(|object| object.name.as_str()),
+        Named::Entry(id) => device.entry(id).map(|entry| entry.name.as_str()),
+    };
+    name.is_some_and(|name| !Words::of(name).snake().is_empty())
+}
+
+fn rename(device: &mut Dictionary, named: Named, step: Step) {
+    match named {
+        Named::Object(index) => {
+            let Some(object) = device.objects.get_mut(&index) else { return };
+            let identifier = match step {
+                Step::Numbered => format!("{} {:04X}", object.name, index.0),
+                Step::NumberOnly => format!("object {:04X}", index.0),
+            };
+            // The entry of a VAR is called like its object.
+            if let (ObjectKind::Var | ObjectKind::Domain, [only]) =
+                (object.kind, object.entries.as_mut_slice())
+            {
+                only.identifier = Some(identifier.clone());
+            }
+            object.identifier = Some(identifier);
+        }
+        Named::Entry(id) => {
+            let object = device.objects.get_mut(&id.index);
+            let entry = object.and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == id.sub));
+            let Some(entry) = entry else { return };
+            entry.identifier = Some(match step {
+                Step::Numbered => format!("{} {}", entry.name, id.sub),
+                Step::NumberOnly => format!("sub {}", id.sub),
+            });
+        }
+    }
+}
+
+/// Who asks for which identifier.
+struct Claims<'l> {
+    language: &'l dyn Language,
+    taken: BTreeMap<(ScopeOf, String), Named>,
+    clashing: BTreeSet<Named>,
+}
+
+impl<'l> Claims<'l> {
+    fn new(language: &'l dyn Language) -> Self {
+        Self { language, taken: BTreeMap::new(), clashing: BTreeSet::new() }
+    }
+
+    /// What the accessors of objects and the types of groups are called, with everything that may be printed beside them.
+    fn of_objects(device: &Dictionary, language: &'l dyn Language) -> Self {
+        let mut claims = Self::new(language);
+        for object in device.objects.values() {
+            let words = words(object);
+            let named = Named::Object(object.index);
+            let accessors = (ScopeKind::Accessors, None);
+            let mut functions = vec![language.identifier(Role::Function, &words)];
+            if object.is_structured() {
+                claims.claim((ScopeKind::Groups, None), language.identifier(Role::Type, &words), named);
+                let sub0 = object.entries.first().map(|sub0| words.and(&sub0.name));
+                functions.extend(sub0.map(|words| language.identifier(Role::Function, &words)));
+            }
+            for function in functions {
+                for companion in
+                    companions(object).iter().filter_map(|one| language.companion(*one, &function))
+                {
+                    claims.claim(accessors, companion, named);
+                }
+                claims.claim(accessors, function, named);
+            }
+        }
+        claims
+    }
+
+    /// What entries are called in their group and beside all others.
+    fn of_entries(device: &Dictionary, language: &'l dyn Language) -> Self {
+        let mut claims = Self::new(language);
+        for object in device.objects.values() {
+            let of_object = words(object);
+            let members = (ScopeKind::GroupMembers, Some(object.index));
+            for entry in &object.entries {
+                let label = entry.identifier.as_ref().unwrap_or(&entry.name);
+                let (named, words) = if object.is_structured() {
+                    let id = EntryId { index: object.index, sub: entry.sub };
+                    (Named::Entry(id), of_object.and(label))
+                } else {
+                    (Named::Object(object.index), of_object.clone())
+                };
+                let member = language.identifier(Role::Function, &Words::of(label));
+                if let Some(setter) = language.companion(Companion::Setter, &member) {
+                    claims.claim(members, setter, named);
+                }
+                claims.claim(members, member, named);
+                claims.claim((ScopeKind::Entries, None), language.identifier(Role::Variant, &words), named);
+                claims.claim((ScopeKind::Fields, None), language.identifier(Role::Field, &words), named);
+            }
+        }
+        claims
+    }
+
+    fn claim(&mut self, scope: ScopeOf, identifier: String, named: Named) {
+        if identifier.is_empty() || self.language.reserved(scope.0).contains(&identifier.as_str()) {
+            self.clashing.insert(named);
+            return;
+        }
+        match self.taken.insert((scope, identifier), named) {
+            Some(other) if other != named => self.clashing.extend([other, named]),
+            Some(_) | None => {}
+        }
+    }
+}
+
+fn words(object: &Object) -> Words {
+    Words::of(object.identifier.as_ref().unwrap_or(&object.name))
+}
+
+/// What may be printed beside the accessor of an object; which of it is settled when the values have their places.
+fn companions(object: &Object) -> &'static [Companion] {
+    if object.is_structured() { &[Companion::Setter, Companion::Mutable] } else { &[Companion::Setter] }
+}
