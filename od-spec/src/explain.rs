@@ -11,6 +11,7 @@ pub fn all_codes() -> Vec<&'static Code> {
     let mut list: Vec<&Code> = codes::ALL.to_vec();
     list.extend(RULES.iter().map(|rule| rule.code));
     list.extend(eds::codes::ALL);
+    list.extend(eds::readers::codes::ALL);
     list.sort();
     // One code may be said by several rules.
     list.dedup();

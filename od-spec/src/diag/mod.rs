@@ -6,6 +6,7 @@ pub mod render;
 
 pub use code::{Code, Example};
 
+use crate::eds::readers::Readers;
 use crate::source::Span;
 
 /// How serious a [`Diagnostic`] is.
@@ -66,6 +67,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// The changes that put it right, all together; none where a person has to decide.
     pub edits: Vec<Edit>,
+    /// The readers of other people that refuse an EDS or DCF because of this, or are reported to stumble.
+    pub minded_by: Readers,
 }
 
 /// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
@@ -103,6 +106,7 @@ impl Diagnostic {
             help: None,
             notes: Vec::new(),
             edits: Vec::new(),
+            minded_by: Readers::NONE,
         }
     }
 
@@ -192,6 +196,11 @@ impl Diagnostics {
         for diagnostic in &mut self.list {
             diagnostic.severity = diagnostic.code.foreign;
         }
+    }
+
+    /// The messages, in order, to be changed.
+    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
+        self.list.iter_mut()
     }
 
     /// The messages, in order.

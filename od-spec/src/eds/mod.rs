@@ -10,6 +10,7 @@ mod document;
 pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod read;
+pub mod readers;
 mod scan;
 pub(crate) mod view;
 
