@@ -31,7 +31,11 @@ pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
             }
             Some(true) => {}
         }
-        entry(&Section { header: *header, keys }, &mut refusals);
+        let section = Section { header: *header, keys };
+        if section.number("SubNumber").is_some() && u32::from_str_radix(sub, 16) == Ok(0) {
+            refusals.add(section.place("SubNumber"), Cause::Value, "`SubNumber` of a sub-index 0");
+        }
+        entry(&section, &mut refusals);
     }
     refusals
 }

@@ -54,6 +54,8 @@ pub(super) enum Capitals {
 pub(super) struct Ini<'t> {
     capitals: Capitals,
     pub sections: Vec<Section<'t>>,
+    /// Lines below `[DEFAULT]`, which hold for every section.
+    pub defaults: Vec<Place>,
     by_name: BTreeMap<Cow<'t, str>, usize>,
 }
 
@@ -83,7 +85,7 @@ fn folded(name: &str, capitals: Capitals) -> Cow<'_, str> {
 impl<'t> Ini<'t> {
     /// Reads a text. `remarks` are the signs that begin a comment behind a blank.
     pub fn read(text: &'t str, remarks: &[char], capitals: Capitals, refusals: &mut Refusals) -> Self {
-        let mut ini = Self { capitals, sections: Vec::new(), by_name: BTreeMap::new() };
+        let mut ini = Self { capitals, sections: Vec::new(), defaults: Vec::new(), by_name: BTreeMap::new() };
         let mut at = At { section: Where::Before, item: None, indent: 0 };
         for row in rows(text) {
             let is_comment = row.text.trim().starts_with(['#', ';']);
@@ -118,7 +120,10 @@ impl<'t> Ini<'t> {
                 refusals.add(place, Cause::Text, "something before the first section");
                 return;
             }
-            Where::InDefaults => return,
+            Where::InDefaults => {
+                self.defaults.push(place);
+                return;
+            }
             Where::In(section) => &mut self.sections[section],
         };
         let Some((key, value)) = text.split_once(['=', ':']) else {

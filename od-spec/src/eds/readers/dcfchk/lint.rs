@@ -56,6 +56,9 @@ const DEVICE: &[&str] = &[
 ];
 
 pub(super) fn lint(ini: &Ini<'_>, refusals: &mut Refusals) {
+    for place in &ini.defaults {
+        refusals.add(*place, Cause::Unknown, "a key below `[DEFAULT]`, which it takes for one of every section");
+    }
     for section in &ini.sections {
         match section.name.to_lowercase().as_str() {
             "comments" => {}
