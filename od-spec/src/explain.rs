@@ -6,12 +6,13 @@ use crate::check::RULES;
 use crate::diag::{Code, codes};
 use crate::eds;
 
-/// All codes, ascending: those of reading and looking up, and those of the rules.
+/// All codes, ascending: those of reading and looking up, and those of the rules over texts and over the model.
 pub fn all_codes() -> Vec<&'static Code> {
     let mut list: Vec<&Code> = codes::ALL.to_vec();
     list.extend(RULES.iter().map(|rule| rule.code));
     list.extend(eds::codes::ALL);
     list.extend(eds::readers::codes::ALL);
+    list.extend(eds::check::RULES.iter().map(|rule| rule.code));
     list.sort();
     // One code may be said by several rules.
     list.dedup();
@@ -30,8 +31,9 @@ pub fn explanation(code: &Code) -> String {
         let _ = write!(out, "\nSee {clause}.\n");
     }
     if let Some(example) = code.example {
-        let _ = write!(out, "\nRefused:\n\n```yaml\n{}\n```\n", example.before);
-        let _ = write!(out, "\nAccepted:\n\n```yaml\n{}\n```\n", example.after);
+        let language = example.language.highlighting();
+        let _ = write!(out, "\nRefused:\n\n```{language}\n{}\n```\n", example.before);
+        let _ = write!(out, "\nAccepted:\n\n```{language}\n{}\n```\n", example.after);
     }
     out
 }

@@ -9,7 +9,7 @@ use crate::source::{SourceMap, Spanned};
 /// The codes of what is said about a specification, and about settings of node `node` of its first device.
 fn said(text: &str, node: u8, settings: &[&str]) -> Vec<&'static str> {
     let mut sources = SourceMap::new();
-    let root = sources.add("case.od.yaml", Example::whole(text));
+    let root = sources.add("case.od.yaml", Example::whole_specification(text));
     let compiled = compile(&mut sources, root, &mut NoFiles);
     let mut diagnostics = compiled.diagnostics;
     let Some(system) = compiled.system.filter(|_| !settings.is_empty()) else { return codes(&diagnostics) };

@@ -12,7 +12,7 @@ use crate::source::{SourceMap, Spanned};
 /// What is said about a text of an example; its lines `# --set ENTRY=VALUE` are settings of node 1.
 fn said(rules: &[&Rule], text: &str) -> Diagnostics {
     let mut sources = SourceMap::new();
-    let root = sources.add("example.od.yaml", Example::whole(text));
+    let root = sources.add("example.od.yaml", Example::whole_specification(text));
     let compiled = compile_with(rules, &mut sources, root, &mut NoFiles);
     let mut diagnostics = compiled.diagnostics;
     let settings: Vec<_> = text

@@ -21,29 +21,79 @@ pub struct Code {
     pub explanation: &'static str,
     /// The clause of the standard that the rule follows.
     pub clause: Option<&'static str>,
-    /// A specification that is wrong, and the same one put right.
+    /// A text that is wrong, and the same one put right.
     pub example: Option<Example>,
 }
 
-/// Two short specifications: one that a rule refuses, and one that it accepts. Lines that every specification has are left
-/// out; see [`Example::whole`].
+/// Two short texts: one that a rule refuses, and one that it accepts. Lines that every such text has are left out; see
+/// [`Example::whole`].
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Example {
+    /// What the texts are.
+    pub language: Language,
     /// What the rule refuses.
     pub before: &'static str,
     /// The same, put right.
     pub after: &'static str,
 }
 
-impl Example {
-    /// The two texts of an example.
-    pub(crate) const fn new(before: &'static str, after: &'static str) -> Self {
-        Self { before, after }
+/// What the texts of an example are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// A specification.
+    Specification,
+    /// An EDS.
+    Eds,
+    /// A DCF.
+    Dcf,
+}
+
+impl Language {
+    /// The name under which the text is highlighted in Markdown.
+    pub const fn highlighting(self) -> &'static str {
+        match self {
+            Language::Specification => "yaml",
+            Language::Eds | Language::Dcf => "ini",
+        }
     }
 
-    /// A text of an example as a whole specification: with a version, a title, and a device where the text has none.
-    pub fn whole(text: &str) -> String {
+    /// The name of a file with such a text.
+    pub const fn file_name(self) -> &'static str {
+        match self {
+            Language::Specification => "example.od.yaml",
+            Language::Eds => "example.eds",
+            Language::Dcf => "example.dcf",
+        }
+    }
+}
+
+impl Example {
+    /// The two specifications of an example.
+    pub(crate) const fn new(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Specification, before, after }
+    }
+
+    /// The two EDS texts of an example.
+    pub(crate) const fn eds(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Eds, before, after }
+    }
+
+    /// The two DCF texts of an example.
+    pub(crate) const fn dcf(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Dcf, before, after }
+    }
+
+    /// A text of the example as a whole one, with everything that such a text has.
+    pub fn whole(&self, text: &str) -> String {
+        match self.language {
+            Language::Specification => Self::whole_specification(text),
+            Language::Eds | Language::Dcf => crate::eds::example::whole(self.language, text),
+        }
+    }
+
+    /// With a version, a title, and a device where the text has none.
+    pub(crate) fn whole_specification(text: &str) -> String {
         let has = |key: &str| text.lines().any(|line| line.starts_with(key));
         let mut whole = String::from("od-spec: 1\ntitle: Example\n");
         if !has("uses:") {

@@ -4,7 +4,7 @@ mod code;
 pub mod codes;
 pub mod render;
 
-pub use code::{Code, Example};
+pub use code::{Code, Example, Language};
 
 use crate::eds::readers::Readers;
 use crate::source::Span;

@@ -4,9 +4,13 @@
 //! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
 //! read, mended, compared and written back before anybody has understood it.
 
+pub(crate) mod check;
 pub(crate) mod codes;
 pub(crate) mod dates;
 mod document;
+pub(crate) mod example;
+mod findings;
+mod fix;
 pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod read;
@@ -37,3 +41,10 @@ fn ends_with(name: &str, extension: &str) -> bool {
 }
 
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
+pub use crate::encoding::{Encoding, decode, encode};
+pub(crate) use findings::file_name;
+pub use findings::findings;
+pub use fix::{Change, Fixed, fix};
+
+#[cfg(test)]
+mod examples;

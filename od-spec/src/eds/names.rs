@@ -164,7 +164,13 @@ fn module_word(topic: ModuleTopic) -> String {
 /// `1018`, `1018sub1`, `3004Name`, also with `0x`, further zeros and blanks.
 fn object(name: &str) -> Option<Topic> {
     let digits = strip(name, "0x").unwrap_or(name);
-    let end = digits.bytes().position(|byte| !byte.is_ascii_hexdigit()).unwrap_or(digits.len());
+    // The first letters of `Denotation` look like digits.
+    let (number, word) = digits.split_at_checked(digits.len().saturating_sub(10)).unwrap_or((digits, ""));
+    let end = if word.eq_ignore_ascii_case(ElementList::Denotation.word()) {
+        number.len()
+    } else {
+        digits.bytes().position(|byte| !byte.is_ascii_hexdigit()).unwrap_or(digits.len())
+    };
     let index = Index(u16::from_str_radix(digits.get(..end)?, 16).ok()?);
     let rest = digits.get(end..)?.trim();
     if rest.is_empty() {
@@ -242,6 +248,8 @@ mod tests {
             ("1a00Suba", "1A00subA"),
             ("D000sub100", "D000sub100"),
             ("3004name", "3004Name"),
+            ("3004Denotation", "3004Denotation"),
+            ("A0denotation", "A0Denotation"),
             ("1018objectlinks", "1018ObjectLinks"),
             ("tool2", "Tool2"),
             ("m1moduleinfo", "M1ModuleInfo"),

@@ -2,16 +2,27 @@
 
 use std::collections::BTreeMap;
 
+use super::Encoding;
 use super::document::{Document, Line, LineKind, SectionRef};
 use super::names::{ElementList, List, ModuleTopic, Topic, topic};
 use crate::model::Index;
 use crate::source::{FileId, Span, Spanned};
+
+/// What is known about a file beside its text.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FileFacts<'d> {
+    /// The name on the disk, without directories; empty where the text is from no file.
+    pub name: &'d str,
+    /// How its characters are stored.
+    pub encoding: Encoding,
+}
 
 /// What a document holds.
 #[derive(Debug)]
 pub(crate) struct View<'d> {
     pub document: &'d Document<'d>,
     pub file: FileId,
+    pub facts: FileFacts<'d>,
     /// Whether the file is that of a configured node.
     pub is_dcf: bool,
     /// Sections that are there once or several times, by topic; objects are among `objects`.
@@ -56,11 +67,12 @@ pub(crate) struct Entry<'d> {
 }
 
 impl<'d> View<'d> {
-    pub(crate) fn new(document: &'d Document<'d>, file: FileId, has_dcf_name: bool) -> Self {
+    pub(crate) fn new(document: &'d Document<'d>, file: FileId, is_dcf: bool, facts: FileFacts<'d>) -> Self {
         let mut view = Self {
             document,
             file,
-            is_dcf: has_dcf_name,
+            facts,
+            is_dcf,
             sections: BTreeMap::new(),
             unknown: Vec::new(),
             objects: BTreeMap::new(),
@@ -124,14 +136,26 @@ impl<'d> View<'d> {
         place.unwrap_or(Span { file: self.file, start: 0, end: 0 })
     }
 
-    /// Every part there is: those of topics, of objects and of modules.
-    pub(crate) fn parts(&self) -> impl Iterator<Item = &Part<'d>> {
-        let of_objects = self.objects.values().flat_map(|object| {
-            let lists = object.elements.values().chain(&object.links);
-            object.object.iter().chain(object.subs.values()).chain(lists)
+    /// Every part there is, with its topic: those of the file, of objects and of modules.
+    pub(crate) fn topics(&self) -> impl Iterator<Item = (Topic, &Part<'d>)> {
+        let of_objects = self.objects.iter().flat_map(|(index, object)| {
+            let index = *index;
+            let object_itself = object.object.iter().map(move |part| (Topic::Object(index), part));
+            let subs = object.subs.iter().map(move |(sub, part)| (Topic::Sub(index, *sub), part));
+            let lists = object.elements.iter().map(move |(list, part)| (Topic::Elements(index, *list), part));
+            let links = object.links.iter().map(move |part| (Topic::ObjectLinks(index), part));
+            object_itself.chain(subs).chain(lists).chain(links)
         });
-        let of_modules = self.modules.values().flat_map(BTreeMap::values);
-        self.sections.values().chain(of_objects).chain(of_modules)
+        let of_modules = self.modules.iter().flat_map(|(number, module)| {
+            module.iter().map(move |(topic, part)| (Topic::Module(*number, *topic), part))
+        });
+        let of_the_file = self.sections.iter().map(|(topic, part)| (*topic, part));
+        of_the_file.chain(of_objects).chain(of_modules)
+    }
+
+    /// Every part there is.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &Part<'d>> {
+        self.topics().map(|(_, part)| part)
     }
 }
 

@@ -94,6 +94,7 @@ impl Cli {
             Command::Dcf(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
+            Command::Fix(args) => args.messages.format,
             Command::New(args) => args.messages.format,
             _ => None,
         };
@@ -145,6 +146,8 @@ pub(crate) enum Command {
     Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
+    /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
+    Fix(FixArgs),
     /// Write a commented specification to start from
     New(NewArgs),
     /// Tell what a message code means and what to do about it
@@ -337,6 +340,24 @@ pub(crate) struct DumpArgs {
     /// Only these devices
     #[arg(long, value_name = "KEY")]
     pub device: Vec<String>,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FixArgs {
+    /// EDS or DCF files
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+
+    /// Print what changes, as a unified diff with the codes of what it puts right [default, unless --write is given]
+    #[arg(long)]
+    pub diff: bool,
+
+    /// Change the files
+    #[arg(long)]
+    pub write: bool,
 
     #[command(flatten)]
     pub messages: Messages,

@@ -6,6 +6,7 @@ mod check;
 mod dcf;
 mod docs;
 mod errata;
+mod fix;
 mod new;
 mod output;
 mod report;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         Command::Docs(args) => docs::run(&args, directory, &report),
         Command::Dump(args) => dump(&args, directory, &report),
         Command::Errata(args) => errata::run(&args, directory, &report),
+        Command::Fix(args) => fix::run(&args, &report),
         Command::New(args) => new::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),

@@ -1,0 +1,173 @@
+//! `odgen fix`.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use od_gen::Artifact;
+use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
+use od_spec::eds::{Document, Fixed, decode, fix};
+use od_spec::source::SourceMap;
+use similar::TextDiff;
+
+use super::args::FixArgs;
+use super::output::save;
+use super::report::{Report, print};
+use super::{ERRORS, SUCCESS};
+
+/// Lines around a change.
+const CONTEXT: usize = 3;
+
+pub(crate) fn run(args: &FixArgs, report: &Report) -> u8 {
+    let mut files = Vec::new();
+    for path in &args.files {
+        match read(path) {
+            Ok(file) => files.push(file),
+            Err(diagnostic) => return report.refuse(*diagnostic),
+        }
+    }
+    let set: Vec<Artifact> = files.iter().map(File::artifact).collect();
+    if args.write
+        && let Err(diagnostic) = save(Path::new("."), &set)
+    {
+        return report.refuse(diagnostic);
+    }
+    let mut code = SUCCESS;
+    for file in &files {
+        if (args.diff || !args.write) && print(&file.diff()) != SUCCESS {
+            return ERRORS;
+        }
+        if file.tell(args.write, report) {
+            code = ERRORS;
+        }
+    }
+    code
+}
+
+/// A file with what becomes of it.
+struct File {
+    name: String,
+    old: String,
+    fixed: Fixed,
+}
+
+fn read(path: &PathBuf) -> Result<File, Box<Diagnostic>> {
+    let shown = path.display();
+    let refuse = |message: String, help: &str| {
+        Box::new(Diagnostic::without_place(codes::UNREADABLE, message).help(help))
+    };
+    let bytes = fs::read(path)
+        .map_err(|error| refuse(format!("cannot read `{shown}`: {error}"), "check name and permissions"))?;
+    let Some(name) = path.to_str() else {
+        return Err(refuse(format!("`{shown}` has a name that is not UTF-8"), "rename the file"));
+    };
+    let (old, _) = decode(bytes.clone());
+    let mut sources = SourceMap::new();
+    let file = sources.add(name, old.as_str());
+    if Document::scan(file, &old).sections().next().is_none() {
+        return Err(refuse(format!("`{shown}` has no section, it is no EDS or DCF"), "name an EDS or DCF"));
+    }
+    Ok(File { name: name.to_owned(), old, fixed: fix(name, &bytes) })
+}
+
+impl File {
+    fn artifact(&self) -> Artifact {
+        Artifact { path: self.name.clone(), bytes: self.fixed.to_bytes(), purpose: String::new() }
+    }
+
+    /// What changes, each part with the codes of what it puts right.
+    fn diff(&self) -> String {
+        let new = self.fixed.text();
+        let lines = TextDiff::from_lines(self.old.as_str(), new);
+        let starts = line_starts(new);
+        let mut out = String::new();
+        for group in lines.grouped_ops(CONTEXT) {
+            if out.is_empty() {
+                let _ = write!(out, "--- {0}\n+++ {0}\n", self.name);
+            }
+            let (Some(first), Some(last)) = (group.first(), group.last()) else { continue };
+            let (old_range, new_range) = (
+                first.old_range().start..last.old_range().end,
+                first.new_range().start..last.new_range().end,
+            );
+            let codes: Vec<String> =
+                self.codes(&starts, &new_range).iter().map(|code| format!(" {code}")).collect();
+            let _ = writeln!(out, "@@ -{} +{} @@{}", hunk(&old_range), hunk(&new_range), codes.concat());
+            group.iter().flat_map(|op| lines.iter_changes(op)).for_each(|change| {
+                let text = change.value();
+                let is_last = !text.ends_with(['\n', '\r']);
+                let end = if is_last { "\n\\ No newline at end of file\n" } else { "" };
+                let _ = write!(out, "{}{text}{end}", change.tag());
+            });
+        }
+        out
+    }
+
+    /// The codes of the changes in some lines of the new text.
+    fn codes(&self, starts: &[usize], lines: &std::ops::Range<usize>) -> BTreeSet<&'static Code> {
+        let line = |at: usize| starts.partition_point(|start| *start <= at).saturating_sub(1);
+        let in_lines = self.fixed.changes.iter().filter(|change| {
+            let (first, last) = (line(change.place.start), line(change.place.end));
+            first < lines.end.max(lines.start + 1) && last >= lines.start
+        });
+        in_lines.map(|change| change.code).collect()
+    }
+
+    /// Tells people what was put right, and what they have to decide; whether errors are left.
+    fn tell(&self, written: bool, report: &Report) -> bool {
+        let mut left = self.fixed.left.clone();
+        left.soften();
+        let mut decisions = Diagnostics::new();
+        for diagnostic in left.iter().filter(|one| one.severity() != Severity::Note) {
+            decisions.push(diagnostic.clone());
+        }
+        report.show(&decisions, &self.fixed.sources);
+        report.note(&self.summary(written));
+        let notes = left.iter().count() - decisions.iter().count();
+        if notes > 0 {
+            let plural = if notes == 1 { "" } else { "s" };
+            report.note(&format!("{}: {notes} note{plural} about matters of form are not shown", self.name));
+        }
+        left.has_errors()
+    }
+
+    fn summary(&self, written: bool) -> String {
+        let counts = self.fixed.counts();
+        if counts.is_empty() {
+            return format!("{}: there is nothing to put right without guessing", self.name);
+        }
+        let places = self.fixed.changes.len();
+        let (plural, would) = match (places, written) {
+            (1, true) => ("", "was"),
+            (1, false) => ("", "would be"),
+            (_, true) => ("s", "were"),
+            (_, false) => ("s", "would be"),
+        };
+        let mut text = format!("{}: {places} place{plural} {would} put right", self.name);
+        for (code, count) in counts {
+            let _ = write!(text, "\n  {count:>5}  {code}  {}", code.title);
+        }
+        if !written {
+            text.push_str("\n`--write` changes the file");
+        }
+        text
+    }
+}
+
+/// `3,7`: the first line, from 1, and how many.
+fn hunk(lines: &std::ops::Range<usize>) -> String {
+    let first = if lines.is_empty() { lines.start } else { lines.start + 1 };
+    format!("{first},{}", lines.len())
+}
+
+/// Where lines begin, as the diff divides them: behind a line feed, or a carriage return without one.
+fn line_starts(text: &str) -> Vec<usize> {
+    let bytes = text.as_bytes();
+    let is_end = |at: &usize| match bytes.get(*at) {
+        Some(b'\n') => true,
+        Some(b'\r') => bytes.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    std::iter::once(0).chain((0..bytes.len()).filter(is_end).map(|at| at + 1)).collect()
+}

@@ -1,0 +1,84 @@
+//! Changes of whole lines.
+
+use crate::diag::Edit;
+use crate::eds::document::{Line, LineEnd, LineKind, SectionRef};
+use crate::eds::names::{List, Topic};
+use crate::eds::view::View;
+use crate::source::Span;
+
+/// The place of a line.
+pub(super) fn place(view: &View<'_>, line: &Line<'_>) -> Span {
+    view.document.place(line).unwrap_or(Span { file: view.file, start: 0, end: 0 })
+}
+
+/// A line with its break.
+fn with_break(view: &View<'_>, line: &Line<'_>) -> Span {
+    let place = place(view, line);
+    let length = u32::try_from(line.end().text().len()).unwrap_or_default();
+    Span { end: place.end + length, ..place }
+}
+
+/// Takes a line out.
+pub(super) fn remove(view: &View<'_>, line: &Line<'_>) -> Edit {
+    Edit { span: with_break(view, line), text: String::new() }
+}
+
+/// Puts lines below a line, with its break.
+pub(super) fn below<'l>(view: &View<'_>, line: &Line<'_>, lines: impl IntoIterator<Item = &'l str>) -> Edit {
+    let end = with_break(view, line).end;
+    let span = Span { file: view.file, start: end, end };
+    let is_last = line.end() == LineEnd::EndOfText;
+    let line_break = if is_last { usual_break(view).text() } else { line.end().text() };
+    let mut text = String::new();
+    for line in lines {
+        if is_last {
+            text.push_str(line_break);
+            text.push_str(line);
+        } else {
+            text.push_str(line);
+            text.push_str(line_break);
+        }
+    }
+    Edit { span, text }
+}
+
+/// Puts lines above a line, with its break.
+pub(super) fn above(view: &View<'_>, line: &Line<'_>, text: &str) -> Edit {
+    let start = place(view, line).start;
+    let line_break =
+        if line.end() == LineEnd::EndOfText { usual_break(view).text() } else { line.end().text() };
+    Edit { span: Span { file: view.file, start, end: start }, text: format!("{text}{line_break}") }
+}
+
+/// The line break that most lines have, that of the standard's examples where it is undecided.
+pub(super) fn usual_break(view: &View<'_>) -> LineEnd {
+    let count = |end| view.document.lines().iter().filter(|line| line.end() == end).count();
+    if count(LineEnd::Lf) > count(LineEnd::CrLf) { LineEnd::Lf } else { LineEnd::CrLf }
+}
+
+/// The last line of a section that says something: its last key, or its header.
+pub(super) fn last_line<'d>(section: &SectionRef<'d, 'd>) -> &'d Line<'d> {
+    let says = |line: &&Line<'_>| !matches!(line.kind(), LineKind::Blank | LineKind::Comment);
+    section.body().iter().rev().find(says).unwrap_or_else(|| section.header())
+}
+
+/// Adds a section at its place in the classical order: behind the last section that comes before it.
+pub(super) fn new_section<'l>(
+    view: &View<'_>,
+    topic: Topic,
+    lines: impl IntoIterator<Item = &'l str>,
+) -> Option<Edit> {
+    const ORDER: [Topic; 7] = [
+        Topic::FileInfo,
+        Topic::DeviceInfo,
+        Topic::DummyUsage,
+        Topic::Comments,
+        Topic::Objects(List::Mandatory),
+        Topic::Objects(List::Optional),
+        Topic::Objects(List::Manufacturer),
+    ];
+    let before = ORDER.iter().take_while(|other| **other != topic);
+    let sections = before.filter_map(|other| view.section(*other)?.sections.last());
+    let behind = sections.max_by_key(|section| place(view, section.header()).start)?;
+    Some(below(view, last_line(behind), lines))
+}

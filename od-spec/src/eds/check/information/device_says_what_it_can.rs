@@ -1,0 +1,53 @@
+//! The device says which bit rates and services it has.
+
+use super::super::enumeration::enumeration;
+use super::super::rule::FormatRule;
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::eds::names::Topic;
+use crate::eds::view::View;
+
+pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
+
+const CODE: &Code = &Code {
+    id: "EDS205",
+    severity: Severity::Warning,
+    foreign: Severity::Note,
+    title: "a device that does not say what it can",
+    explanation: "`[DeviceInfo]` says with a key each whether the device has a bit rate or a service, and how many PDOs. What is \
+        missing counts as no, or as 0; readers agree about that, so it is only a matter of form. A device that can what \
+        is missing has to say so.",
+    clause: Some("CiA 306 4.5"),
+    example: Some(Example::eds(
+        "[DeviceInfo]\nVendorName=Example\nVendorNumber=1\nProductName=Example\nProductNumber=1\nRevisionNumber=1\nOrderCode=A1\nBaudRate_125=1",
+        "[DeviceInfo]\nVendorName=Example\nVendorNumber=1\nProductName=Example\nProductNumber=1\nRevisionNumber=1\nOrderCode=A1\nBaudRate_125=1\n; ...",
+    )),
+};
+
+const KEYS: [&str; 16] = [
+    "BaudRate_10",
+    "BaudRate_20",
+    "BaudRate_50",
+    "BaudRate_125",
+    "BaudRate_250",
+    "BaudRate_500",
+    "BaudRate_800",
+    "BaudRate_1000",
+    "SimpleBootUpMaster",
+    "SimpleBootUpSlave",
+    "Granularity",
+    "DynamicChannelsSupported",
+    "GroupMessaging",
+    "NrOfRXPDO",
+    "NrOfTXPDO",
+    "LSS_Supported",
+];
+
+fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    let Some(part) = view.section(Topic::DeviceInfo) else { return };
+    let missing: Vec<&str> = KEYS.into_iter().filter(|key| part.value(key).is_none()).collect();
+    if !missing.is_empty() {
+        let counts = if missing.len() == 1 { "counts" } else { "count" };
+        let message = format!("`[DeviceInfo]` does not say {}, which {counts} as 0", enumeration(&missing));
+        diagnostics.push(Diagnostic::new(CODE, part.place(), message).help("add the keys"));
+    }
+}

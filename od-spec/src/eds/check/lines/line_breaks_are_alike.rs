@@ -1,0 +1,53 @@
+//! All lines end alike, and with a line feed.
+
+use super::super::edits;
+use super::super::repeated::Repeated;
+use super::super::rule::FormatRule;
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
+use crate::eds::document::LineEnd;
+use crate::eds::view::View;
+use crate::source::Span;
+
+pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
+
+const CODE: &Code = &Code {
+    id: "EDS104",
+    severity: Severity::Warning,
+    foreign: Severity::Warning,
+    title: "different line breaks",
+    explanation: "Lines end with a line feed or with carriage return and line feed, and a file uses one of them. A carriage return \
+        alone is no line break for most readers: they take the next key as part of the value before it. Different breaks \
+        in one file are often the trace of a text that was pasted in.",
+    clause: Some("CiA 306 4.2"),
+    example: Some(Example::eds(
+        "[Comments]\r\nLines=1\nLine1=Breaks\r\n",
+        "[Comments]\nLines=1\nLine1=Breaks\n",
+    )),
+};
+
+fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    let usual = edits::usual_break(view);
+    let mut found = Repeated::new();
+    for line in view.document.lines() {
+        if line.end() == usual || line.end() == LineEnd::EndOfText {
+            continue;
+        }
+        let place = edits::place(view, line);
+        let length = u32::try_from(line.end().text().len()).unwrap_or_default();
+        let span = Span { start: place.end, end: place.end + length, ..place };
+        found.add(place, [Edit { span, text: usual.text().to_owned() }], || {
+            let message = format!("the line ends with {}, most end with {}", name(line.end()), name(usual));
+            Diagnostic::new(CODE, place, message).help("end all lines alike; `odgen fix` does")
+        });
+    }
+    found.finish("lines", diagnostics);
+}
+
+const fn name(end: LineEnd) -> &'static str {
+    match end {
+        LineEnd::CrLf => "CR LF",
+        LineEnd::Lf => "LF",
+        LineEnd::Cr => "CR",
+        LineEnd::EndOfText => "nothing",
+    }
+}

@@ -1,0 +1,44 @@
+//! Names of sections have the standard's capitals.
+
+use super::super::repeated::Repeated;
+use super::super::rule::FormatRule;
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::eds::names::{Topic, canonical};
+use crate::eds::view::{View, name_place};
+
+pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
+
+const CODE: &Code = &Code {
+    id: "EDS120",
+    severity: Severity::Warning,
+    foreign: Severity::Warning,
+    title: "a section name in other capitals",
+    explanation: "Names of sections mean the same in any capitals. But lely's dcfgen and gocanopen look for `[1A00sub1]` letter by \
+        letter and do not find `[1a00Sub1]`. Write index and sub-index in capitals, `sub` in small letters, and the \
+        other names as the standard has them.",
+    clause: Some("CiA 306 4.2"),
+    example: Some(Example::eds("[comments]\nLines=0", "[Comments]\nLines=0")),
+};
+
+fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    let mut found = Repeated::new();
+    for (topic, part) in view.topics().filter(|(topic, _)| *topic != Topic::Commissioning) {
+        let Some(meant) = canonical(topic) else { continue };
+        for section in &part.sections {
+            let name = section.name();
+            if name == meant || !(meant.eq_ignore_ascii_case(name)) {
+                continue;
+            }
+            let place = name_place(section.header(), view.file);
+            found.add(place, [Edit { span: place, text: meant.clone() }], || {
+                Diagnostic::new(
+                    CODE,
+                    place,
+                    format!("`{}` is written `{meant}` in the standard", shorten(name)),
+                )
+                .help(format!("write `{meant}`; `odgen fix` does"))
+            });
+        }
+    }
+    found.finish("sections", diagnostics);
+}

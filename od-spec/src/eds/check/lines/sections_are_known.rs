@@ -1,0 +1,67 @@
+//! Every section is one of the standard.
+
+use super::super::repeated::Repeated;
+use super::super::rule::FormatRule;
+use crate::decode::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::eds::names::{List, Topic, canonical};
+use crate::eds::view::{View, name_place};
+
+pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
+
+const CODE: &Code = &Code {
+    id: "EDS116",
+    severity: Severity::Warning,
+    foreign: Severity::Note,
+    title: "an unknown section",
+    explanation: "The standard has no section of this name. It is allowed to add some, so most readers pass over it; lely's dcfchk \
+        refuses the file. Where the name is a misspelling, a section that the standard wants is missing.",
+    clause: Some("CiA 306 4.2"),
+    example: Some(Example::eds("[VendorSpecific]\nColor=1", "; Color is 1")),
+};
+
+fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    let mut found = Repeated::new();
+    for section in &view.unknown {
+        let place = name_place(section.header(), view.file);
+        found.add(place, [], || message(section.name()).at(place));
+    }
+    found.finish("sections", diagnostics);
+}
+
+/// What is said about a name.
+struct Message {
+    text: String,
+    help: String,
+}
+
+impl Message {
+    fn at(self, place: crate::source::Span) -> Diagnostic {
+        Diagnostic::new(CODE, place, self.text).help(self.help)
+    }
+}
+
+fn message(name: &str) -> Message {
+    const PLAIN: [Topic; 9] = [
+        Topic::FileInfo,
+        Topic::DeviceInfo,
+        Topic::DummyUsage,
+        Topic::Comments,
+        Topic::Objects(List::Mandatory),
+        Topic::Objects(List::Optional),
+        Topic::Objects(List::Manufacturer),
+        Topic::Commissioning,
+        Topic::SupportedModules,
+    ];
+    let known: Vec<String> = PLAIN.into_iter().filter_map(canonical).collect();
+    let is_number = name.len() > 4 && name.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let text = format!("`{}` is no section of the standard", shorten(name));
+    let help = match nearest(name, known.iter().map(String::as_str)) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None if is_number => "an index has four hexadecimal digits".to_owned(),
+        None => {
+            "nothing to do if the tools that read the file know it; otherwise make it comments".to_owned()
+        }
+    };
+    Message { text, help }
+}

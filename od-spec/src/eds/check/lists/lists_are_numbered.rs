@@ -1,0 +1,44 @@
+//! The entries of a list are numbered 1, 2, 3 and so on.
+
+use super::super::numbered;
+use super::super::numbered::Numbers;
+use super::super::rule::FormatRule;
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::eds::view::View;
+use std::collections::BTreeSet;
+
+pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
+
+const CODE: &Code = &Code {
+    id: "EDS303",
+    severity: Severity::Error,
+    foreign: Severity::Warning,
+    title: "a list with gaps",
+    explanation: "The entries of a list have the numbers 1, 2, 3 and so on, in decimal and without gaps. Readers count up to the \
+        number of entries: what stands behind a gap is lost, and of two entries with one number one is. In which order \
+        the entries stand does not matter.",
+    clause: Some("CiA 306 4.6.3.1"),
+    example: Some(Example::eds(
+        "[Comments]\nLines=2\nLine1=First\nLine3=Last",
+        "[Comments]\nLines=2\nLine1=First\nLine2=Last",
+    )),
+};
+
+fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    for (_, list) in numbered::all(view) {
+        if list.form.numbers != Numbers::Order || list.is_in_sequence() {
+            continue;
+        }
+        let mut sorted: Vec<_> = list.entries.iter().collect();
+        sorted.sort_by_key(|(number, entry)| (*number, entry.key.span.start));
+        let Some((at, (_, entry))) = (1..).zip(sorted).find(|(at, (number, _))| number != at) else {
+            continue;
+        };
+        let prefix = list.form.prefix;
+        let message = format!("found `{}`, expected `{prefix}{at}`", shorten(entry.key.value));
+        let mut diagnostic = Diagnostic::new(CODE, entry.key.span, message)
+            .help("number the entries 1, 2, 3 and so on; `odgen fix` does");
+        diagnostic.edits = list.rewritten(view, &BTreeSet::new(), &[]);
+        diagnostics.push(diagnostic);
+    }
+}

@@ -1,0 +1,54 @@
+//! One finding for what a file does on many lines.
+
+use std::fmt::Write as _;
+
+use crate::diag::{Diagnostic, Diagnostics, Edit};
+use crate::source::Span;
+
+/// A finding that may hold for many places of a file. It is said once, at the first of them, with what puts all of them
+/// right: a list of hundreds of equal messages is read by nobody.
+pub(super) struct Repeated {
+    first: Option<(Span, Diagnostic)>,
+    places: usize,
+    edits: Vec<Edit>,
+}
+
+impl Repeated {
+    pub(super) const fn new() -> Self {
+        Self { first: None, places: 0, edits: Vec::new() }
+    }
+
+    /// Adds a place with what puts it right there; `say` makes the message if the place is the first of the file.
+    pub(super) fn add(
+        &mut self,
+        place: Span,
+        edits: impl IntoIterator<Item = Edit>,
+        say: impl FnOnce() -> Diagnostic,
+    ) {
+        self.places += 1;
+        self.edits.extend(edits);
+        if self.first.as_ref().is_none_or(|(first, _)| place < *first) {
+            self.first = Some((place, say()));
+        }
+    }
+
+    /// Says it, and of how many more `places` (a plural) it is true.
+    pub(super) fn finish(self, places: &str, diagnostics: &mut Diagnostics) {
+        let Some((_, mut diagnostic)) = self.first else { return };
+        if self.places > 1 {
+            let more = self.places - 1;
+            let _ = write!(diagnostic.message, "; {more} more {} like this", counted(places, more));
+        }
+        diagnostic.edits.extend(self.edits);
+        diagnostics.push(diagnostic);
+    }
+}
+
+/// A plural, or the singular for one.
+fn counted(plural: &str, count: usize) -> String {
+    match (count, plural.strip_suffix("ies")) {
+        (1, Some(stem)) => format!("{stem}y"),
+        (1, None) => plural.strip_suffix('s').unwrap_or(plural).to_owned(),
+        _ => plural.to_owned(),
+    }
+}
