@@ -26,6 +26,12 @@ pub(crate) fn check_cob_id(old: u32, new: u32) -> Result<(), AbortCode> {
     if old & NOT_VALID == 0 { Ok(()) } else { check_usable(new) }
 }
 
+/// A COB-ID of a channel to the SDO server of another node: the first channel of that node has identifiers that are kept for it.
+pub(crate) fn check_client_cob_id(old: u32, new: u32) -> Result<(), AbortCode> {
+    let is_first_channel = new & EXTENDED == 0 && matches!(new & CAN_ID, 0x581..=0x5FF | 0x601..=0x67F);
+    if is_first_channel && old & NOT_VALID != 0 { Ok(()) } else { check_cob_id(old, new) }
+}
+
 /// A COB-ID of a message that the device sends while bit 30 is set: its frame does not change as long as it is.
 pub(crate) fn check_produced(old: u32, new: u32) -> Result<(), AbortCode> {
     if old & PRODUCER != 0 && new & PRODUCER != 0 && (old ^ new) & FRAME != 0 {

@@ -1,7 +1,7 @@
 //! Rules of single communication objects (CiA 301 9.6.3), beyond type and limits.
 
 use crate::abort::AbortCode;
-use crate::cob_id::{check_cob_id, check_produced};
+use crate::cob_id::{check_client_cob_id, check_cob_id, check_produced};
 use crate::effect::Effect;
 use crate::id::EntryId;
 use crate::number::unsigned;
@@ -26,7 +26,8 @@ pub(crate) fn check(table: &Table<'_>, image: &[u8], row: Row, data: &[u8]) -> R
         (0x1005 | 0x1012, 0) => check_produced(old(), new)?,
         (0x1010, 1..) => return command(new, SAVE),
         (0x1011, 1..) => return command(new, LOAD),
-        (0x1014, 0) | (0x1028, 1..) | (0x1200..0x1300, 1 | 2) => check_cob_id(old(), new)?,
+        (0x1014, 0) | (0x1028, 1..) | (0x1200..0x1280, 1 | 2) => check_cob_id(old(), new)?,
+        (0x1280..0x1300, 1 | 2) => check_client_cob_id(old(), new)?,
         (0x1016, 1..) => check_heartbeat(table, image, sub, new)?,
         (0x1019, 0) => check_counter(table, image, new)?,
         (0x1400..0x1600 | 0x1800..0x1A00, _) => {

@@ -8,6 +8,8 @@ mod artifact;
 mod artifacts;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "diff")]
+pub mod diff;
 #[cfg(feature = "docs")]
 pub mod docs;
 #[cfg(feature = "eds")]
@@ -15,11 +17,15 @@ pub mod eds;
 mod expand;
 pub mod files;
 mod foreign;
+#[cfg(feature = "yaml")]
+pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
 mod plan;
 pub mod rust;
 pub mod source;
+#[cfg(feature = "yaml")]
+pub mod yaml;
 
 pub use artifact::Artifact;
 #[cfg(all(feature = "eds", feature = "json"))]

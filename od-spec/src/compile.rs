@@ -2,6 +2,7 @@
 
 use crate::Commissioning;
 use crate::ast::Spec;
+use crate::check::allowed::Allowed;
 use crate::check::{self, codes as rule_codes};
 use crate::decode::{decode, nearest};
 use crate::diag::shorten;
@@ -14,13 +15,8 @@ use crate::model::System;
 use crate::parameters::of_node;
 use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceMap, Span};
+use crate::standard::LIBRARIES;
 use crate::yaml;
-
-/// Libraries that come with the compiler: name and text.
-pub const LIBRARIES: &[(&str, &str)] = &[
-    ("cia301", include_str!("../profiles/cia301.od.yaml")),
-    ("cia402", include_str!("../profiles/cia402.od.yaml")),
-];
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: usize = 64 << 20;
@@ -149,7 +145,8 @@ fn build(
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
     let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
-    check::system(rules, &system, library.as_ref(), diagnostics);
+    let mut allowed = Allowed::of(&spec, diagnostics);
+    check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
     Some(system)
 }
 
@@ -246,13 +243,9 @@ fn load(
 /// # Errors
 /// As [`read_text`], but for the encoding of an EDS.
 pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
-    let fits = bytes.len() <= LARGEST_FILE;
-    if fits && eds::has_eds_name(name) {
-        let (text, encoding) = encoding::decode(bytes);
-        return Ok(sources.add_decoded(name, text, encoding));
-    }
     // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
-    if fits && std::str::from_utf8(&bytes).is_err() {
+    let may_be_eds = eds::has_eds_name(name) || std::str::from_utf8(&bytes).is_err();
+    if may_be_eds && bytes.len() <= LARGEST_FILE {
         let (text, encoding) = encoding::decode(bytes.clone());
         if eds::is_eds(name, &text) {
             return Ok(sources.add_decoded(name, text, encoding));

@@ -37,6 +37,7 @@ pub mod expr;
 #[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;
+mod library;
 pub mod model;
 mod parameters;
 #[cfg(feature = "reference")]
@@ -48,23 +49,24 @@ mod rule_cases;
 mod rule_examples;
 pub mod scalar;
 pub mod source;
+mod standard;
 pub mod wording;
 pub mod yaml;
 
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::Commissioning;
-pub use compile::{
-    Compiled, LIBRARIES, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text,
-};
+pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
 pub use decode::{is_device_key, nearest};
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;
+pub use library::{Feature, Library, LibraryObject, library};
 pub use parameters::{Assignment, ParameterValues, assign};
 #[cfg(feature = "reference")]
 pub use reference::reference;
+pub use standard::LIBRARIES;
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

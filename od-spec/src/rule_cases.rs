@@ -1,8 +1,11 @@
 //! What rules say about cases that are easily missed: values through views, formulas of a configured node, what is mapped
 //! but cannot be, conditions across devices.
 
+use crate::check::RULES;
+use crate::check::allowed::Allowed;
 use crate::compile::{NoFiles, compile};
 use crate::diag::{Diagnostics, Example};
+use crate::model::{Access, DataType, Entry, Index, SubIndex, System};
 use crate::parameters::assign;
 use crate::source::{SourceMap, Spanned};
 
@@ -59,7 +62,8 @@ fn formulas_of_a_configured_node_are_numbers() {
     assert_eq!(said(text, 5, &["1A00.2=$NODEID+0x20990003"]), ["OD0310"]);
     assert_eq!(said(text, 125, &["1800.2=$NODEID+120"]), ["OD0505"]);
     assert_eq!(said(text, 125, &["1800.6=$NODEID+120"]), ["OD0508"]);
-    assert_eq!(said(text, 5, &["1A00.0=2", "1A00.2=$NODEID+0x20000003"]), NONE);
+    // That the entry is mapped twice shows that the formula was read as 20000008h.
+    assert_eq!(said(text, 5, &["1A00.0=2", "1A00.2=$NODEID+0x20000003"]), ["OD0819"]);
 }
 
 const VIEWS: &str = "units:\n  volt: {symbol: V}\n  millivolt: {symbol: mV, base: 1/1000 V}\nobjects:
@@ -160,4 +164,77 @@ fn a_library_is_judged_by_itself() {
     let root = sources.add("mylib.od.yaml", text);
     let found = codes(&compile(&mut sources, root, &mut NoFiles).diagnostics);
     assert_eq!(found, ["OD0406", "OD0414", "OD0417", "OD0416", "OD0407", "OD0415", "OD0404", "OD0303"]);
+}
+
+/// Parameter objects of PDOs in shapes that no device should have are refused, and nothing is missed or breaks over them.
+#[test]
+fn odd_parameter_objects_are_refused_one_by_one() {
+    let level = "\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}";
+    let communication = "\n  0x1800: {name: PDO, record: {1: {name: COB-ID, type: unsigned32, access: rw}, 2: {name: kind, type: unsigned8, access: rw}}}";
+    let mapping = "\n  0x1A00: {name: map, sub0: {access: rw}, record: {1: {name: mapped, type: unsigned32, access: rw}}}";
+    let said = |objects: &[&str]| said(&format!("objects:{}{level}", objects.concat()), 1, &[]);
+    // Of a PDO whose parameters have no values, nothing is known that could be wrong.
+    assert_eq!(said(&[communication, mapping]), NONE);
+    assert_eq!(said(&[communication]), ["OD0322"]);
+    assert_eq!(said(&[mapping]), ["OD0322", "OD0802"]);
+    let var = "\n  0x1800: {name: PDO, type: unsigned32, access: rw, default: 0x20000000}";
+    assert_eq!(said(&[var, mapping]), ["OD0320"]);
+    let var = "\n  0x1A00: {name: map, type: unsigned8, access: rw, default: 200}";
+    assert_eq!(said(&[communication, var]), ["OD0320", "OD0508"]);
+    let domain = "\n  0x1A00: {name: map, type: domain, access: rw}";
+    assert_eq!(said(&[communication, domain]), ["OD0320"]);
+    let text = "\n  0x1A00: {name: map, sub0: {access: rw, default: 2}, record: {1: {name: mapped, type: visible-string, access: rw, default: no}}}";
+    assert_eq!(said(&[communication, text]), ["OD0508", "OD0320"]);
+    let text = "\n  0x1800: {name: PDO, record: {1: {name: COB-ID, type: visible-string, access: rw, default: no}, 2: {name: kind, type: unsigned8, access: rw}}}";
+    assert_eq!(said(&[text, mapping]), ["OD0320"]);
+    // What stands behind an entry without a value is judged, too.
+    let second = "\n  0x1A00: {name: map, sub0: {access: rw, default: 2}, record: {1: {name: mapped, type: unsigned32, access: rw}, 2: {name: mapped 2, type: unsigned32, access: rw, default: 0x20000010}}}";
+    assert_eq!(said(&[communication, second]), ["OD0502"]);
+    let empty = "\n  0x1A00: {name: map, sub0: {access: rw}, record: {}}";
+    assert_eq!(said(&[communication, empty]), ["OD0314"]);
+}
+
+/// FFh tells the structure of an object and is none of its entries. The language has no such entry; devices of other makers have.
+#[test]
+fn the_structure_of_an_object_does_not_count() {
+    let text = "objects:
+  0x1016: {from: cia301}
+  0x1029: {name: behaviour, array: {count: 1, name: class, type: unsigned8, access: rw}}
+  0x1800: {name: PDO, record: {1: {name: COB-ID, type: unsigned32, access: rw}, 2: {name: kind, type: unsigned8, access: rw}}}
+  0x1A00: {name: map, sub0: {access: rw, default: 1}, record: {1: {name: mapped, type: unsigned32, access: rw, default: 0x20000020}}}
+  0x2000: {name: level, type: unsigned32, access: ro, pdo: transmit}
+  0x2001: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";
+    let mut sources = SourceMap::new();
+    let root = sources.add("case.od.yaml", Example::whole(text));
+    let mut system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+    for object in system.devices[0].objects.values_mut().filter(|object| object.is_structured()) {
+        let (sub, name) = (SubIndex::STRUCTURE, "structure of object".to_owned());
+        object.entries.push(Entry::new(sub, name, DataType::Unsigned32, Access::Ro, object.span));
+    }
+    let judged = |system: &System| {
+        let (rules, mut diagnostics) = (RULES.iter().collect::<Vec<_>>(), Diagnostics::new());
+        crate::check::system(&rules, system, None, &mut Allowed::none(), &mut diagnostics);
+        codes(&diagnostics)
+    };
+    assert_eq!(judged(&system), NONE);
+    for object in system.devices[0].objects.values_mut().filter(|object| object.is_structured()) {
+        object.entries.retain(|entry| entry.sub.0 == 0 || entry.sub == SubIndex::STRUCTURE);
+    }
+    // The mapping offers none of the entries that it maps, either.
+    let [empty @ .., offers] = judged(&system).try_into().unwrap_or([""; 7]);
+    assert_eq!((empty, offers), (["OD0314"; 6], "OD0508"));
+}
+
+/// A count without a value is no count of 0.
+#[test]
+fn a_count_without_a_value_is_said_once() {
+    let text = "objects:\n  0x2000: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";
+    let mut sources = SourceMap::new();
+    let root = sources.add("case.od.yaml", Example::whole(text));
+    let mut system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+    let levels = system.devices[0].objects.get_mut(&Index(0x2000)).unwrap();
+    levels.entries[0].default = None;
+    let (rules, mut diagnostics) = (RULES.iter().collect::<Vec<_>>(), Diagnostics::new());
+    crate::check::system(&rules, &system, None, &mut Allowed::none(), &mut diagnostics);
+    assert_eq!(codes(&diagnostics), ["OD0818"]);
 }

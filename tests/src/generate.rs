@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use od_gen::diff::{Question, Scope, compare, human};
 use od_gen::docs::{self, Templates};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
@@ -10,6 +11,7 @@ use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
+use od_spec::{Compiled, NoFiles, compile};
 
 use crate::{Failure, compile_with_sources, root};
 
@@ -34,7 +36,7 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
     let mut files = Vec::new();
     for stem in SPECS {
         let (system, sources) = compile_with_sources(&format!("od-spec/devices/{stem}.od.yaml"))?;
-        let set = artifacts(&system, stem, &Selection { devices: &[], node: Some(1) });
+        let set = artifacts(&system, stem, &Selection { devices: &[], node: Some(1), configured: None });
         let set = set.into_iter().chain(modules(&system, &sources)?);
         let set = set.chain(documents(&system, stem)?);
         files.extend(set.map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
@@ -151,7 +153,31 @@ fn readme() -> Result<String, Failure> {
     let drive = fs::read_to_string(root().join("tests/readme/lift.od.yaml"))?;
     let text = block(&text, "drive", &format!("```yaml\n{drive}```"))?;
     let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
+    let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
     block(&text, "docs", &tables(&system)?)
+}
+
+/// What `odgen diff` says about a few changes of the example.
+fn changes(spec: &str, old: &System) -> Result<String, Failure> {
+    let changed = [
+        ("max: 16.0 bar}", "max: 12.0 bar}"),
+        ("type: unsigned16, unit: decibar, access: ro", "type: integer16, unit: decibar, access: ro"),
+        ("special: {0xFFFF: sensor broken}", "special: {0x7FFF: sensor broken}"),
+        ("\npdos:", "\n  0x2002: {name: travel, type: unsigned8, access: ro}\npdos:"),
+    ];
+    let mut text = spec.to_owned();
+    for (from, to) in changed {
+        if !text.contains(from) {
+            return Err(format!("the example lacks `{from}`").into());
+        }
+        text = text.replacen(from, to, 1);
+    }
+    let mut sources = SourceMap::new();
+    let root = sources.add("valve.od.yaml", text);
+    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
+    let new = system.ok_or_else(|| render(&diagnostics, &sources, Format::Human, false))?;
+    let found = compare(&Question { old, new: &new, scope: Scope::Everything, device: None })?;
+    Ok(format!("$ odgen diff --git v1.0 valve.od.yaml\n{}", human(&found, false)))
 }
 
 /// The detail tables of the example's own objects, from its Markdown.

@@ -29,7 +29,7 @@ pub(super) fn write(
     section.key("AccessType", entry.eds.access.word());
     let notation = value::Notation { object, entry, node: node.map(|commissioning| commissioning.node) };
     if let Some(default) = entry.default.as_ref().filter(|_| entry.eds.default && !is_domain) {
-        section.key("DefaultValue", notation.text(default));
+        section.value("DefaultValue", &notation.text(default));
     }
     if !is_domain {
         section.flag("PDOMapping", entry.pdo != PdoMapping::None);
@@ -39,6 +39,6 @@ pub(super) fn write(
     }
     let id = EntryId { index: object.index, sub: entry.sub };
     if let Some(value) = node.and_then(|commissioning| commissioning.values.get(&id)) {
-        section.key("ParameterValue", notation.text(value));
+        section.value("ParameterValue", &notation.text(value));
     }
 }

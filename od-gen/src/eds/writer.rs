@@ -24,14 +24,19 @@ impl SectionWriter {
     /// A key and its value. Text is transliterated and cut to the line length.
     pub(super) fn key(&mut self, key: &str, value: impl Display) {
         let text = value.to_string();
-        let longest = LONGEST_LINE - 1 - key.len();
-        let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
-        if is_plain && text.len() <= longest && text.trim() == text {
+        if fits(key, &text) {
             self.0.push(key, &text);
         } else {
             let mut ascii = transliterate(&text);
-            ascii.truncate(longest);
+            ascii.truncate(longest(key));
             self.0.push(key, ascii.trim());
+        }
+    }
+
+    /// A key and a value that counts, letter by letter. What a line cannot say is left out: only a foreign EDS has such values.
+    pub(super) fn value(&mut self, key: &str, value: &str) {
+        if fits(key, value) {
+            self.0.push(key, value);
         }
     }
 
@@ -44,6 +49,17 @@ impl SectionWriter {
     pub(super) fn finish(self, document: &mut Document<'_>) {
         document.push(self.0);
     }
+}
+
+/// The longest value of a key.
+const fn longest(key: &str) -> usize {
+    LONGEST_LINE - 1 - key.len()
+}
+
+/// Whether readers find the text as it is behind a key.
+fn fits(key: &str, text: &str) -> bool {
+    let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+    is_plain && text.len() <= longest(key) && text.trim() == text
 }
 
 /// The lines of a comment, those after the first indented.
@@ -72,6 +88,7 @@ mod tests {
         let mut document = Document::default();
         let mut section = SectionWriter::new("A", &[]);
         section.key("Name", "Größe");
+        section.value("DefaultValue", "Größe");
         section.finish(&mut document);
         let mut section = SectionWriter::new("B", &["word ".repeat(60), String::new(), "x".repeat(400)]);
         section.key("Long", "y".repeat(400));

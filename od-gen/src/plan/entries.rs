@@ -225,7 +225,8 @@ impl<'a> Plan<'a> {
         let fixed = elements.iter().all(|entry| entry.data_type.bits().is_some());
         if are_alike(elements) && gapless && fixed && lies_in_a_row(object, elements, &self.layout) {
             let changes = sub0.access.is_writable() || object.index.0 == 0x1003;
-            let count = || self.language.identifier(Role::Function, &words.and(&sub0.name));
+            let label = sub0.identifier.as_ref().unwrap_or(&sub0.name);
+            let count = || self.language.identifier(Role::Function, &words.and(label));
             Shape::Indexed { count: changes.then(count) }
         } else {
             Shape::Group { type_name: self.language.identifier(Role::Type, words) }

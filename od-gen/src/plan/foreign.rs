@@ -59,7 +59,7 @@ mod tests {
     use od_spec::source::SourceMap;
     use od_spec::{NoFiles, compile};
 
-    use crate::plan::{Place, plan};
+    use crate::plan::{Place, Shape, plan};
     use crate::rust::language::Rust;
 
     use super::*;
@@ -137,6 +137,25 @@ mod tests {
         assert!(!diagnostics.has_errors(), "{diagnostics:?}");
         let fields: Vec<&str> = plan.pdos[0].fields.iter().map(|field| field.name.as_str()).collect();
         assert_eq!(fields, ["x", "x_2"]);
+    }
+
+    #[test]
+    fn the_number_of_elements_has_a_name_of_its_own() {
+        let entry = |sub: u8, name: &str| {
+            format!("[2000sub{sub}]\nParameterName={name}\nObjectType=7\nDataType=5\nAccessType=rw\n")
+        };
+        let text = "[2000]\nParameterName=list\nObjectType=8\n".to_owned()
+            + &[entry(0, "%"), entry(1, "element 1"), entry(2, "element 2")].concat();
+        let system = system(&text);
+        let device = decided(&system, &system.devices[0], &Rust);
+        let mut diagnostics = Diagnostics::new();
+        let plan = plan(&system, &device, &Rust, &mut diagnostics);
+        assert!(!diagnostics.has_errors(), "{diagnostics:?}");
+        let names = plan.objects.iter().map(|object| match &object.shape {
+            Shape::Indexed { count } => (object.name.as_str(), count.as_deref()),
+            Shape::Var | Shape::Group { .. } => (object.name.as_str(), None),
+        });
+        assert_eq!(names.collect::<Vec<_>>(), [("list", Some("list_sub_0"))]);
     }
 
     #[test]

@@ -77,7 +77,7 @@ struct Variable<'a> {
 
 /// Lays out a dictionary: stored groups first, each in one piece, and in each group the widest values first, so that every
 /// value is aligned without gaps. Elements of an array stay together.
-pub(super) fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
+pub(crate) fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
     let mut layout = Layout { align: 4, ..Layout::default() };
     let mut variables = Vec::new();
     for (id, object, entry) in device.entries() {

@@ -25,7 +25,7 @@ use od_spec::source::Span;
 pub(crate) use self::condition::{Compare, Condition, Sum};
 pub(crate) use self::foreign::decided;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
-pub(crate) use self::layout::{Layout, Place};
+pub(crate) use self::layout::{Layout, Place, lay_out};
 use self::names::Scope;
 pub(crate) use self::names::Words;
 pub(crate) use self::pool::Pool;
@@ -285,7 +285,7 @@ pub(crate) fn plan<'a>(
     language: &'a dyn Language,
     diagnostics: &mut Diagnostics,
 ) -> Plan<'a> {
-    let layout = layout::lay_out(device, diagnostics);
+    let layout = lay_out(device, diagnostics);
     let name = language.identifier(Role::Type, &Words::of(&device.key));
     let mut dictionaries = Scope::with_reserved(language.reserved(ScopeKind::Dictionary));
     dictionaries.claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);

@@ -14,7 +14,7 @@ use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::SourceMap;
 use proc_macro2::TokenStream;
 
-use self::language::Rust;
+pub(crate) use self::language::Rust;
 use crate::plan::{Plan, PlannedEntry, Shape, decided, plan};
 
 /// The items of a device's module. What cannot be code (two names that give one identifier, a string without capacity) is
@@ -40,7 +40,7 @@ pub fn accessors(system: &System, device: &Dictionary) -> BTreeMap<EntryId, Stri
 }
 
 /// The call that reads an entry.
-fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> {
+pub(crate) fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> {
     let object = plan.objects.get(entry.object)?;
     Some(match &object.shape {
         Shape::Var => format!("{}()", object.name),

@@ -4,11 +4,17 @@
 
 mod build;
 mod check;
+mod check_inputs;
+mod check_policy;
 mod codes;
 mod dcf;
+mod diff;
 mod docs;
+mod foreign;
+mod formats;
 mod new;
 mod provoked;
+mod readme;
 mod shipped;
 mod specs;
 mod texts;
@@ -33,6 +39,13 @@ pdos:
   lamp:
     receive: {1: {map: [brightness]}}
 ";
+
+/// A faulty EDS: a name twice, words instead of 0 and 1 in four places, an unknown access type, bit patterns.
+const MIXER: &str = include_str!("eds/mixer.eds");
+
+/// An EDS with two faults, and the DCF of a node without any.
+const FAN: &str = include_str!("eds/fan.eds");
+const ROOF_FAN: &str = include_str!("eds/fan.dcf");
 
 /// A directory of its own for one test, removed at the end.
 struct Scratch(PathBuf);

@@ -28,7 +28,7 @@ fn without_a_spec_those_of_the_current_directory_are_taken() {
         ["a.json", "b.json", "eds/lamp.eds", "eds/torch.eds"],
         "and nothing of the devices that odgen's own project describes"
     );
-    let output = odgen(&scratch.0, &["check"]);
+    let output = odgen(&scratch.0, &["check", "--format", "short"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, NOTE));
     let output = odgen(&scratch.0, &["docs", "--out", "docs"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, NOTE));
@@ -46,7 +46,7 @@ fn without_a_spec_those_of_the_current_directory_are_taken() {
         stderr(&output)
     );
     // What is named is taken alone.
-    let output = odgen(&scratch.0, &["check", "b.od.yaml"]);
+    let output = odgen(&scratch.0, &["check", "b.od.yaml", "--format", "short"]);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
 }
 
@@ -105,7 +105,7 @@ fn another_directory_can_be_the_one_to_look_in() {
     let note = "note: no SPEC is named: taking a.od.yaml, b.od.yaml of ..\n";
     assert_eq!((code(&output), stderr(&output).as_str()), (0, note));
     assert!(work.join("generated/eds/torch.eds").exists());
-    let output = odgen(&work, &["--specs", "..", "check", "own.od.yaml"]);
+    let output = odgen(&work, &["--specs", "..", "check", "own.od.yaml", "--format", "short"]);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
 }
 

@@ -49,6 +49,7 @@ pub(crate) struct Spec {
     pub history: Vec<IssueDecl>,
     pub vendor: Option<VendorDecl>,
     pub uses: Vec<Name>,
+    pub allow: Vec<(Name, Text)>,
     pub glossary: Vec<(Name, Text)>,
     pub devices: Vec<DeviceDecl>,
     pub units: Vec<UnitDecl>,

@@ -11,7 +11,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0315",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "an array of several types",
     explanation: "All elements of an ARRAY have one data type; a tool that reads the first takes the others for the same. Make the object a RECORD, \
         or correct the type.",
@@ -24,7 +24,7 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| object.kind == ObjectKind::Array) {
-        let mut elements = object.entries.iter().filter(|entry| entry.sub.0 > 0);
+        let mut elements = object.counted();
         let Some(first) = elements.next().map(|element| element.data_type) else { continue };
         if let Some(element) = elements.find(|element| element.data_type != first) {
             let (index, sub, data_type) = (object.index, element.sub, element.data_type);

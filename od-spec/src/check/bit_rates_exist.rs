@@ -10,7 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0602",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "no bit rate",
     explanation: "An EDS without a supported bit rate is refused by configuration tools: the device could not be put on any bus. Add `bit-rates:` \
         to the device.",

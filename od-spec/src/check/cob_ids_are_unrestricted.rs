@@ -36,6 +36,9 @@ const RESTRICTED: [std::ops::RangeInclusive<i128>; 8] = [
     0x780..=0x7FF,
 ];
 
+/// CAN identifiers of the first SDO channel of a node: answers and requests (CiA 301 table 34).
+const FIRST_CHANNEL: [std::ops::RangeInclusive<i128>; 2] = [0x581..=0x5FF, 0x601..=0x67F];
+
 /// What bit 31 of a COB-ID says.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Bit31 {
@@ -92,6 +95,11 @@ fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node
     let on_node = subject.on_node(parameter.value, node);
     if id > 0x7FF {
         return Some(format!("{id:X}h{on_node} is no 11-bit identifier"));
+    }
+    // A client talks to the first channel of another node on the identifiers that are kept for that.
+    let is_client = matches!(parameter.id.index.0, 0x1280..=0x12FF);
+    if is_client && FIRST_CHANNEL.iter().any(|range| range.contains(&id)) {
+        return None;
     }
     RESTRICTED
         .iter()

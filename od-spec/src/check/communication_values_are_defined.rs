@@ -14,7 +14,7 @@ const LAST_NODE: i128 = 127;
 const CODE: &Code = &Code {
     id: "OD0510",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "a value that a communication object does not have",
     explanation: "1003h.0, the number of errors, starts with 0 and can only be set to 0; 1016h watches the nodes 1 to 127, each of them once; the SYNC counter of 1019h runs \
         to 2 to 240, or is not sent (0). A device refuses any other value, and a download at boot stops there. Write a value that CiA 301 defines.",

@@ -41,15 +41,15 @@ fn count(subject: &Subject<'_>, object: &Object, entry: &Entry) -> Option<Diagno
         let place = subject.place(entry, Fact::Type);
         return Some(Diagnostic::new(super::mapping_follows_access::CODE, place, message).help(help));
     }
-    let highest = object.entries.last().map(|last| i128::from(last.sub.0))?;
-    let shown = entry.default.as_ref().and_then(Value::integer);
+    let highest = i128::from(object.highest().0);
+    // A count without a value is said by itself.
+    let shown = entry.default.as_ref().and_then(Value::integer)?;
     // How much a mapping parameter maps and how many errors 1003h lists changes at run time.
     let varies = entry.access.is_writable() || index == Index(0x1003) || object.role() == Role::PdoMapping;
-    if varies || shown == Some(highest) {
+    if varies || shown == highest {
         return None;
     }
-    let message =
-        format!("{index}: sub-index 0 is {}, the highest sub-index {highest}", shown.unwrap_or_default());
+    let message = format!("{index}: sub-index 0 is {shown}, the highest sub-index {highest}");
     Some(
         Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
             .help("remove `default:` from `sub0:`; the value follows from the entries"),

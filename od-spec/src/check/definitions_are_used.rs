@@ -7,7 +7,8 @@ use crate::model::{Author, Statement, System, TableContent};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::System(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub(super) const CODE: &Code = &Code {
     id: "OD0806",
     severity: Severity::Warning,
     foreign: Severity::Warning,

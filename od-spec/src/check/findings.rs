@@ -65,3 +65,8 @@ impl Findings {
         touching
     }
 }
+
+/// `1 more entry of the object`, `2 more entries of the object`: where one finding stands for several.
+pub(super) fn others(more: usize) -> String {
+    format!("{more} more {} of the object", if more == 1 { "entry" } else { "entries" })
+}

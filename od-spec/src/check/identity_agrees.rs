@@ -13,7 +13,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0611",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "an identity that disagrees",
     explanation: "1000h and 1018h hold the device type, the vendor number, the product code and the revision, and `[DeviceInfo]` of the EDS says the \
         same numbers from `vendor:` and `devices:`. A PLC compares the two at boot and refuses the device where they differ. Remove the \

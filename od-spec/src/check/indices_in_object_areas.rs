@@ -10,7 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0316",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "an index outside the areas for objects",
     explanation: "Objects lie from 1000h to BFFFh. 0001h to 0FFFh are data types, C000h and above are reserved. Configuration tools refuse a file with such an \
         object. Give the object an index of the manufacturer's area, 2000h to 5FFFh, or the one that its profile has.",

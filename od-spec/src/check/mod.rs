@@ -4,7 +4,9 @@
 //! Rules see the model and nothing else: a value may have been written in a specification, in a library, or in a setting
 //! laid over both; the place of a message comes from the fact that it is about.
 
+pub(crate) mod allowed;
 mod findings;
+mod from_library;
 mod pdo;
 mod rule;
 mod subject;
@@ -14,13 +16,17 @@ mod bit_rates_are_standard;
 mod bit_rates_exist;
 mod cob_ids_are_unrestricted;
 mod cob_ids_differ;
+mod commands_are_flagged;
 mod commands_are_not_downloaded;
+mod communication_indices_are_defined;
 mod communication_values_are_defined;
 mod constants_are_not_stored;
 mod constants_have_values;
 mod constraints_hold;
 mod counts_agree;
+mod counts_are_constant;
 mod definitions_are_used;
+mod device_type_is_kept;
 mod error_codes_are_listed;
 mod error_control_exists;
 mod granularity_fits_mapping;
@@ -35,15 +41,26 @@ mod mappable_entries_have_pdos;
 mod mappable_types_have_a_length;
 mod mapped_entries_are_mappable;
 mod mapping_follows_access;
+mod mappings_change_as_a_whole;
+mod multiplexed_pdos_are_supported;
 mod names_are_unique;
 mod names_fit_eds;
+mod objects_need_each_other;
 mod pdo_parameters_agree;
+mod pdos_can_be_switched_off;
 mod pdos_fit_a_frame;
+mod pdos_map_each_entry_once;
 mod placeholders_are_accepted;
+mod predefined_cob_ids_are_kept;
 mod real_defaults;
 mod reserved_bits_are_zero;
+mod services_have_their_objects;
 mod set_entries_are_writable;
+mod standard_access_is_kept;
+mod standard_objects_are_complete;
+mod standard_objects_keep_their_type;
 mod stored_entries_can_be_stored;
+mod structures_have_entries;
 pub(crate) mod texts_fit_eds;
 mod transmission_types_are_defined;
 mod value_fits_type;
@@ -67,6 +84,7 @@ use crate::diag::Diagnostics;
 use crate::model::{Dictionary, System};
 use crate::source::Span;
 
+use allowed::Allowed;
 use findings::Findings;
 pub(crate) use rule::Rule;
 use rule::{Check, Needs};
@@ -76,10 +94,14 @@ use subject::Subject;
 pub(crate) static RULES: &[Rule] = &[
     names_are_unique::RULE,
     counts_agree::RULE,
+    structures_have_entries::RULE,
     arrays_have_one_type::RULE,
     indices_in_object_areas::RULE,
     names_fit_eds::RULE,
     texts_fit_eds::RULE,
+    standard_objects_keep_their_type::RULE,
+    standard_objects_are_complete::RULE,
+    objects_need_each_other::RULE,
     value_in_enum::RULE,
     value_fits_type::RULE,
     value_within_limits::RULE,
@@ -97,6 +119,8 @@ pub(crate) static RULES: &[Rule] = &[
     pdo_parameters_agree::RULE,
     granularity_fits_mapping::RULE,
     communication_values_are_defined::RULE,
+    multiplexed_pdos_are_supported::RULE,
+    mappings_change_as_a_whole::RULE,
     bit_rates_are_standard::RULE,
     bit_rates_exist::RULE,
     constraints_hold::RULE,
@@ -115,6 +139,15 @@ pub(crate) static RULES: &[Rule] = &[
     error_codes_are_listed::RULE,
     stored_entries_can_be_stored::RULE,
     reserved_bits_are_zero::RULE,
+    standard_access_is_kept::RULE,
+    communication_indices_are_defined::RULE,
+    services_have_their_objects::RULE,
+    predefined_cob_ids_are_kept::RULE,
+    commands_are_flagged::RULE,
+    device_type_is_kept::RULE,
+    counts_are_constant::RULE,
+    pdos_map_each_entry_once::RULE,
+    pdos_can_be_switched_off::RULE,
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.
@@ -122,16 +155,20 @@ pub(crate) fn system(
     rules: &[&Rule],
     system: &System,
     library: Option<&Dictionary>,
+    allowed: &mut Allowed<'_>,
     diagnostics: &mut Diagnostics,
 ) {
     for needs in [Needs::Nothing, Needs::Everything] {
         if needs == Needs::Everything && diagnostics.has_errors() {
             return;
         }
+        let mut found = Diagnostics::new();
         for rule in rules.iter().filter(|rule| rule.needs == needs) {
-            apply(rule, system, library, diagnostics);
+            apply(rule, system, library, &mut found);
         }
+        diagnostics.append(allowed.soften(found));
     }
+    allowed.report_unused(diagnostics);
 }
 
 /// Applies the rules to a device that was read from a foreign file. What is wrong there prevents nothing, so that every rule

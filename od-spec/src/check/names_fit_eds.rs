@@ -14,7 +14,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0318",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Note,
     title: "a text that an EDS cannot hold",
     explanation: "An EDS line has at most 255 characters, which leaves 241 for a name. `;`, `#` and `=` in names and texts are read as comments or keys by \
         several PLC tools, so they are refused. Characters outside ASCII are transliterated; a name that has none left is refused, too. What \

@@ -2,13 +2,23 @@
 
 use super::subject::Subject;
 use super::subject::entry_id;
-use crate::model::{DataType, Entry, EntryId, Fact, Mapped, Pdo, PdoTarget, Value};
+use crate::model::{DataType, Entry, EntryId, Fact, Index, Mapped, Pdo, PdoTarget, Value};
 use crate::source::Span;
 
 /// Bit of a COB-ID: the PDO does not exist (CiA 301, object 1400h).
 pub(super) const NOT_VALID: i128 = 1 << 31;
 /// Bit of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
 pub(super) const NO_REMOTE_FRAMES: i128 = 1 << 30;
+
+/// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they were read from.
+pub(super) const SOURCE_ADDRESS: i128 = 254;
+/// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they are written to.
+const DESTINATION_ADDRESS: i128 = 255;
+
+/// Whether a number of mapped entries is none, but makes the PDO a multiplexed one (CiA 301, 11.4).
+pub(super) const fn is_multiplexed(count: i128) -> bool {
+    matches!(count, SOURCE_ADDRESS | DESTINATION_ADDRESS)
+}
 
 /// A parameter of a PDO with its value.
 pub(super) struct Parameter<'a> {
@@ -61,20 +71,23 @@ impl<'a> Subject<'a> {
 
     /// How many entries the PDO can map.
     pub(super) fn mapping_capacity(&self, pdo: &Pdo) -> i128 {
-        let object = self.device.objects.get(&entry_id(pdo.mapping_index(), 0).index);
-        object.and_then(|object| object.entries.last()).map_or(0, |last| i128::from(last.sub.0))
+        let object = self.device.objects.get(&Index(pdo.mapping_index()));
+        object.map_or(0, |object| object.highest().0.into())
     }
 
-    /// All mapping parameters behind the count, used or not.
+    /// All mapping parameters behind the count that have a value, used or not.
     pub(super) fn mapping(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
         let (subject, index) = (*self, pdo.mapping_index());
-        (1..=u8::MAX).map_while(move |sub| subject.parameter(index, sub))
+        let object = self.device.objects.get(&Index(index));
+        let subs = object.into_iter().flat_map(|object| object.counted().map(|entry| entry.sub.0));
+        subs.filter_map(move |sub| subject.parameter(index, sub))
     }
 
     /// The mapping parameters that count.
     pub(super) fn mapped(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
-        let count = self.mapping_count(pdo).map_or(0, |count| count.raw());
-        self.mapping(pdo).take(usize::try_from(count).unwrap_or(0))
+        let count = self.mapping_count(pdo).map(|count| count.raw()).filter(|count| !is_multiplexed(*count));
+        self.mapping(pdo)
+            .filter(move |parameter| count.is_some_and(|count| i128::from(parameter.id.sub.0) <= count))
     }
 
     /// Where a mapping as a whole is said: at a setting of it, or else where its count stands.

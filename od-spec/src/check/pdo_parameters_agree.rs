@@ -2,7 +2,7 @@
 //! flag of a TPDO, and the SYNC counter can reach the start value.
 
 use super::findings::Findings;
-use super::pdo::{NO_REMOTE_FRAMES, target, title};
+use super::pdo::{NO_REMOTE_FRAMES, is_multiplexed, target, title};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -42,7 +42,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 
 /// The number of mapped entries, against what is offered and what is there.
 fn count(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
-    let parameter = subject.mapping_count(pdo)?;
+    let parameter = subject.mapping_count(pdo).filter(|count| !is_multiplexed(count.raw()))?;
     let (count, offered, title) = (parameter.raw(), subject.mapping_capacity(pdo), title(pdo));
     if count > offered {
         let message = format!("{}: {title} maps {count} entries, but offers {offered}", parameter.id);

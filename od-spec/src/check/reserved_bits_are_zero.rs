@@ -1,10 +1,12 @@
 //! Values leave reserved bits at 0.
 
 use super::findings::Findings;
+use super::from_library::is_from_library;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{BitUsage, Fact, TypeKind};
+use crate::model::{BitUsage, Entry, EntryId, Fact, TypeKind};
+use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -22,12 +24,23 @@ const CODE: &Code = &Code {
     )),
 };
 
+/// The entry that says what the bits mean: for one of CiA 301 that is written in full and does not say it, that of the standard.
+fn meant<'a>(subject: &Subject<'a>, id: EntryId, entry: &'a Entry) -> &'a Entry {
+    let says_it = entry.named_type.is_some() || !entry.special.is_empty();
+    if says_it || subject.device.objects.get(&id.index).is_none_or(is_from_library) {
+        return entry;
+    }
+    let standard = standard::object(id.index).and_then(|object| standard::entry(object, id.sub));
+    standard.filter(|standard| standard.data_type == entry.data_type).unwrap_or(entry)
+}
+
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, entry, value) in subject.values() {
-        let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) else {
+        let defined = meant(subject, id, entry);
+        let Some(TypeKind::Bits(fields)) = defined.named_type.as_ref().map(|named| &named.kind) else {
             continue;
         };
-        let Some(raw) = value.integer().filter(|raw| !entry.special.iter().any(|one| one.value == *raw))
+        let Some(raw) = value.integer().filter(|raw| !defined.special.iter().any(|one| one.value == *raw))
         else {
             continue;
         };

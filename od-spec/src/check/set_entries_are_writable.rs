@@ -10,7 +10,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 const CODE: &Code = &Code {
     id: "OD0703",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "a parameter that cannot be written",
     explanation: "A DCF sets parameters by SDO download; this entry is read-only over the bus, or shown as such in the EDS. The download would stop with \
         abort code 0601 0002h, and with it, for most masters, the boot-up of the node. Leave the entry out.",

@@ -14,7 +14,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 pub const CODE: &Code = &Code {
     id: "OD0319",
     severity: Severity::Error,
-    foreign: Severity::Error,
+    foreign: Severity::Warning,
     title: "a value that a line of an EDS cannot hold",
     explanation: "A string or octet string that an EDS or DCF shows stands on one line of 255 characters, without quotes and in ASCII. Blanks at its ends \
         are lost, `;`, `#` and `=` are misread by several readers, and an empty text reads as no value: a PLC would write something else than \

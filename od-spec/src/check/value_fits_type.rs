@@ -35,7 +35,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 }
 
 /// Whether a type has values of this kind.
-const fn is_of_type(value: &Value, data_type: DataType) -> bool {
+pub(super) const fn is_of_type(value: &Value, data_type: DataType) -> bool {
     match value {
         Value::Integer(_) | Value::NodeId(_) => {
             data_type.is_integer() || matches!(data_type, DataType::Boolean)

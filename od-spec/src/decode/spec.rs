@@ -36,6 +36,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         history: top.items("history").map(|r| issue(r, diagnostics)).collect(),
         vendor: top.child("vendor").map(|r| vendor(r, diagnostics)),
         uses: top.texts("uses"),
+        allow: top.entries("allow").filter_map(|(code, r)| Some((owned(code), r.translated()?))).collect(),
         glossary: top
             .entries("glossary")
             .filter_map(|(name, r)| Some((owned(name), r.translated()?)))

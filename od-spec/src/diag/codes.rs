@@ -92,8 +92,6 @@ codes! {
         "A table or a bit refers to a type, a state machine, a constraint or an error code that the specification does not have."
     UNKNOWN_STATE Error "OD0312" "an unknown state or transition":
         "Transitions name states, and commands name transitions, of the same state machine."
-    EMPTY_OBJECT Error / Warning "OD0314" "an array or record without entries":
-        "An ARRAY or RECORD has at least one element or member beside sub-index 0."
     PDO_DESCRIBED_TWICE Error "OD0317" "a PDO that is described twice":
         "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that stands in both places would have two descriptions."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":

@@ -13,6 +13,7 @@ mod findings;
 mod fix;
 pub(crate) mod names;
 pub(crate) mod number;
+pub(crate) mod owner;
 pub(crate) mod read;
 pub mod readers;
 mod scan;
@@ -45,6 +46,7 @@ pub use crate::encoding::{Encoding, decode, encode};
 pub(crate) use findings::file_name;
 pub use findings::findings;
 pub use fix::{Change, Fixed, fix};
+pub use owner::{Owner, Remark};
 
 #[cfg(test)]
 mod examples;

@@ -6,7 +6,7 @@ use std::fmt;
 use super::{Date, Devices, Direction, EntryId, Index, Text};
 
 /// The printed manual that a specification stands for.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Document {
     /// Title of the manual.
@@ -53,7 +53,7 @@ impl Document {
 }
 
 /// One issue of the manual.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Issue {
     /// Its number, as printed.
@@ -65,7 +65,7 @@ pub struct Issue {
 }
 
 /// A chapter or section.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Section {
     /// Number, as printed: `4.1.1`; empty for parts without one.
@@ -77,7 +77,7 @@ pub struct Section {
 }
 
 /// A table of the manual.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Table {
     /// Number, as printed; `None` for tables without one.
@@ -89,7 +89,7 @@ pub struct Table {
 }
 
 /// What fills a table.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TableContent {
     /// One row per object: index, object type, name, type, access, storage.
     Overview(Vec<Index>),
@@ -127,7 +127,7 @@ pub enum TableContent {
 }
 
 /// The default PDOs of one device and direction.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PdoTable {
     /// Key of the device.
     pub device: String,
@@ -136,7 +136,7 @@ pub struct PdoTable {
 }
 
 /// A place where the printed manual says something else than the specification, or nothing at all.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Erratum {
     /// Objects or entries it is about; empty for none in particular.

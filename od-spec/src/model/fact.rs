@@ -65,7 +65,7 @@ facts! {
     Capacity = "capacity",
     /// Name in generated code.
     Identifier = "identifier",
-    /// What the EDS shows of an entry.
+    /// What the EDS shows of an entry, or says about itself.
     Eds = "eds",
     /// Description.
     About = "about",
@@ -77,6 +77,89 @@ facts! {
     BitRates = "bit-rates",
     /// Granularity of a device's PDO mapping.
     Granularity = "granularity",
+    /// What a PDO carries.
+    Map = "map",
+    /// The maker: name and number.
+    Vendor = "vendor",
+    /// The product: name, code, order code.
+    Product = "product",
+    /// The product's revision (1018h.3).
+    ProductRevision = "product-revision",
+    /// Device type (1000h).
+    DeviceType = "device-type",
+    /// Simple boot-up as master or slave.
+    BootUp = "boot-up",
+    /// Multiplexed PDOs.
+    GroupMessaging = "group-messaging",
+    /// LSS slave.
+    Lss = "lss",
+    /// Data types that may stand in an RPDO as placeholders.
+    Dummies = "dummies",
+    /// How many PDOs a device has.
+    PdoCount = "pdos",
+    /// A condition between entries, and when it counts.
+    Requirement = "require",
+    /// What the device does on an error.
+    Reaction = "reaction",
+    /// How urgent an error is.
+    Priority = "priority",
+    /// The languages of the texts.
+    Languages = "languages",
+    /// The printed manual: its issues, chapters and tables.
+    Document = "document",
+    /// What the printed manual says otherwise.
+    Errata = "errata",
+}
+
+impl Fact {
+    /// Whether an EDS states the fact in its keys, where another tool reads it. What stands in comments only, it does not
+    /// state.
+    pub const fn is_stated_by_eds(self) -> bool {
+        match self {
+            Self::Name
+            | Self::ObjectType
+            | Self::Count
+            | Self::Presence
+            | Self::Type
+            | Self::Access
+            | Self::Mapping
+            | Self::Default
+            | Self::LowLimit
+            | Self::HighLimit
+            | Self::Eds
+            | Self::RemoteFrames
+            | Self::BitRates
+            | Self::Granularity
+            | Self::Map
+            | Self::Vendor
+            | Self::Product
+            | Self::ProductRevision
+            | Self::DeviceType
+            | Self::BootUp
+            | Self::GroupMessaging
+            | Self::Lss
+            | Self::Dummies
+            | Self::PdoCount => true,
+            Self::Meaning
+            | Self::Unit
+            | Self::Special
+            | Self::Storage
+            | Self::Category
+            | Self::Since
+            | Self::WriteCondition
+            | Self::BitErrors
+            | Self::Capacity
+            | Self::Identifier
+            | Self::About
+            | Self::Alias
+            | Self::Requirement
+            | Self::Reaction
+            | Self::Priority
+            | Self::Languages
+            | Self::Document
+            | Self::Errata => false,
+        }
+    }
 }
 
 /// Who says a fact.

@@ -102,6 +102,16 @@ impl Object {
         self.entries.binary_search_by_key(&sub, |entry| entry.sub).ok().map(|at| &self.entries[at])
     }
 
+    /// The entries behind sub-index 0; without FFh, which does not count.
+    pub fn counted(&self) -> impl DoubleEndedIterator<Item = &Entry> + Clone {
+        self.entries.iter().filter(|entry| entry.sub.0 > 0 && entry.sub != SubIndex::STRUCTURE)
+    }
+
+    /// The highest sub-index that counts; 0 for a VAR.
+    pub fn highest(&self) -> SubIndex {
+        self.counted().next_back().map_or(SubIndex(0), |entry| entry.sub)
+    }
+
     /// Whether the object has sub-indices.
     pub const fn is_structured(&self) -> bool {
         matches!(self.kind, ObjectKind::Array | ObjectKind::Record)

@@ -76,7 +76,7 @@ impl Pdo {
             let count = mapping.entry(SubIndex(0));
             pdo.variable_mapping =
                 mapping.is_structured() && count.is_some_and(|count| count.access.is_writable());
-            pdo.capacity = mapping.entries.last().map_or(0, |last| last.sub.0);
+            pdo.capacity = mapping.highest().0;
         }
         pdo.follow(objects);
         Some(pdo)

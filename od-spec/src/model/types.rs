@@ -17,6 +17,11 @@ impl fmt::Display for Index {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubIndex(pub u8);
 
+impl SubIndex {
+    /// FFh, which any array or record may have: it tells the structure of the object and does not count.
+    pub const STRUCTURE: Self = Self(0xFF);
+}
+
 impl fmt::Display for SubIndex {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.0)

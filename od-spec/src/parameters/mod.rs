@@ -133,6 +133,8 @@ pub(crate) fn of_node(
     for (id, text) in decl.values {
         let Some(entry) = overlay::entry_mut(&mut configured, id) else { continue };
         match read::parameter(entry, &text) {
+            // What the file repeats is not set by it.
+            Ok(value) if entry.default.as_ref() == Some(&value) => drop(values.insert(id, value)),
             Ok(value) => {
                 let statement = Statement { span: text.span, author: Author::Setting };
                 entry.set_default(Some(value.clone()), statement);

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::tables::cell;
-use crate::compile::LIBRARIES;
 use crate::diag::Diagnostics;
 use crate::source::SourceMap;
+use crate::standard::LIBRARIES;
 use crate::yaml::{self, Node};
 
 /// One table for each library.

@@ -86,6 +86,9 @@ fn of_specification<'a>(
         let one = match &decl.from {
             Some(from) => from_library(decl, from, libraries, scope, diagnostics),
             None => {
+                if decl.array.is_some() {
+                    check_omitted(decl, decl, diagnostics);
+                }
                 let (origin, decl) = (Origin::Manual, Cow::Borrowed(decl));
                 Some(Declared { decl, origin, profile: None, departures: Vec::new() })
             }
@@ -210,6 +213,11 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
             );
         }
     }
+    check_omitted(decl, merged, diagnostics);
+}
+
+/// Checks that what is left out of an object would be there.
+fn check_omitted(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
     let elements = merged.array.as_ref().map_or(0, |array| {
         let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
         array.count.map_or(0, |count| count.value).max(highest)

@@ -196,20 +196,8 @@ fn finish(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    let highest = list.last().map_or(SubIndex(0), |entry| entry.sub);
-    if list.is_empty() {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::EMPTY_OBJECT,
-                decl.index.span,
-                format!("{} has no entry beside sub-index 0", decl.index.value),
-            )
-            .help("an array or record has at least one element or member"),
-        );
-        if around.front_end == FrontEnd::Specification {
-            return None;
-        }
-    }
+    let counted = list.iter().map(|entry| entry.sub).filter(|sub| *sub != SubIndex::STRUCTURE);
+    let highest = counted.max().unwrap_or(SubIndex(0));
     let count = decl.sub0.as_ref();
     let span = count.map_or(decl.index.span, |count| count.span);
     let unsigned8 = DataType::Unsigned8;

@@ -71,7 +71,11 @@ fn services() -> Vec<Case> {
         (0x1201, 2, "SDO server"),
     ] {
         let cob_id = |id| [number(index, sub, id)];
-        cases.push(accepted(about, &cob_id(0x6E1)));
+        let free = accepted(about, &cob_id(0x6E1));
+        cases.push(match index {
+            0x1014 => free.but(Specification, Said::Warned("OD0815".to_owned()), Reason::DefaultIsPredefined),
+            _ => free,
+        });
         for id in [0x000, 0x07F, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x780, 0x800, EXTENDED | 0x300] {
             cases.push(refused(about, &cob_id(id), UNUSABLE, invalid));
         }
@@ -83,15 +87,26 @@ fn services() -> Vec<Case> {
         cases.push(accepted(about, &cob_id(NOT_VALID | 0x6E1)));
         cases.push(refused(about, &cob_id(NOT_VALID | EXTENDED | 0x300), UNUSABLE, invalid));
     }
-    let warned = || Said::Warned("OD0810".to_owned());
-    for (index, sub, about) in [(0x1014, 0, "EMCY, reserved bit"), (0x1028, 1, "EMCY consumer, reserved bit")]
-    {
+    let warned = |codes: &str| Said::Warned(codes.to_owned());
+    for (index, sub, about, default) in [
+        (0x1014, 0, "EMCY, reserved bit", "OD0810 OD0815"),
+        (0x1028, 1, "EMCY consumer, reserved bit", "OD0810"),
+    ] {
         let reason = Reason::ReservedBitIsHarmless;
         let case = accepted(about, &[number(index, sub, 1 << 30 | 0x6E1)]);
-        cases.push(case.but(Specification, warned(), reason).but(Settings, warned(), reason));
+        cases.push(case.but(Specification, warned(default), reason).but(Settings, warned("OD0810"), reason));
     }
-    cases.push(accepted("SYNC of a producer", &[number(0x1005, 0, 1 << 30 | 0x81)]));
-    cases.push(accepted("SYNC, bit 31 of any value", &[number(0x1005, 0, NOT_VALID | 0x81)]));
+    for (sub, first_channel) in [(1, [0x601, 0x67F]), (2, [0x581, 0x5FF])] {
+        let cob_id = |id| [number(0x1280, sub, id)];
+        cases.extend(first_channel.map(|id| accepted("SDO client of a first channel", &cob_id(id))));
+        cases.push(accepted("SDO client", &cob_id(0x6E1)));
+        cases.push(accepted("no SDO client", &cob_id(NOT_VALID | 0x601)));
+        for id in [0x000, 0x101, 0x6E0, 0x701, 0x800, EXTENDED | 0x601] {
+            cases.push(refused("SDO client", &cob_id(id), UNUSABLE, invalid));
+        }
+    }
+    cases.push(accepted("SYNC of a producer", &[number(0x1005, 0, 1 << 30 | 0x6E1)]));
+    cases.push(accepted("SYNC, bit 31 of any value", &[number(0x1005, 0, NOT_VALID | 0x6E1)]));
     cases.push(accepted("TIME of a consumer", &[number(0x1012, 0, 1 << 31 | 0x6E1)]));
     cases.push(accepted("TIME of a producer", &[number(0x1012, 0, 1 << 30 | 0x6E1)]));
     cases

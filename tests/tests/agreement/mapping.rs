@@ -2,7 +2,7 @@
 
 use firmware_glue::AbortCode;
 
-use crate::case::Party::Specification;
+use crate::case::Party::{Settings, Specification};
 use crate::case::{Case, Said, Set, accepted, number, refused};
 use crate::reason::Reason;
 
@@ -87,6 +87,7 @@ fn placeholders() -> Vec<Case> {
 fn counts() -> Vec<Case> {
     use AbortCode as A;
     let frame = [0x2022_0020, 0x2025_0010, 0x2021_0010];
+    let twice = || Said::Warned("OD0819".to_owned());
     vec![
         accepted("64 bits", &several(RECEIVE, &frame)),
         accepted("64 bits with a placeholder", &several(RECEIVE, &[0x2022_0020, 0x0003_0010, 0x2021_0010])),
@@ -102,14 +103,17 @@ fn counts() -> Vec<Case> {
             "OD0507",
             A::PDO_LENGTH,
         ),
-        accepted("as many entries as the PDO offers", &several(RECEIVE, &[0x2020_0008; 8])),
+        accepted("as many entries as the PDO offers", &several(RECEIVE, &[0x0005_0008; 8])),
+        accepted("an entry twice", &several(RECEIVE, &[0x2020_0008; 2]))
+            .but(Specification, twice(), Reason::TwiceIsHarmless)
+            .but(Settings, twice(), Reason::TwiceIsHarmless),
         unsaid(refused(
             "more entries than the PDO offers",
             &[number(RECEIVE, 0, 9)],
             "OD0508",
             A::PDO_LENGTH,
         )),
-        unsaid(refused("more entries than any PDO", &[number(RECEIVE, 0, 255)], "OD0508", A::PDO_LENGTH)),
+        unsaid(refused("a multiplexed PDO", &[number(RECEIVE, 0, 255)], "OD0511", A::PDO_LENGTH)),
         unsaid(refused("an empty entry", &[number(RECEIVE, 0, 2)], "OD0508", A::NO_OBJECT)),
         accepted("nothing", &[number(RECEIVE, 0, 0)]),
         refused("a mapping that is fixed", &single(0x1602, 0x2025_0010), "OD0703", A::READ_ONLY).but(

@@ -163,7 +163,7 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         1401.1=$NODEID+0x200, 1400.1=0x80000000: 1400h.1 = Integer(2147483648)
         1400.2=245: error[OD0505]: 1400h.2: transmission type 245 is reserved for RPDO 1
         1400.2=252: error[OD0505]: 1400h.2: transmission type 252 is reserved for RPDO 1
-        1800.2=252: 1800h.2 = Integer(252)
+        1800.2=252: warning[OD0814]: TPDO 1 waits for SYNC, but `views` has no 1005h
         1800.6=240: 1800h.6 = Integer(240)
         1800.6=241: error[OD0508]: 1800h.6: the SYNC counter never reaches 241
         1600.0=9: error[OD0508]: 1600h: RPDO 1 maps 9 entries, but offers 8
@@ -173,7 +173,7 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         1600.2=0x60640010: error[OD0502]: 1600h.2: 6064h has 32 bits, not 16
         1600.2=0x70640010: error[OD0310]: 1600h.2: there is no entry 7064h
         1600.2=0x20000008: error[OD0502]: 1600h.2: 2000h (mode) cannot be mapped into PDOs
-        1600.0=2, 1600.2=0x60640020: 1600h = Integer(2)
+        1600.0=2, 1600.2=0x60640020: warning[OD0819]: RPDO 1 maps 6064h twice, at 1600h.1 and 1600h.2
         1600.0=3, 1600.2=0x60640020, 1600.3=0x00050008: error[OD0507]: RPDO 1 carries 72 bits
         1600.2=0x00060010: error[OD0506]: 1600h.2: RPDO 1 takes no UNSIGNED16 placeholder
         1A00.2=0x00050008: error[OD0506]: 1A00h.2: a TPDO has no placeholders

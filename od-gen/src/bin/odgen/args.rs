@@ -10,7 +10,8 @@ use od_spec::diag::render;
 #[command(
     name = "odgen",
     version,
-    after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line.\n\
+    after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line, \
+                  3 what `odgen diff --exit-code` looks for.\n\
                   `odgen explain OD0507` tells more about a message; `odgen reference` describes the language."
 )]
 pub(crate) struct Cli {
@@ -30,7 +31,7 @@ pub(crate) struct Cli {
     pub color: Color,
 }
 
-/// How messages are written, said behind the command. `odgen docs` has formats of its own; there it is said before the command.
+/// How messages are written, said behind the command. `odgen docs` and `odgen diff` have formats of their own; there it is said before the command.
 #[derive(Debug, Args)]
 pub(crate) struct Messages {
     /// How messages are written
@@ -95,6 +96,7 @@ impl Cli {
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
             Command::Fix(args) => args.messages.format,
+            Command::Import(args) => args.messages.format,
             Command::New(args) => args.messages.format,
             _ => None,
         };
@@ -140,6 +142,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Make the DCF of one node, with parameter values of your own
     Dcf(DcfArgs),
+    /// Tell what differs between two dictionaries, and what each change breaks
+    Diff(DiffArgs),
     /// Print the resolved model as JSON
     Dump(DumpArgs),
     /// Make the reference documentation: the manual's tables and a reference of all objects, as Markdown or HTML
@@ -148,6 +152,8 @@ pub(crate) enum Command {
     Errata(ErrataArgs),
     /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
     Fix(FixArgs),
+    /// Make a specification of an EDS or DCF
+    Import(ImportArgs),
     /// Write a commented specification to start from
     New(NewArgs),
     /// Tell what a message code means and what to do about it
@@ -216,7 +222,7 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub deny_warnings: bool,
 
-    /// Leave these findings out: a code or the codes that begin so; errors in a specification stay
+    /// Leave these findings out, named in the same way; errors in a specification stay
     #[arg(long, value_name = "CODE")]
     pub allow: Vec<String>,
 
@@ -284,6 +290,76 @@ pub(crate) struct DcfArgs {
 
     #[command(flatten)]
     pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DiffArgs {
+    /// The dictionary before the changes; with --git the specification
+    #[arg(value_name = "OLD")]
+    pub old: PathBuf,
+
+    /// The dictionary after the changes
+    #[arg(value_name = "NEW", required_unless_present = "git", conflicts_with = "git")]
+    pub new: Option<PathBuf>,
+
+    /// Compare a specification with itself as it was at a revision of git, such as `HEAD` or `v1.08`
+    #[arg(long, value_name = "REV")]
+    pub git: Option<String>,
+
+    /// Only this device
+    #[arg(long, value_name = "KEY")]
+    pub device: Option<String>,
+
+    /// How the differences are written
+    #[arg(long, value_enum, default_value_t)]
+    pub format: DiffFormat,
+
+    /// Fail with exit code 3 when a change is of this class or of a heavier one
+    #[arg(long, value_enum, value_name = "CLASS")]
+    pub exit_code: Option<DiffClass>,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiffFormat {
+    /// For people, with reasons and proposals
+    #[default]
+    Human,
+    /// One line for each change
+    Short,
+    /// Tables and an entry for a changelog
+    Markdown,
+    /// One JSON object
+    Json,
+}
+
+/// The classes of changes, the lightest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiffClass {
+    /// Documents only: whatever differs
+    Documents,
+    /// Compatible additions
+    Addition,
+    /// The device does something else
+    Behaviour,
+    /// Firmware does not compile any more
+    Firmware,
+    /// Stored parameters are lost
+    Stored,
+    /// PLC projects break
+    Plc,
+}
+
+impl From<DiffClass> for od_gen::diff::Class {
+    fn from(class: DiffClass) -> Self {
+        match class {
+            DiffClass::Documents => Self::Documents,
+            DiffClass::Addition => Self::Addition,
+            DiffClass::Behaviour => Self::Behaviour,
+            DiffClass::Firmware => Self::Firmware,
+            DiffClass::Stored => Self::Stored,
+            DiffClass::Plc => Self::Plc,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Args)]
@@ -358,6 +434,24 @@ pub(crate) struct FixArgs {
     /// Change the files
     #[arg(long)]
     pub write: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ImportArgs {
+    /// EDS or DCF files
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+
+    /// Directory for the specifications, each named like its file
+    #[arg(long, short, default_value = ".", value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Overwrite specifications that are there already
+    #[arg(long)]
+    pub force: bool,
 
     #[command(flatten)]
     pub messages: Messages,

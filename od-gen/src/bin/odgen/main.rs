@@ -4,9 +4,12 @@ mod args;
 mod build;
 mod check;
 mod dcf;
+mod diff;
 mod docs;
 mod errata;
 mod fix;
+mod git;
+mod import;
 mod new;
 mod output;
 mod report;
@@ -27,6 +30,8 @@ const SUCCESS: u8 = 0;
 const ERRORS: u8 = 1;
 /// The command line cannot be understood.
 const USAGE: u8 = 2;
+/// `odgen diff --exit-code` found what it looked for.
+const DIFFERS: u8 = 3;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -39,10 +44,12 @@ fn main() -> ExitCode {
             check::run(&args, format, directory, &report)
         }
         Command::Dcf(args) => dcf::run(&args, directory, &report),
+        Command::Diff(args) => diff::run(&args, cli.color, &report),
         Command::Docs(args) => docs::run(&args, directory, &report),
         Command::Dump(args) => dump(&args, directory, &report),
         Command::Errata(args) => errata::run(&args, directory, &report),
         Command::Fix(args) => fix::run(&args, &report),
+        Command::Import(args) => import::run(&args, &report),
         Command::New(args) => new::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),

@@ -44,11 +44,8 @@ impl Report {
     }
 
     /// Writes messages that are text already.
-    pub(crate) fn write(&self, text: &str) -> u8 {
-        match std::io::stderr().write_all(text.as_bytes()) {
-            Ok(()) => SUCCESS,
-            Err(_) => ERRORS,
-        }
+    pub(crate) fn write(text: &str) {
+        let _ = std::io::stderr().write_all(text.as_bytes());
     }
 
     /// Writes diagnostics and, for people, their number.

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_spec::model::{Dictionary, EntryId, Index, Object, ObjectKind};
+use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, ObjectKind};
 
 use crate::plan::language::{Companion, Language, Role, ScopeKind};
 use crate::plan::names::Words;
@@ -113,17 +113,19 @@ impl<'l> Claims<'l> {
             let words = words(object);
             let named = Named::Object(object.index);
             let accessors = (ScopeKind::Accessors, None);
-            let mut functions = vec![language.identifier(Role::Function, &words)];
+            let mut functions = vec![(named, language.identifier(Role::Function, &words))];
             if object.is_structured() {
                 claims.claim((ScopeKind::Groups, None), language.identifier(Role::Type, &words), named);
-                let sub0 = object.entries.first().map(|sub0| words.and(&sub0.name));
-                functions.extend(sub0.map(|words| language.identifier(Role::Function, &words)));
+                functions.extend(object.entries.first().map(|sub0| {
+                    let id = EntryId { index: object.index, sub: sub0.sub };
+                    (Named::Entry(id), language.identifier(Role::Function, &words.and(label(sub0))))
+                }));
             }
-            for function in functions {
-                for companion in
-                    companions(object).iter().filter_map(|one| language.companion(*one, &function))
-                {
-                    claims.claim(accessors, companion, named);
+            for (named, function) in functions {
+                for companion in companions(object) {
+                    if let Some(companion) = language.companion(*companion, &function) {
+                        claims.claim(accessors, companion, named);
+                    }
                 }
                 claims.claim(accessors, function, named);
             }
@@ -138,7 +140,7 @@ impl<'l> Claims<'l> {
             let of_object = words(object);
             let members = (ScopeKind::GroupMembers, Some(object.index));
             for entry in &object.entries {
-                let label = entry.identifier.as_ref().unwrap_or(&entry.name);
+                let label = label(entry);
                 let (named, words) = if object.is_structured() {
                     let id = EntryId { index: object.index, sub: entry.sub };
                     (Named::Entry(id), of_object.and(label))
@@ -163,6 +165,10 @@ impl<'l> Claims<'l> {
             return;
         }
         match self.taken.insert((scope, identifier), named) {
+            // The number of elements gives way to its own object.
+            Some(Named::Object(index)) if matches!(named, Named::Entry(id) if id.index == index) => {
+                self.clashing.insert(named);
+            }
             Some(other) if other != named => self.clashing.extend([other, named]),
             Some(_) | None => {}
         }
@@ -171,6 +177,10 @@ impl<'l> Claims<'l> {
 
 fn words(object: &Object) -> Words {
     Words::of(object.identifier.as_ref().unwrap_or(&object.name))
+}
+
+fn label(entry: &Entry) -> &str {
+    entry.identifier.as_ref().unwrap_or(&entry.name)
 }
 
 /// What may be printed beside the accessor of an object; which of it is settled when the values have their places.

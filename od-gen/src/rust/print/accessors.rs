@@ -270,29 +270,31 @@ impl Plan<'_> {
 
     /// `mod records`: groups of accessors.
     pub(super) fn records_module(&self) -> TokenStream {
-        let groups: Vec<_> = self
+        let (groups, can_change): (Vec<_>, Vec<bool>) = self
             .objects
             .iter()
             .filter_map(|object| match &object.shape {
                 Shape::Group { type_name } => Some(self.group(object, type_name)),
                 _ => None,
             })
-            .collect();
+            .unzip();
         if groups.is_empty() {
             return quote!();
         }
+        let traits = if can_change.contains(&true) { quote!({Borrow, BorrowMut}) } else { quote!(Borrow) };
         quote! {
             /// Records, and arrays whose elements have names: groups of accessors.
             #[allow(dead_code, unreachable_pub, clippy::unused_self)]
             pub mod records {
-                use core::borrow::{Borrow, BorrowMut};
+                use core::borrow::#traits;
 
                 #(#groups)*
             }
         }
     }
 
-    fn group(&self, object: &PlannedObject<'_>, type_name: &str) -> TokenStream {
+    /// A group, and whether anything in it can be changed.
+    fn group(&self, object: &PlannedObject<'_>, type_name: &str) -> (TokenStream, bool) {
         let at = At::group();
         let (group, name) = (format_ident!("{type_name}"), format_ident!("{}", self.name));
         let about = doc(&self.object_doc(object.object));
@@ -303,12 +305,13 @@ impl Plan<'_> {
         let getters: Vec<_> = entries.iter().map(|entry| self.getter(entry, &entry.member, &at)).collect();
         let setters: TokenStream =
             entries.iter().map(|entry| self.setter(entry, &entry.member, &at)).collect();
-        let setters = if setters.is_empty() {
-            quote!()
-        } else {
+        let can_change = !setters.is_empty();
+        let setters = if can_change {
             quote!(impl<D: BorrowMut<super::#name>> #group<D> { #setters })
+        } else {
+            quote!()
         };
-        quote! {
+        let group = quote! {
             #about
             #[derive(Debug)]
             pub struct #group<D>(pub(super) D);
@@ -318,7 +321,8 @@ impl Plan<'_> {
             }
 
             #setters
-        }
+        };
+        (group, can_change)
     }
 
     /// The constants that say how aliases show their targets.

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use super::docs::{WORDING, doc};
 use super::literal::hex;
 use super::value::{At, Get, Store, Values};
-use crate::plan::{Plan, PlannedField, PlannedPdo};
+use crate::plan::{Place, Plan, PlannedField, PlannedPdo};
 
 impl Plan<'_> {
     /// `mod pdos`.
@@ -166,7 +166,8 @@ impl Plan<'_> {
     fn pdo_of(&self, planned: &PlannedPdo<'_>) -> Option<TokenStream> {
         let values = Values { plan: self };
         let at = At::reference();
-        let mut members = Vec::new();
+        // Constants are written into the code.
+        let (mut members, mut asks) = (Vec::new(), false);
         for field in &planned.fields {
             let entry = self.entry(field.row)?;
             let may_abort = values.alias_of(entry).is_some_and(|alias| alias.outside == Outside::Abort);
@@ -175,9 +176,10 @@ impl Plan<'_> {
             }
             let (name, Get { value, .. }) = (format_ident!("{}", field.name), values.get(entry, &at)?);
             members.push(quote!(#name: #value,));
+            asks |= !matches!(entry.place, Place::Constant(_));
         }
         let dictionary = format_ident!("{}", self.name);
-        let parameter = if members.is_empty() { quote!(_dictionary) } else { quote!(dictionary) };
+        let parameter = if asks { quote!(dictionary) } else { quote!(_dictionary) };
         Some(quote! {
             /// The values of a dictionary now.
             #[inline]

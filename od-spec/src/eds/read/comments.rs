@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::made;
 use crate::ast::{BitDecl, BitRange, EdsDecl, EntryDecl, SpecialDecl, TypeDecl, UnitDecl, ValueDecl};
 use crate::eds::number::{formula, lenient_integer};
+use crate::eds::owner::is_code;
 use crate::eds::view::Part;
 use crate::expr::Expr;
 use crate::model::{Access, AccessRight, BitUsage, DataType, Ratio, Storage, Text};
@@ -245,11 +246,9 @@ fn sentences(part: &Part<'_>) -> Vec<String> {
     for line in part.comments_at_header() {
         let is_continued = line.starts_with("  ") && !sentences.is_empty();
         let text = line.trim();
-        let is_word = |key: &str| key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        let is_code = text.starts_with('[') || text.split_once('=').is_some_and(|(key, _)| is_word(key));
         let is_rule = !text.chars().any(char::is_alphanumeric);
         match sentences.last_mut() {
-            _ if is_code || is_rule => {}
+            _ if is_code(text) || is_rule => {}
             Some(sentence) if is_continued => {
                 sentence.push(' ');
                 sentence.push_str(text);

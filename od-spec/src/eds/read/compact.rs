@@ -9,7 +9,7 @@ use crate::eds::codes;
 use crate::eds::names::{ElementList, Topic};
 use crate::eds::number::{self, lenient_integer};
 use crate::eds::view::{Entry, ObjectPart, Part, View};
-use crate::model::{Access, DataType, Direction, EntryId, Index, ObjectKind, SubIndex};
+use crate::model::{Access, DataType, Direction, EntryId, Index, ObjectKind, Role, SubIndex};
 use crate::source::{Span, Spanned};
 use std::collections::BTreeMap;
 
@@ -71,9 +71,12 @@ pub(super) fn object(
         elements.push(described.unwrap_or((Spanned::new(SubIndex(sub), place), element)));
     }
     elements.extend(explicit.into_values());
-    let sub0 = EntryDecl {
-        default: Some(made(count.to_string(), place)),
-        ..entry::made_up("NrOfObjects", DataType::Unsigned8, Access::Ro, place)
+    // How many entries a PDO maps, and how many errors there were, is written: it is no constant of the compact form.
+    let sub0 = if matches!(Role::of(index), Role::PdoMapping | Role::ErrorHistory) {
+        let access = common.access.map_or(Access::Rw, |access| access.value.access);
+        entry::made_up("NrOfObjects", DataType::Unsigned8, access, place)
+    } else {
+        count_of("NrOfObjects", count, Access::Ro, place)
     };
     let sub0 = match part.subs.get(&0) {
         Some(section) => entry::entry(section, id, kind, context),

@@ -33,7 +33,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
         about: None,
         product: info.number("ProductNumber", 0xFFFF_FFFF),
         product_revision: info.number("RevisionNumber", 0xFFFF_FFFF),
-        order_code: Some(info.text("OrderCode").unwrap_or_else(|| made("", start))),
+        order_code: info.text("OrderCode"),
         bit_rates: BIT_RATES.into_iter().filter_map(|rate| info.bit_rate(rate)).collect(),
         device_type: device_type(objects),
         granularity: Some(info.number("Granularity", 64).unwrap_or(Spanned::new(0, start))),
@@ -45,7 +45,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
         features: Vec::new(),
         eds: Some(file(view)),
         eds_defaults: Some(made("all", start)),
-        product_name: product_name.or_else(|| Some(made("", start))),
+        product_name,
         key,
     }
 }
@@ -53,10 +53,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
 /// The maker.
 pub(super) fn vendor(view: &View<'_>) -> VendorDecl {
     let info = Section::of(view, Topic::DeviceInfo);
-    VendorDecl {
-        name: Some(info.text("VendorName").unwrap_or_else(|| made("", view.start()))),
-        number: info.number("VendorNumber", 0xFFFF_FFFF),
-    }
+    VendorDecl { name: info.text("VendorName"), number: info.number("VendorNumber", 0xFFFF_FFFF) }
 }
 
 fn file(view: &View<'_>) -> FileDecl {
@@ -68,9 +65,9 @@ fn file(view: &View<'_>) -> FileDecl {
         Some(Spanned::new(DateTime { date, hour: time.0, minute: time.1 }, day.span))
     };
     FileDecl {
-        description: Some(info.text("Description").unwrap_or_else(|| made("", view.start()))),
+        description: info.text("Description"),
         created: at("CreationDate", "CreationTime"),
-        created_by: Some(info.text("CreatedBy").unwrap_or_else(|| made("", view.start()))),
+        created_by: info.text("CreatedBy"),
         modified: at("ModificationDate", "ModificationTime"),
         modified_by: info.text("ModifiedBy"),
         version: info.number("FileVersion", 0xFF),

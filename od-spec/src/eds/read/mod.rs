@@ -48,6 +48,7 @@ pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -
         history: Vec::new(),
         vendor: Some(device::vendor(view)),
         uses: Vec::new(),
+        allow: Vec::new(),
         glossary: Vec::new(),
         devices: vec![device],
         units,

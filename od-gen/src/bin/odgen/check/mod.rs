@@ -41,13 +41,14 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
     parallel::in_order(&inputs, work, |finished, results| {
         for (checked, text) in results {
             progress.clear();
-            written = written.max(match format {
-                CheckFormat::Human | CheckFormat::Short | CheckFormat::Json => report.write(&text),
-                CheckFormat::Github => print(&text),
-                CheckFormat::Sarif => SUCCESS,
-            });
-            if format == CheckFormat::Human {
-                report.write(&summary::of_file(&checked, inputs.len()).unwrap_or_default());
+            match format {
+                CheckFormat::Human => {
+                    Report::write(&text);
+                    Report::write(&summary::of_file(&checked, inputs.len()).unwrap_or_default());
+                }
+                CheckFormat::Short | CheckFormat::Json => Report::write(&text),
+                CheckFormat::Github => written = written.max(print(&text)),
+                CheckFormat::Sarif => {}
             }
             total.add(&checked);
             if format == CheckFormat::Sarif {
@@ -58,7 +59,7 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
     });
     progress.clear();
     match format {
-        CheckFormat::Human => written = written.max(report.write(&total.text())),
+        CheckFormat::Human => Report::write(&total.text()),
         CheckFormat::Sarif => {
             let findings: Vec<Findings<'_>> = document.iter().map(Checked::findings).collect();
             written = written.max(print(&sarif(env!("CARGO_PKG_VERSION"), &findings)));

@@ -43,16 +43,10 @@ impl Policy {
         if args.deny_warnings {
             rules.push((Selector::Serious(Severity::Warning), Treatment::Deny));
         }
-        for text in &args.deny {
-            let selector = match text.to_ascii_lowercase().as_str() {
-                "warnings" => Selector::Serious(Severity::Warning),
-                "notes" => Selector::Serious(Severity::Note),
-                _ => codes_of("--deny", text)?,
-            };
-            rules.push((selector, Treatment::Deny));
-        }
-        for text in &args.allow {
-            rules.push((codes_of("--allow", text)?, Treatment::Allow));
+        let deny = args.deny.iter().map(|text| ("--deny", text, Treatment::Deny));
+        let allow = args.allow.iter().map(|text| ("--allow", text, Treatment::Allow));
+        for (option, text, treatment) in deny.chain(allow) {
+            rules.push((selector(option, text)?, treatment));
         }
         Ok(Self { rules })
     }
@@ -85,9 +79,14 @@ impl Policy {
     }
 }
 
-/// The codes that an option names, of which there is at least one.
-fn codes_of(option: &str, text: &str) -> Result<Selector, Box<Diagnostic>> {
+/// What an option names, which has to exist.
+fn selector(option: &str, text: &str) -> Result<Selector, Box<Diagnostic>> {
     let beginning = text.trim().to_ascii_uppercase();
+    match beginning.as_str() {
+        "WARNINGS" => return Ok(Selector::Serious(Severity::Warning)),
+        "NOTES" => return Ok(Selector::Serious(Severity::Note)),
+        _ => {}
+    }
     let known = all_codes();
     if !beginning.is_empty() && known.iter().any(|code| code.id.starts_with(&beginning)) {
         return Ok(Selector::Codes(beginning));

@@ -11,6 +11,9 @@ use super::checked::Checked;
 /// How many files at most say that nothing was found in them.
 const FEW: usize = 5;
 
+/// What is said in place of numbers.
+const NOTHING: &str = "nothing found";
+
 /// How many of the most frequent codes are named.
 const MOST_FREQUENT: usize = 3;
 
@@ -20,7 +23,7 @@ pub(super) fn of_file(checked: &Checked, files: usize) -> Option<String> {
         return None;
     }
     let counts = match summary(&checked.shown) {
-        none if none.is_empty() => "nothing found".to_owned(),
+        none if none.is_empty() => NOTHING.to_owned(),
         counts => counts,
     };
     let objects = checked.objects.and_then(|objects| plural(objects, "object"));
@@ -102,8 +105,11 @@ impl Total {
             plural(self.warnings, "warning"),
             plural(self.hidden_notes, "note"),
         ];
-        let counts: Vec<String> =
-            counts.into_iter().flatten().chain(plural(self.objects, "object")).collect();
+        let mut counts: Vec<String> = counts.into_iter().flatten().collect();
+        if counts.is_empty() {
+            counts.push(NOTHING.to_owned());
+        }
+        counts.extend(plural(self.objects, "object"));
         let mut line = format!("{} files: {}", self.files, counts.join(", "));
         let mut frequent: Vec<(&Code, usize)> =
             self.codes.iter().map(|(code, files)| (*code, *files)).collect();

@@ -1,0 +1,100 @@
+//! `odgen diff`.
+
+use std::io::IsTerminal as _;
+use std::path::Path;
+
+use od_gen::diff::{Difference, Question, Scope, Unpaired, compare, human, json, markdown, short};
+use od_spec::diag::{Diagnostic, codes};
+
+use super::args::{Color, DiffArgs, DiffFormat};
+use super::report::{Report, print};
+use super::{DIFFERS, ERRORS, git};
+
+pub(crate) fn run(args: &DiffArgs, color: Color, report: &Report) -> u8 {
+    match difference(args, report) {
+        Ok(found) => {
+            let code = print(&match args.format {
+                DiffFormat::Human => human(&found, is_coloured(color)),
+                DiffFormat::Short => short(&found),
+                DiffFormat::Markdown => markdown(&found),
+                DiffFormat::Json => json(&found),
+            });
+            let fails = args.exit_code.is_some_and(|class| found.class() >= Some(class.into()));
+            if fails && code == super::SUCCESS { DIFFERS } else { code }
+        }
+        Err(code) => code,
+    }
+}
+
+fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
+    let (old, new, scope) = match (&args.git, &args.new) {
+        (Some(revision), _) => {
+            if Source::of(&args.old) != Source::Specification {
+                return Err(report.refuse(
+                    Diagnostic::without_place(codes::UNREADABLE, "`--git` takes a specification")
+                        .help("write the old file down, `git show REV:FILE > old.eds`, and compare both"),
+                ));
+            }
+            let old = git::compile(revision, &args.old, report)?;
+            (old, report.compile(&args.old).ok_or(ERRORS)?, Scope::Everything)
+        }
+        (None, Some(new)) => {
+            let scope = scope(Source::of(&args.old), Source::of(new));
+            let (before, after) = (report.compile(&args.old), report.compile(new));
+            (before.ok_or(ERRORS)?, after.ok_or(ERRORS)?, scope)
+        }
+        // The parser of the command line asks for one of the two.
+        (None, None) => return Err(super::USAGE),
+    };
+    let question = Question { old: &old, new: &new, scope, device: args.device.as_deref() };
+    compare(&question).map_err(|unpaired| {
+        let keys = |keys: &[String]| keys.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+        let help = match &unpaired {
+            Unpaired::NoSuchDevice { keys: there, .. } => format!("the devices are {}", keys(there)),
+            Unpaired::WhichDevice { keys: there } => format!("name one with `--device`: {}", keys(there)),
+        };
+        report.refuse(Diagnostic::without_place(codes::UNKNOWN_DEVICE, unpaired.to_string()).help(help))
+    })
+}
+
+/// What a file is, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Specification,
+    Eds,
+    Dcf,
+}
+
+impl Source {
+    fn of(path: &Path) -> Self {
+        let ends_with = |ending: &str| path.extension().is_some_and(|one| one.eq_ignore_ascii_case(ending));
+        if ends_with("eds") {
+            Self::Eds
+        } else if ends_with("dcf") {
+            Self::Dcf
+        } else {
+            Self::Specification
+        }
+    }
+}
+
+/// The facts that both kinds of file can state.
+const fn scope(old: Source, new: Source) -> Scope {
+    match (old, new) {
+        (Source::Specification, Source::Specification) => Scope::Everything,
+        (Source::Dcf, Source::Specification | Source::Eds)
+        | (Source::Specification | Source::Eds, Source::Dcf) => Scope::WhatADcfStates,
+        (Source::Eds, Source::Specification | Source::Eds)
+        | (Source::Specification, Source::Eds)
+        | (Source::Dcf, Source::Dcf) => Scope::WhatAnEdsStates,
+    }
+}
+
+/// Results go to the standard output, which need not be a terminal where messages go to one.
+fn is_coloured(color: Color) -> bool {
+    match color {
+        Color::Always => true,
+        Color::Never => false,
+        Color::Auto => std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+    }
+}

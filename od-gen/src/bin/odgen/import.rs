@@ -1,0 +1,103 @@
+//! `odgen import`: an EDS or DCF as a specification.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use od_gen::Artifact;
+use od_gen::import::{Imported, import};
+use od_gen::source::{FileLoader, compile_file};
+use od_spec::diag::{Diagnostic, codes};
+use od_spec::source::SourceMap;
+
+use super::args::ImportArgs;
+use super::output::{clash, save};
+use super::report::{Report, print};
+use super::specs::stem;
+use super::{ERRORS, SUCCESS};
+
+pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
+    let mut set = Vec::new();
+    let mut summary = String::new();
+    for path in &args.files {
+        let Some((artifact, line)) = one(path, report) else { return ERRORS };
+        set.push(artifact);
+        summary.push_str(&line);
+    }
+    if let Some(path) = clash(&set) {
+        let message = format!("two files would both become {path}");
+        return report.refuse(
+            Diagnostic::without_place(codes::WRITE_FAILED, message)
+                .help("import them into different directories, with `--out`"),
+        );
+    }
+    if let Some(existing) =
+        set.iter().map(|one| args.out.join(&one.path)).find(|path| path.exists() && !args.force)
+    {
+        let message = format!("{} is there already", existing.display());
+        return report.refuse(
+            Diagnostic::without_place(codes::WRITE_FAILED, message)
+                .help("choose another directory with `--out`, or overwrite it with `--force`"),
+        );
+    }
+    match save(&args.out, &set) {
+        Ok(_) => {
+            if let [only] = set.as_slice() {
+                let name = args.out.join(&only.path);
+                let _ = write!(summary, "next: odgen build --rust --docs html {}\n", name.display());
+            }
+            print(&summary)
+        }
+        Err(diagnostic) => report.refuse(diagnostic),
+    }
+}
+
+/// The specification of one file, and what to say about it.
+fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
+    let mut sources = SourceMap::new();
+    let mut loader = FileLoader::default();
+    let compiled = compile_file(path, &mut sources, &mut loader);
+    let root = sources.files().next().map(|(id, _)| id);
+    let eds = root.filter(|root| {
+        let file = sources.file(*root);
+        od_spec::eds::is_eds(file.name(), file.text())
+    });
+    let Some(root) = eds else {
+        if compiled.diagnostics.has_errors() {
+            report.show(&compiled.diagnostics, &sources);
+        } else {
+            let message = format!("{} is no EDS or DCF", path.display());
+            report.refuse(
+                Diagnostic::without_place(codes::UNREADABLE, message).help("import takes EDS and DCF files"),
+            );
+        }
+        return None;
+    };
+    let imported = match import(&compiled, &sources, root)? {
+        Ok(imported) => imported,
+        Err(diagnostics) => {
+            report.show(&diagnostics, &sources);
+            return None;
+        }
+    };
+    let objects =
+        compiled.system.as_ref().map_or(0, |system| system.devices.iter().map(|one| one.objects.len()).sum());
+    let name = format!("{}.od.yaml", stem(path));
+    let line = describe(&name, objects, &imported);
+    let artifact = Artifact { path: name, bytes: imported.text.into_bytes(), purpose: String::new() };
+    Some((artifact, line))
+}
+
+/// `drive.od.yaml: 412 objects, 3 facts mended, 2 without a place`.
+fn describe(name: &str, objects: usize, imported: &Imported) -> String {
+    let mut line = format!("{name}: {objects} objects");
+    for (count, what) in [
+        (imported.repairs.len(), "changed because a specification refuses it, see the comments"),
+        (imported.without_place, "without a place in a specification, listed at the end"),
+    ] {
+        if count > 0 {
+            let _ = write!(line, "; {count} {what}");
+        }
+    }
+    line.push('\n');
+    line
+}

@@ -1,0 +1,207 @@
+//! The keys of an entry.
+
+use od_spec::model::{
+    Access, BitErrors, Dictionary, Entry, Fact, Index, Object, PdoMapping, Role, Storage, SubIndex, System,
+    Text, TypeKind, Value,
+};
+
+use super::context::{Context, EdsDefaults};
+use super::node::{Item, Node};
+use super::value::value;
+
+/// Facts with what is written about them, in the order of a specification.
+pub(super) type Keys = Vec<(Fact, Node)>;
+
+/// The keys of an entry that inherits nothing.
+pub(super) fn keys(context: &Context<'_>, index: Index, entry: &Entry) -> Keys {
+    let mut keys: Keys = vec![(Fact::Name, Node::text(entry.name.clone()))];
+    let mut add = |fact, node: Option<Node>| keys.extend(node.map(|node| (fact, node)));
+    let limit = |raw: Option<i128>| raw.map(|raw| value(index, entry, &Value::Integer(raw)));
+    add(Fact::Identifier, entry.identifier.clone().map(Node::Plain));
+    add(Fact::Type, Some(type_node(context, entry)));
+    add(Fact::Unit, entry.unit.as_ref().map(|unit| Node::Text(context.unit_name(unit))));
+    add(Fact::Access, Some(access(entry)));
+    add(Fact::Mapping, (entry.pdo != PdoMapping::None).then(|| Node::plain(entry.pdo.word())));
+    add(Fact::Default, default(context, index, entry));
+    add(Fact::LowLimit, limit(entry.low));
+    add(Fact::HighLimit, limit(entry.high));
+    add(Fact::Special, special(context, entry));
+    add(Fact::Storage, (entry.stored != Storage::No).then(|| Node::plain(entry.stored.word())));
+    add(Fact::Capacity, capacity(entry).map(Node::plain));
+    add(Fact::Category, entry.category.map(|category| Node::plain(category.word())));
+    add(Fact::Since, entry.since.clone().map(Node::Text));
+    add(
+        Fact::WriteCondition,
+        entry.writable_when.as_ref().map(|condition| Node::text(condition.text.clone())),
+    );
+    add(Fact::BitErrors, bit_errors(&entry.bit_errors, entry));
+    let eds = eds(entry, context.eds);
+    add(Fact::Eds, (!eds.is_empty()).then_some(Node::Map(eds)));
+    add(Fact::About, words(&entry.about, context.language()));
+    keys
+}
+
+/// The type by which an entry is known.
+pub(super) fn type_node(context: &Context<'_>, entry: &Entry) -> Node {
+    match &entry.named_type {
+        Some(named) => Node::Text(context.type_name(named)),
+        None => Node::plain(entry.data_type.name()),
+    }
+}
+
+/// `rw`, `rw locked`.
+pub(super) fn access(entry: &Entry) -> Node {
+    let lock = if entry.locked { " locked" } else { "" };
+    Node::Plain(format!("{}{lock}", entry.access.word()))
+}
+
+/// The default, unless the device fills it in.
+fn default(context: &Context<'_>, index: Index, entry: &Entry) -> Option<Node> {
+    let default = entry.default.as_ref()?;
+    let filled_in = device_value(context.system, context.device, index, entry.sub);
+    (filled_in.as_ref() != Some(default)).then(|| value(index, entry, default))
+}
+
+/// What the device fills in where an entry states no value: type, identity and name.
+pub(super) fn device_value(
+    system: &System,
+    device: &Dictionary,
+    index: Index,
+    sub: SubIndex,
+) -> Option<Value> {
+    let info = &device.info;
+    let number = |number: u32| Some(Value::Integer(number.into()));
+    match (index.0, sub.0) {
+        (0x1000, 0) => number(info.device_type),
+        (0x1018, 1) => number(system.vendor.number),
+        (0x1018, 2) => number(info.product),
+        (0x1018, 3) => number(info.product_revision),
+        (0x1008, 0) => Some(Value::Text(info.product_name.clone())),
+        _ => None,
+    }
+}
+
+/// The capacity of a string, where it does not follow from a constant.
+pub(super) fn capacity(entry: &Entry) -> Option<u16> {
+    entry.capacity.filter(|_| entry.data_type.is_string() && entry.facts.get(Fact::Capacity).is_some())
+}
+
+fn special(context: &Context<'_>, entry: &Entry) -> Option<Node> {
+    let pattern = |raw: i128| entry.data_type.is_unsigned() && raw >= 0x1000_0000;
+    let items = entry.special.iter().map(|special| {
+        let key =
+            if pattern(special.value) { format!("0x{:X}", special.value) } else { special.value.to_string() };
+        Item::new(key, named(&special.name, Vec::new(), &special.about, context.language()))
+    });
+    let items: Vec<Item> = items.collect();
+    (!items.is_empty()).then_some(Node::Map(items))
+}
+
+/// A name by itself, or with what is said about it.
+pub(super) fn named(name: &str, more: Vec<Item>, about: &Text, language: &str) -> Node {
+    let about = words(about, language).map(|about| Item::new("about", about));
+    let more: Vec<Item> = more.into_iter().chain(about).collect();
+    if more.is_empty() {
+        return Node::text(name);
+    }
+    let name = Item::new("name", Node::text(name));
+    Node::Map(std::iter::once(name).chain(more).collect())
+}
+
+/// A text in one language as it is, in several by their codes.
+pub(super) fn words(text: &Text, language: &str) -> Option<Node> {
+    let by_language: Vec<(&str, &str)> = text.iter().collect();
+    match by_language.as_slice() {
+        [] => None,
+        [(code, text)] if *code == language => Some(Node::text(*text)),
+        texts => {
+            let items =
+                texts.iter().map(|(code, text)| Item::new(super::scalar::spelled(code), Node::text(*text)));
+            Some(Node::Map(items.collect()))
+        }
+    }
+}
+
+fn bit_errors(list: &[BitErrors], entry: &Entry) -> Option<Node> {
+    let fields = match entry.named_type.as_ref().map(|named| &named.kind) {
+        Some(TypeKind::Bits(fields)) => fields.as_slice(),
+        Some(TypeKind::Enum(_)) | None => &[],
+    };
+    let items = list.iter().filter_map(|errors| {
+        let field = fields.iter().find(|field| field.first == errors.bit)?;
+        let codes = errors.error_codes().map(|code| Node::Plain(format!("0x{code:04X}"))).collect();
+        Some(Item::new(super::types::bits(field), one_or_more(codes)))
+    });
+    let items: Vec<Item> = items.collect();
+    (!items.is_empty()).then_some(Node::Map(items))
+}
+
+/// A value by itself, several as a list.
+pub(super) fn one_or_more(mut nodes: Vec<Node>) -> Node {
+    match nodes.pop() {
+        Some(one) if nodes.is_empty() => one,
+        last => Node::List(nodes.into_iter().chain(last).collect()),
+    }
+}
+
+/// Whether the EDS shows a default where nothing is said about that.
+pub(super) fn eds_default(entry: &Entry, defaults: EdsDefaults) -> bool {
+    let kept = entry.locked
+        || matches!(entry.stored, Storage::Application | Storage::Manufacturer | Storage::Remanent);
+    match defaults {
+        EdsDefaults::All => true,
+        EdsDefaults::Safe => !(kept && entry.access.is_writable()),
+    }
+}
+
+/// The access that the EDS shows where nothing is said about that.
+fn eds_access(entry: &Entry) -> Access {
+    match (entry.access, entry.pdo) {
+        _ if entry.locked && entry.access.is_readable() => Access::Ro,
+        (Access::Rw, PdoMapping::Receive) => Access::Rww,
+        (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
+        (access, _) => access,
+    }
+}
+
+/// Lets the EDS show what follows from the entry.
+pub(super) fn forget_eds(entry: &mut Entry) {
+    entry.eds.access = eds_access(entry);
+    entry.eds.default = true;
+    entry.eds.no_write = entry.locked;
+    entry.eds.no_scan = false;
+}
+
+/// Where the EDS shows something else than follows from the entry.
+pub(super) fn eds(entry: &Entry, defaults: EdsDefaults) -> Vec<Item> {
+    let mut items = Vec::new();
+    if entry.default.is_some() && entry.eds.default != eds_default(entry, defaults) {
+        let word = if entry.eds.default { "written" } else { "withheld" };
+        items.push(Item::new("default", Node::plain(word)));
+    }
+    if entry.eds.access != eds_access(entry) {
+        items.push(Item::new("access", Node::plain(entry.eds.access.word())));
+    }
+    let flags = [(entry.eds.no_write && !entry.locked, "no-write"), (entry.eds.no_scan, "no-scan")];
+    let flags: Vec<Node> =
+        flags.into_iter().filter(|(set, _)| *set).map(|(_, flag)| Node::plain(flag)).collect();
+    if !flags.is_empty() {
+        items.push(Item::new("flags", Node::List(flags)));
+    }
+    items
+}
+
+/// The keys of sub-index 0 of an array or record, as far as they are not the usual ones.
+pub(super) fn sub0(context: &Context<'_>, object: &Object, entry: &Entry) -> Keys {
+    let highest = object.entries.last().map(|last| Value::Integer(last.sub.0.into()));
+    let follows = object.role() != Role::PdoMapping && entry.default == highest;
+    let is_written = |fact: Fact| match fact {
+        Fact::Name => entry.name != "number of elements",
+        Fact::Access => entry.access != Access::Ro || entry.locked,
+        Fact::Default => !follows,
+        Fact::Mapping | Fact::LowLimit | Fact::HighLimit | Fact::Storage | Fact::Eds | Fact::About => true,
+        // It is an UNSIGNED8, and has no other keys.
+        _ => false,
+    };
+    keys(context, object.index, entry).into_iter().filter(|(fact, _)| is_written(*fact)).collect()
+}

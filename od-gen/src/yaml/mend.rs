@@ -1,0 +1,423 @@
+//! Changes of a model so that the language takes it: the least that removes what a message is about.
+
+use od_spec::diag::Diagnostic;
+use od_spec::model::{
+    Dictionary, Entry, EntryId, Fact, Index, Mapped, ObjectKind, PdoMapping, Role, Storage, SubIndex, System,
+    Text, Value,
+};
+
+use super::emit::Written;
+use super::names::{apart, readable};
+use super::node::Spot;
+use super::options::Place;
+use super::remarks::Repair;
+
+/// A model that is changed until the language takes it.
+#[derive(Debug, Clone)]
+pub(super) struct Draft {
+    pub system: System,
+    pub device: Dictionary,
+}
+
+/// How much is given up for a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Effort {
+    /// The fact that it is about.
+    Fact,
+    /// The object that it is about: nothing less helped.
+    Object,
+}
+
+impl Draft {
+    /// Changes what a message is about; `None` where nothing can be done.
+    pub(super) fn mend(&mut self, written: &Written, error: &Diagnostic, effort: Effort) -> Option<Repair> {
+        let at = usize::try_from(error.labels.first()?.span.start).ok()?;
+        let spot = written.spot(at)?;
+        let because = format!("{} ({})", error.message, error.code.id);
+        let mut repair = match (spot, effort) {
+            (Spot::EntryFact(id, _) | Spot::Entry(id), Effort::Object) => self.drop_object(id.index),
+            (Spot::Object(index) | Spot::ObjectFact(index, _), Effort::Object) => self.drop_object(*index),
+            (Spot::EntryFact(id, fact), Effort::Fact) => self.mend_fact(*id, *fact, error),
+            (Spot::Entry(id), Effort::Fact) => self.mend_entry(*id, error),
+            (Spot::ObjectFact(index, fact), Effort::Fact) => self.mend_object_fact(*index, *fact),
+            (Spot::Object(index), Effort::Fact) => self.mend_object(*index, error),
+            (Spot::Type(name), _) => self.drop_type(name),
+            (Spot::Unit(name), _) => self.drop_unit(name),
+            (Spot::Device | Spot::Pdo(..), _) => self.mend_device(error),
+            (Spot::Vendor, _) => self.mend_vendor(),
+        }?;
+        // What was written tells more than the model does, in the words of a specification.
+        let range = written
+            .spots
+            .iter()
+            .find(|(range, one)| range.contains(&at) && one == spot)
+            .map(|(range, _)| range.clone());
+        let text = range.and_then(|range| written.text.get(range)).unwrap_or_default();
+        if let (Some(fact), Spot::EntryFact(..) | Spot::ObjectFact(..)) = (repair.fact, spot)
+            && let Some(value) = text.strip_prefix(fact.word()).and_then(|rest| rest.strip_prefix(": "))
+        {
+            value.clone_into(&mut repair.original);
+        }
+        repair.because = because;
+        Some(repair)
+    }
+
+    fn entry(&mut self, id: EntryId) -> Option<&mut Entry> {
+        let object = self.device.objects.get_mut(&id.index)?;
+        object.entries.iter_mut().find(|entry| entry.sub == id.sub)
+    }
+
+    fn mend_fact(&mut self, id: EntryId, fact: Fact, error: &Diagnostic) -> Option<Repair> {
+        match (fact, Role::of(id.index)) {
+            (Fact::Name, _) => self.rename_entry(id),
+            (Fact::Default, Role::PdoMapping) => self.mend_mapping(id, error),
+            (Fact::Type, _) if error.code.id == "OD0315" => self.make_record(id.index),
+            _ => self.drop_fact(id, fact).or_else(|| self.mend_entry(id, error)),
+        }
+    }
+
+    /// The facts of an entry one after the other, those first that the message is likely to be about; at last the entry.
+    fn mend_entry(&mut self, id: EntryId, error: &Diagnostic) -> Option<Repair> {
+        const ORDER: [Fact; 15] = [
+            Fact::Eds,
+            Fact::WriteCondition,
+            Fact::BitErrors,
+            Fact::Special,
+            Fact::Default,
+            Fact::LowLimit,
+            Fact::HighLimit,
+            Fact::Mapping,
+            Fact::Storage,
+            Fact::Capacity,
+            Fact::Unit,
+            Fact::Meaning,
+            Fact::Identifier,
+            Fact::About,
+            Fact::Access,
+        ];
+        let likely: &[Fact] = match error.code.id {
+            "OD0416" | "OD0417" | "OD0502" => &[Fact::Mapping],
+            "OD0407" => &[Fact::LowLimit],
+            "OD0414" => &[Fact::Access],
+            "OD0415" => &[Fact::Storage],
+            "OD0303" | "OD0318" => return self.rename_entry(id),
+            _ => &[Fact::Default],
+        };
+        let repair = likely.iter().chain(&ORDER).find_map(|fact| self.drop_fact(id, *fact));
+        repair.or_else(|| self.drop_entry(id))
+    }
+
+    /// Leaves a fact of an entry out, if there is one to leave out.
+    fn drop_fact(&mut self, id: EntryId, fact: Fact) -> Option<Repair> {
+        let derived = self.derived(id);
+        let entry = self.entry(id)?;
+        let original = match fact {
+            Fact::Default => {
+                let original = entry.default.clone().filter(|default| derived.as_ref() != Some(default))?;
+                entry.default = derived;
+                od_spec::wording::format_value(entry, &original)
+            }
+            Fact::LowLimit => entry.low.take()?.to_string(),
+            Fact::HighLimit => entry.high.take()?.to_string(),
+            Fact::Mapping => {
+                let mapping = std::mem::replace(&mut entry.pdo, PdoMapping::None);
+                (mapping != PdoMapping::None).then(|| mapping.word().to_owned())?
+            }
+            Fact::Storage => {
+                let storage = std::mem::replace(&mut entry.stored, Storage::No);
+                (storage != Storage::No).then(|| storage.word().to_owned())?
+            }
+            Fact::Special => {
+                let names: Vec<String> = entry.special.drain(..).map(|special| special.name).collect();
+                (!names.is_empty()).then(|| names.join(", "))?
+            }
+            Fact::Unit => entry.unit.take()?.name.clone(),
+            Fact::Type | Fact::Meaning => entry.named_type.take()?.name.clone(),
+            Fact::Capacity => entry.capacity.take()?.to_string(),
+            Fact::Identifier => entry.identifier.take()?,
+            Fact::Category => entry.category.take()?.word().to_owned(),
+            Fact::Since => entry.since.take()?,
+            Fact::WriteCondition => entry.writable_when.take()?.text,
+            Fact::BitErrors => {
+                let count = entry.bit_errors.drain(..).count();
+                (count > 0).then(|| "error codes of bits".to_owned())?
+            }
+            Fact::About => {
+                let about = std::mem::take(&mut entry.about);
+                (!about.is_empty()).then(|| "a description".to_owned())?
+            }
+            Fact::Access => {
+                std::mem::take(&mut entry.locked).then(|| format!("{} locked", entry.access.word()))?
+            }
+            Fact::Eds => {
+                let eds = super::entry::eds(entry, super::context::EdsDefaults::All);
+                if eds.is_empty() {
+                    return None;
+                }
+                super::entry::forget_eds(entry);
+                "what the EDS shows otherwise".to_owned()
+            }
+            _ => return None,
+        };
+        let now = (fact == Fact::Default && Role::of(id.index) == Role::ErrorHistory).then(|| "0".to_owned());
+        Some(repair(Place::Entry(id), Some(fact), original, now))
+    }
+
+    /// The value that an entry has where none is stated.
+    fn derived(&self, id: EntryId) -> Option<Value> {
+        let object = self.device.objects.get(&id.index)?;
+        // A device starts without errors, however many it can list.
+        if object.role() == Role::ErrorHistory && id.sub == SubIndex(0) {
+            return Some(Value::Integer(0));
+        }
+        if object.is_structured() && id.sub == SubIndex(0) && object.role() != Role::PdoMapping {
+            return object.entries.last().map(|last| Value::Integer(last.sub.0.into()));
+        }
+        super::entry::device_value(&self.system, &self.device, id.index, id.sub)
+    }
+
+    fn mend_object(&mut self, index: Index, error: &Diagnostic) -> Option<Repair> {
+        match error.code.id {
+            "OD0303" | "OD0318" => return self.rename_object(index),
+            "OD0316" => return self.drop_object(index),
+            "OD0509" => return self.mend_granularity(),
+            _ => {}
+        }
+        let subs: Vec<SubIndex> =
+            self.device.objects.get(&index)?.entries.iter().map(|entry| entry.sub).collect();
+        // An entry is left out only when none has a fact to leave out.
+        let facts = [
+            Fact::Eds,
+            Fact::Special,
+            Fact::Default,
+            Fact::LowLimit,
+            Fact::HighLimit,
+            Fact::Mapping,
+            Fact::Storage,
+            Fact::Unit,
+            Fact::Meaning,
+        ];
+        for fact in facts {
+            for sub in &subs {
+                if let Some(repair) = self.drop_fact(EntryId { index, sub: *sub }, fact) {
+                    return Some(repair);
+                }
+            }
+        }
+        self.drop_object(index)
+    }
+
+    fn mend_object_fact(&mut self, index: Index, fact: Fact) -> Option<Repair> {
+        if fact == Fact::Name {
+            return self.rename_object(index);
+        }
+        let object = self.device.objects.get_mut(&index)?;
+        let original = match fact {
+            Fact::Identifier => object.identifier.take()?,
+            Fact::Category => object.category.take()?.word().to_owned(),
+            Fact::Since => object.since.take()?,
+            Fact::About => {
+                object.about = Text::default();
+                "a description".to_owned()
+            }
+            _ => return self.drop_object(index),
+        };
+        Some(repair(Place::Object(index), Some(fact), original, None))
+    }
+
+    /// A parameter that maps something is taken out of the mapping; the number of them is brought down to what can be used.
+    fn mend_mapping(&mut self, id: EntryId, error: &Diagnostic) -> Option<Repair> {
+        let number = EntryId { index: id.index, sub: SubIndex(0) };
+        let value = |draft: &mut Self, sub: u8| {
+            draft.entry(EntryId { index: id.index, sub: SubIndex(sub) })?.default.as_ref()?.integer()
+        };
+        let count = value(self, 0).and_then(|count| u8::try_from(count).ok());
+        let Some(count) = count else { return self.drop_fact(id, Fact::Default) };
+        if error.code.id == "OD0508" && id.sub.0 > 0 && id.sub.0 <= count {
+            return self.mend_granularity();
+        }
+        if id.sub.0 == 0 || id.sub.0 > count {
+            if id.sub.0 > count {
+                return self.drop_fact(id, Fact::Default);
+            }
+            let usable = (1..=count).take_while(|sub| value(self, *sub).is_some_and(|raw| raw != 0)).count();
+            let usable = u8::try_from(usable).unwrap_or(count);
+            let fewer = if usable < count { usable } else { count.saturating_sub(1) };
+            if fewer == 0 {
+                return self.drop_fact(number, Fact::Default);
+            }
+            self.entry(number)?.default = Some(Value::Integer(fewer.into()));
+            return Some(repair(
+                Place::Entry(number),
+                Some(Fact::Default),
+                count.to_string(),
+                Some(fewer.to_string()),
+            ));
+        }
+        let parameter = value(self, id.sub.0)?;
+        for sub in id.sub.0..count {
+            let next = value(self, sub + 1)?;
+            self.entry(EntryId { index: id.index, sub: SubIndex(sub) })?.default = Some(Value::Integer(next));
+        }
+        self.entry(EntryId { index: id.index, sub: SubIndex(count) })?.default = Some(Value::Integer(0));
+        self.entry(number)?.default = (count > 1).then(|| Value::Integer(i128::from(count) - 1));
+        Some(repair(Place::Entry(id), Some(Fact::Default), format!("0x{parameter:08X}"), None))
+    }
+
+    fn rename_entry(&mut self, id: EntryId) -> Option<Repair> {
+        if !self.device.objects.get(&id.index)?.is_structured() {
+            return self.rename_object(id.index);
+        }
+        let entry = self.entry(id)?;
+        let original = std::mem::take(&mut entry.name);
+        entry.name = apart(&original, id.index, Some(id.sub));
+        let now = entry.name.clone();
+        Some(repair(Place::Entry(id), Some(Fact::Name), original, Some(now)))
+    }
+
+    fn rename_object(&mut self, index: Index) -> Option<Repair> {
+        let object = self.device.objects.get_mut(&index)?;
+        let original = std::mem::take(&mut object.name);
+        object.name = apart(&original, index, None);
+        if !object.is_structured() {
+            let name = object.name.clone();
+            object.entries.iter_mut().for_each(|entry| entry.name.clone_from(&name));
+        }
+        let now = object.name.clone();
+        (now != original).then(|| repair(Place::Object(index), Some(Fact::Name), original, Some(now)))
+    }
+
+    fn make_record(&mut self, index: Index) -> Option<Repair> {
+        let object = self.device.objects.get_mut(&index).filter(|object| object.kind == ObjectKind::Array)?;
+        object.kind = ObjectKind::Record;
+        Some(repair(
+            Place::Object(index),
+            Some(Fact::ObjectType),
+            "ARRAY".to_owned(),
+            Some("RECORD".to_owned()),
+        ))
+    }
+
+    fn drop_entry(&mut self, id: EntryId) -> Option<Repair> {
+        let object = self.device.objects.get_mut(&id.index)?;
+        if id.sub.0 == 0 || !object.is_structured() || object.entries.len() <= 2 {
+            return self.drop_object(id.index);
+        }
+        let at = object.entries.iter().position(|entry| entry.sub == id.sub)?;
+        let gone = object.entries.remove(at);
+        let highest = object.entries.last().map(|last| Value::Integer(last.sub.0.into()));
+        if object.role() != Role::PdoMapping
+            && let Some(count) = object.entries.first_mut()
+        {
+            count.default = highest;
+        }
+        Some(repair(Place::Object(id.index), None, format!("sub-index {} ({})", id.sub, gone.name), None))
+    }
+
+    fn drop_object(&mut self, index: Index) -> Option<Repair> {
+        let gone = self.device.objects.remove(&index)?;
+        Some(repair(Place::Device, None, format!("{index} ({})", gone.name), None))
+    }
+
+    fn drop_type(&mut self, name: &str) -> Option<Repair> {
+        let entries = self.device.objects.values_mut().flat_map(|object| &mut object.entries);
+        let typed = entries.filter(|entry| entry.named_type.as_ref().is_some_and(|named| named.name == name));
+        let count = typed.map(|entry| entry.named_type = None).count();
+        (count > 0).then(|| repair(Place::Device, None, format!("the type {name}"), None))
+    }
+
+    fn drop_unit(&mut self, name: &str) -> Option<Repair> {
+        let entries = self.device.objects.values_mut().flat_map(|object| &mut object.entries);
+        let measured = entries.filter(|entry| entry.unit.as_ref().is_some_and(|unit| unit.name == name));
+        let count = measured.map(|entry| entry.unit = None).count();
+        (count > 0).then(|| repair(Place::Device, None, format!("the unit {name}"), None))
+    }
+
+    fn mend_device(&mut self, error: &Diagnostic) -> Option<Repair> {
+        /// The rates that an EDS has keys for.
+        const STANDARD: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+        match error.code.id {
+            "OD0509" => self.mend_granularity(),
+            "OD0601" => {
+                let rates = &mut self.device.info.bit_rates;
+                let (kept, gone): (Vec<u16>, Vec<u16>) =
+                    rates.iter().partition(|rate| STANDARD.contains(rate));
+                *rates = kept;
+                (!gone.is_empty())
+                    .then(|| repair(Place::Device, Some(Fact::BitRates), format!("{gone:?}"), None))
+            }
+            "OD0602" => {
+                let rates = &mut self.device.info.bit_rates;
+                let had_none = rates.is_empty();
+                *rates = vec![125];
+                had_none.then(|| {
+                    repair(Place::Device, Some(Fact::BitRates), "none".to_owned(), Some("[125]".to_owned()))
+                })
+            }
+            _ => self.mend_header(),
+        }
+    }
+
+    /// The device's granularity follows what its PDOs map.
+    fn mend_granularity(&mut self) -> Option<Repair> {
+        let is_variable = |index: &Index| {
+            let count = self.device.objects.get(index).and_then(|object| object.entry(SubIndex(0)));
+            count.is_some_and(|count| count.access.is_writable())
+        };
+        let mappings = self.device.objects.keys().filter(|index| Role::of(**index) == Role::PdoMapping);
+        let parameters =
+            self.device.entries().filter(|(id, ..)| Role::of(id.index) == Role::PdoMapping && id.sub.0 > 0);
+        let raw = parameters.filter_map(|(.., entry)| u32::try_from(entry.default.as_ref()?.integer()?).ok());
+        let whole_bytes = raw.filter_map(Mapped::from_parameter).all(|mapped| mapped.bits % 8 == 0);
+        let fits = match (mappings.clone().any(is_variable), whole_bytes) {
+            (false, _) => 0,
+            (true, true) => 8,
+            (true, false) => 1,
+        };
+        let original = std::mem::replace(&mut self.device.info.granularity, fits);
+        (original != fits).then(|| {
+            repair(Place::Device, Some(Fact::Granularity), original.to_string(), Some(fits.to_string()))
+        })
+    }
+
+    /// The texts of the EDS's header without what readers misread, and as short as it has to be.
+    fn mend_header(&mut self) -> Option<Repair> {
+        let Dictionary { file, info, .. } = &mut self.device;
+        let texts = [
+            &mut file.description,
+            &mut file.created_by,
+            &mut file.modified_by,
+            &mut info.product_name,
+            &mut info.order_code,
+        ];
+        let mut changed = Vec::new();
+        for text in texts {
+            let plain = shortened(&readable(text), 243);
+            if plain != *text {
+                changed.push(std::mem::replace(text, plain));
+            }
+        }
+        (!changed.is_empty()).then(|| {
+            repair(Place::Device, Some(Fact::Eds), changed.join("; "), Some("without it".to_owned()))
+        })
+    }
+
+    fn mend_vendor(&mut self) -> Option<Repair> {
+        let plain = shortened(&readable(&self.system.vendor.name), 244);
+        let original = std::mem::replace(&mut self.system.vendor.name, plain);
+        let now = self.system.vendor.name.clone();
+        (now != original).then(|| repair(Place::Device, Some(Fact::Name), original, Some(now)))
+    }
+}
+
+/// A text that has at most so many characters in an EDS.
+fn shortened(text: &str, longest: usize) -> String {
+    let mut kept = text.to_owned();
+    while od_spec::ascii::transliterate(&kept).len() > longest && kept.pop().is_some() {}
+    kept.trim().to_owned()
+}
+
+/// A repair whose reason the message gives.
+fn repair(place: Place, fact: Option<Fact>, original: String, now: Option<String>) -> Repair {
+    Repair { place, fact, original, now, because: String::new() }
+}

@@ -1,0 +1,169 @@
+//! `pdos:`: PDOs of which the parameter objects are made.
+
+use std::collections::BTreeMap;
+
+use od_spec::model::{DataType, Direction, EntryId, Index, ObjectKind, Pdo, PdoTarget, SubIndex, Value};
+
+use super::context::Context;
+use super::entry::words;
+use super::node::{Item, Node, Spot};
+use super::scalar::spelled;
+
+/// The PDOs that stand under `pdos:`; the parameter objects of any other are written in full.
+pub(super) fn short<'a>(context: &Context<'a>) -> Vec<&'a Pdo> {
+    if !context.style.short {
+        return Vec::new();
+    }
+    let is_record = |index: u16| {
+        context.device.objects.get(&Index(index)).is_some_and(|object| object.kind == ObjectKind::Record)
+    };
+    let in_full = |pdo: &Pdo| context.style.pdos_in_full.contains(&(pdo.direction, pdo.number));
+    let pdos = context.device.pdos.iter().filter(|pdo| !in_full(pdo));
+    pdos.filter(|pdo| is_record(pdo.communication_index()) && is_record(pdo.mapping_index()))
+        .filter(|pdo| pdo.cob_id.is_some() && pdo.transmission.is_some())
+        .collect()
+}
+
+/// The value of `pdos:`.
+pub(super) fn items(context: &Context<'_>, pdos: &[&Pdo]) -> Vec<Item> {
+    let names = Names::of(context, pdos);
+    let directions = [Direction::Receive, Direction::Transmit].into_iter().filter_map(|direction| {
+        let of = pdos.iter().filter(|pdo| pdo.direction == direction);
+        let items: Vec<Item> = of.map(|pdo| item(context, &names, pdo)).collect();
+        (!items.is_empty()).then(|| Item::new(direction.word(), Node::Block(items)))
+    });
+    let directions: Vec<Item> = directions.collect();
+    if directions.is_empty() {
+        return Vec::new();
+    }
+    vec![Item::new(context.device.key.clone(), Node::Block(directions))]
+}
+
+fn item(context: &Context<'_>, names: &Names, pdo: &Pdo) -> Item {
+    let mut items = Vec::new();
+    let flag = |bit: u32| {
+        pdo.cob_id.as_ref().and_then(|id| id.integer_for(0)).is_some_and(|raw| raw >> bit & 1 == 1)
+    };
+    let cob_id = pdo.cob_id.as_ref().map(without_flags).filter(|id| Some(id) != usual_cob_id(pdo).as_ref());
+    items.extend(cob_id.map(|id| Item::new("cob-id", id_node(&id))));
+    if flag(31) {
+        items.push(Item::new("valid", Node::yes_no(false)));
+    }
+    if flag(30) {
+        items.push(Item::new("no-rtr", Node::yes_no(true)));
+    }
+    let numbers = [
+        ("transmission", pdo.transmission.filter(|transmission| *transmission != 255).map(u16::from)),
+        ("inhibit-time", pdo.inhibit_time),
+        ("event-timer", pdo.event_timer),
+        ("sync-start", pdo.sync_start.map(u16::from)),
+    ];
+    for (key, number) in numbers {
+        items.extend(number.map(|number| Item::new(key, Node::plain(number))));
+    }
+    if !pdo.variable_mapping {
+        items.push(Item::new("mapping", Node::plain("fixed")));
+    } else if pdo.capacity != 64 / context.device.info.granularity.max(1) {
+        items.push(Item::new("capacity", Node::plain(pdo.capacity)));
+    }
+    let map = pdo.map.iter().map(|mapped| match mapped.target {
+        PdoTarget::Entry(id) => names.node(id),
+        PdoTarget::Dummy(data_type) => Node::plain(data_type.name()),
+    });
+    items.push(Item::new("map", Node::List(map.collect())));
+    items.extend(words(&pdo.about, context.language()).map(|about| Item::new("about", about)));
+    let above = [pdo.communication_index(), pdo.mapping_index()].map(Index);
+    let above = above.into_iter().flat_map(|index| comments(context, index)).collect();
+    let item =
+        Item::new(pdo.number.to_string(), Node::Map(items)).about(Spot::Pdo(pdo.direction, pdo.number));
+    Item { above, ..item }
+}
+
+/// What is to be said about a parameter object that is not written.
+fn comments(context: &Context<'_>, index: Index) -> Vec<String> {
+    let named =
+        |place: String, lines: Vec<String>| lines.into_iter().map(move |line| format!("{place}: {line}"));
+    let mut lines: Vec<String> = named(index.to_string(), context.above_object(index)).collect();
+    for entry in context.device.objects.get(&index).iter().flat_map(|object| &object.entries) {
+        let id = EntryId { index, sub: entry.sub };
+        lines.extend(named(id.to_string(), context.above_entry(id)));
+    }
+    lines
+}
+
+/// Bits 31 and 30 have keys of their own.
+const FLAGS: u32 = 0b11 << 30;
+
+fn without_flags(id: &Value) -> Value {
+    match id {
+        Value::NodeId(offset) => Value::NodeId(offset & !u64::from(FLAGS)),
+        Value::Integer(raw) => Value::Integer(raw & !i128::from(FLAGS)),
+        Value::Real(_) | Value::Text(_) | Value::Bytes(_) => id.clone(),
+    }
+}
+
+/// The COB-ID that a PDO has without `cob-id:`.
+fn usual_cob_id(pdo: &Pdo) -> Option<Value> {
+    let base = match pdo.direction {
+        Direction::Receive => 0x200,
+        Direction::Transmit => 0x180,
+    };
+    match pdo.number {
+        1..=4 => Some(Value::NodeId(base + 0x100 * u64::from(pdo.number - 1))),
+        _ if !pdo.valid => Some(Value::Integer(0)),
+        _ => None,
+    }
+}
+
+fn id_node(id: &Value) -> Node {
+    match id {
+        Value::NodeId(0) => Node::plain("$NODEID"),
+        Value::NodeId(offset) => Node::Plain(format!("$NODEID + 0x{offset:X}")),
+        Value::Integer(raw) => super::value::hex(*raw),
+        // No COB-ID is one of these.
+        Value::Real(_) | Value::Text(_) | Value::Bytes(_) => Node::plain(0),
+    }
+}
+
+/// How entries are referred to.
+struct Names {
+    by_id: BTreeMap<EntryId, String>,
+}
+
+impl Names {
+    /// The names that stand for one entry only, and need no quotes.
+    fn of(context: &Context<'_>, pdos: &[&Pdo]) -> Self {
+        let is_made = |index: u16| {
+            pdos.iter().any(|pdo| [pdo.communication_index(), pdo.mapping_index()].contains(&index))
+        };
+        let mut ids: BTreeMap<String, Vec<EntryId>> = BTreeMap::new();
+        for object in context.device.objects.values().filter(|object| !is_made(object.index.0)) {
+            let id = |sub| EntryId { index: object.index, sub };
+            ids.entry(object.name.clone()).or_default().push(id(SubIndex(0)));
+            for entry in object.entries.iter().filter(|_| object.is_structured()) {
+                ids.entry(format!("{}.{}", object.name, entry.name)).or_default().push(id(entry.sub));
+            }
+        }
+        let looks_like_index = |name: &str| {
+            name.starts_with("0x")
+                || name.starts_with("0X")
+                || name.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'_'))
+        };
+        let is_plain = |name: &str| {
+            name.chars().count() <= 60
+                && spelled(name) == name
+                && !looks_like_index(name)
+                && DataType::from_name(name).is_none()
+        };
+        let unique = ids.into_iter().filter(|(name, ids)| ids.len() == 1 && is_plain(name));
+        Self { by_id: unique.filter_map(|(name, ids)| Some((*ids.first()?, name))).collect() }
+    }
+
+    fn node(&self, id: EntryId) -> Node {
+        match self.by_id.get(&id) {
+            Some(name) => Node::text(name.clone()),
+            None if id.sub.0 == 0 => Node::Plain(format!("0x{:04X}", id.index.0)),
+            None => Node::Plain(format!("0x{:04X}.{}", id.index.0, id.sub)),
+        }
+    }
+}

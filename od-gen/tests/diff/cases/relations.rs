@@ -1,0 +1,124 @@
+//! Error codes, conditions between entries, state machines.
+
+use crate::Case;
+
+pub(crate) const CASES: &[Case] = &[
+    Case {
+        name: "an error code goes",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage, on: pmm}\n",
+        replace: "",
+        expected: &["pmm: - error 3120h Grid under voltage: Grid under voltage [plc, firmware]"],
+    },
+    Case {
+        name: "an error code comes",
+        at: "errors:",
+        find: "  0x3120: {",
+        replace: "  0x3121: {name: Grid missing, on: pmm}\n  0x3120: {",
+        expected: &["pmm: + error 3121h Grid missing: Grid missing [addition]"],
+    },
+    Case {
+        name: "an error code is called otherwise",
+        at: "errors:",
+        find: "name: Grid under voltage",
+        replace: "name: Mains under voltage",
+        expected: &[
+            "pmm: ~ error 3120h Mains under voltage: name: Grid under voltage -> Mains under voltage [firmware]",
+        ],
+    },
+    Case {
+        name: "another reaction to an error",
+        at: "errors:",
+        find: "priority: A, reaction: The motor is switched off.",
+        replace: "priority: B, reaction: The motor runs on.",
+        expected: &[
+            "pmc: ~ error 2310h Over current at controller output: reaction: The motor is switched off. -> The motor runs on. [behaviour]",
+            "pmc: ~ error 2310h Over current at controller output: priority: A -> B [behaviour]",
+        ],
+    },
+    Case {
+        name: "another condition",
+        at: "  shutdown after ride-through:",
+        find: "0x30E0 < 0x30E1",
+        replace: "0x30E0 <= 0x30E1",
+        expected: &[
+            "pmm: ~ condition `shutdown after ride-through`: require: 0x30E0 < 0x30E1 -> 0x30E0 <= 0x30E1 [plc]",
+        ],
+    },
+    Case {
+        name: "the same condition with other blanks",
+        at: "  shutdown after ride-through:",
+        find: "0x30E0 < 0x30E1",
+        replace: "0x30E0<0x30E1",
+        expected: &[],
+    },
+    Case {
+        name: "a condition under another name",
+        at: "  shutdown after ride-through:",
+        find: "  shutdown after ride-through:",
+        replace: "  ride-through before shutdown:",
+        expected: &[
+            "pmm: + condition `ride-through before shutdown`: 0x30E0 < 0x30E1 [documents]",
+            "pmm: - condition `shutdown after ride-through`: 0x30E0 < 0x30E1 [firmware]",
+        ],
+    },
+    Case {
+        name: "a condition goes",
+        at: "constraints:",
+        find: "  shutdown after ride-through:\n    on: pmm\n    about: The time to the shutdown has to cover the bridged power failure and, after it, the travel to the feather position.\n    require: \"0x30E0 < 0x30E1\"\n",
+        replace: "",
+        expected: &["pmm: - condition `shutdown after ride-through`: 0x30E0 < 0x30E1 [firmware, addition]"],
+    },
+    Case {
+        name: "a state has another pattern",
+        at: "state-machines:",
+        find: "Fault: {pattern: \"xxxx xxxx x0xx 1000\"",
+        replace: "Fault: {pattern: \"xxxx xxxx xxxx 1000\"",
+        expected: &[
+            "pmc: ~ state machine `power drive`, state Fault: meaning: xxxxxxxxx0xx1000 -> xxxxxxxxxxxx1000 [plc]",
+        ],
+    },
+    Case {
+        name: "a command goes",
+        at: "state-machines:",
+        find: "      Disable operation: {pattern: \"xxxx xxx1 0xx0 0111\", send: 0x0107, transitions: [5], about: The axis stops and stays switched on.}\n",
+        replace: "",
+        expected: &[
+            "pmc: - state machine `power drive`, command Disable operation: xxxxxxx10xx00111, sent as 0x107 [plc, firmware]",
+        ],
+    },
+    Case {
+        name: "a command causes more",
+        at: "state-machines:",
+        find: "transitions: [5],",
+        replace: "transitions: [5, 7],",
+        expected: &[
+            "pmc: ~ state machine `power drive`, command Disable operation, transitions: reaction: 5 -> 5, 7 [behaviour]",
+        ],
+    },
+    Case {
+        name: "a transition leads elsewhere",
+        at: "state-machines:",
+        find: "        from: Fault reaction active\n        to: Fault\n",
+        replace: "        from: Fault reaction active\n        to: Switch-on disabled\n",
+        expected: &[
+            "pmc: ~ state machine `power drive`, transition 14: meaning: from Fault reaction active to Fault -> from Fault reaction active to Switch-on disabled [plc]",
+        ],
+    },
+    Case {
+        name: "a transition has another action",
+        at: "state-machines:",
+        find: "action: The watchdog contact closes.",
+        replace: "action: The watchdog contact stays closed.",
+        expected: &[
+            "pmc: ~ state machine `power drive`, transition 15, action: reaction: The watchdog contact closes. -> The watchdog contact stays closed. [behaviour]",
+        ],
+    },
+    Case {
+        name: "a priority comes",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage,",
+        replace: "  0x3120: {priority: B, name: Grid under voltage,",
+        expected: &["pmm: ~ error 3120h Grid under voltage: priority: none -> B [behaviour]"],
+    },
+];

@@ -1,0 +1,113 @@
+//! The shipped libraries, and the standards that they describe, for comparing an object with what CiA 301 says about it: a
+//! device may have written the object in full, without the library.
+//!
+//! For comparing, the texts are read once in a process, and only when something is compared. Places in them mean nothing to whoever
+//! asks: they belong to sources of their own.
+
+use std::sync::LazyLock;
+
+use crate::decode::decode;
+use crate::diag::Diagnostics;
+use crate::model::{Dictionary, Entry, Index, Object, ObjectKind, SubIndex};
+use crate::resolve;
+use crate::source::SourceMap;
+use crate::yaml;
+
+/// Libraries that come with the compiler: name and text.
+pub const LIBRARIES: &[(&str, &str)] = &[
+    ("cia301", include_str!("../../profiles/cia301.od.yaml")),
+    ("cia402", include_str!("../../profiles/cia402.od.yaml")),
+];
+
+/// The library of CiA 301.
+pub(crate) const CIA301: &str = "cia301";
+
+/// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
+const RUNS: &str = include_str!("runs.od.yaml");
+
+static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| {
+    let library = LIBRARIES.iter().find(|(library, _)| *library == CIA301);
+    library.and_then(|(_, text)| read(text))
+});
+/// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
+static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| read(RUNS));
+
+fn read(text: &str) -> Option<Dictionary> {
+    let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+    let file = sources.add("standard", text);
+    let node = yaml::parse(file, sources.file(file), &mut diagnostics)?;
+    let library = resolve::resolve(&decode(&node, &mut diagnostics), &[], &mut diagnostics).library;
+    library.filter(|_| !diagnostics.has_errors())
+}
+
+/// The object that CiA 301 defines at an index; for one of a run, the first of the run.
+pub(crate) fn object(index: Index) -> Option<&'static Object> {
+    let first = match index.0 {
+        0x1201..=0x127F => 0x1201,
+        0x1280..=0x12FF => 0x1280,
+        0x1400..=0x15FF => 0x1400,
+        0x1600..=0x17FF => 0x1600,
+        0x1800..=0x19FF => 0x1800,
+        0x1A00..=0x1BFF => 0x1A00,
+        0x1FA0..=0x1FCF => 0x1FA0,
+        0x1FD0..=0x1FFF => 0x1FD0,
+        single @ 0x1000..=0x1FFF => return IN_LIBRARY.as_ref()?.objects.get(&Index(single)),
+        _ => return None,
+    };
+    IN_RUNS.as_ref()?.objects.get(&Index(first))
+}
+
+/// Whether the library `cia301` has the object at an index.
+pub(crate) fn is_in_library(index: Index) -> bool {
+    IN_LIBRARY.as_ref().is_some_and(|library| library.objects.contains_key(&index))
+}
+
+/// What CiA 301 says about the entry of an object at a sub-index: an array goes on as its last element that is described.
+pub(crate) fn entry(object: &'static Object, sub: SubIndex) -> Option<&'static Entry> {
+    let goes_on = object.kind == ObjectKind::Array && sub.0 > 0 && sub != SubIndex::STRUCTURE;
+    object.entry(sub).or_else(|| object.entries.last().filter(|_| goes_on))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_standards_are_read_without_a_remark() {
+        assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some());
+    }
+
+    #[test]
+    fn objects_of_a_run_are_described_by_its_first() {
+        let index = |index: u16| object(Index(index)).map(|object| object.index.0);
+        assert_eq!(index(0x1017), Some(0x1017));
+        assert_eq!(index(0x1200), Some(0x1200));
+        for (first, last) in [
+            (0x1201, 0x127F),
+            (0x1280, 0x12FF),
+            (0x1400, 0x15FF),
+            (0x1600, 0x17FF),
+            (0x1800, 0x19FF),
+            (0x1A00, 0x1BFF),
+            (0x1FA0, 0x1FCF),
+            (0x1FD0, 0x1FFF),
+        ] {
+            assert_eq!((index(first), index(last)), (Some(first), Some(first)));
+        }
+        for nothing in [0x1004, 0x1300, 0x1C00, 0x1F9F, 0x2000, 0x6040] {
+            assert_eq!(index(nothing), None, "{nothing:04X}h");
+        }
+    }
+
+    #[test]
+    fn an_array_goes_on_as_it_ends_and_a_record_does_not() {
+        let name = |index: u16, sub: u8| {
+            let object = object(Index(index)).unwrap();
+            entry(object, SubIndex(sub)).map(|entry| entry.name.as_str())
+        };
+        assert_eq!(name(0x1016, 90), Some("Consumer heartbeat time 1"));
+        assert_eq!(name(0x1018, 4), Some("Serial number"));
+        assert_eq!((name(0x1018, 5), name(0x1016, 0xFF)), (None, None));
+        assert_eq!(name(0x1017, 1), None);
+    }
+}
