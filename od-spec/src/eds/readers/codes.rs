@@ -1,5 +1,6 @@
 //! What is said where a reader refuses a text and no rule finds a fault at that place.
 
+use super::reader::Readers;
 use super::refusal::Cause;
 use crate::diag::{Code, Severity};
 
@@ -50,6 +51,16 @@ impl Cause {
             Cause::Value => VALUE,
             Cause::Order => ORDER,
             Cause::Reference => REFERENCE,
+        }
+    }
+
+    /// Who does what: `dcfchk does not know`.
+    pub(super) fn verb(self, readers: Readers) -> String {
+        match self {
+            Cause::Missing => readers.with_verb("needs", "need"),
+            Cause::Unknown => readers.with_verb("does not know", "do not know"),
+            Cause::Number => readers.with_verb("cannot read", "cannot read"),
+            Cause::Text | Cause::Value | Cause::Order | Cause::Reference => readers.with_verb("refuses", "refuse"),
         }
     }
 }

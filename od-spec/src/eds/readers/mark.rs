@@ -79,7 +79,7 @@ fn notes(refusals: impl Iterator<Item = Refusal>, source: &SourceFile) -> Vec<Di
             2 => format!("; 1 more place after line {line}"),
             _ => format!("; {} more places after line {line}", count - 1),
         };
-        let mut note = Diagnostic::new(cause.code(), place, format!("{} {what}{more}", readers.refuse()));
+        let mut note = Diagnostic::new(cause.code(), place, format!("{} {what}{more}", cause.verb(readers)));
         note.minded_by = readers;
         Some(note)
     };

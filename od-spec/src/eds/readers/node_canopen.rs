@@ -62,8 +62,10 @@ impl Section<'_> {
         }
     }
 
+    /// Where a key stands, also in other capitals, or the section.
     fn place(&self, key: &str) -> Place {
-        self.keys.get(key).map_or(self.header, |(_, place)| *place)
+        let named = || self.keys.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, found)| found);
+        self.keys.get(key).or_else(named).map_or(self.header, |(_, place)| *place)
     }
 
     fn has(&self, key: &str) -> bool {
@@ -74,7 +76,7 @@ impl Section<'_> {
 /// Whether it has sub-indices.
 fn entry(section: &Section<'_>, refusals: &mut Refusals) -> bool {
     if !section.has("ParameterName") {
-        refusals.add(section.header, Cause::Missing, "`ParameterName`, spelled so");
+        refusals.add(section.place("ParameterName"), Cause::Missing, "`ParameterName`, spelled so");
     }
     match section.number("ObjectType").unwrap_or(7) {
         5 | 7 => {

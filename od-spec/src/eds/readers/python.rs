@@ -185,6 +185,12 @@ impl<'t> Section<'t> {
         self.item(key).map_or(self.header, |item| item.place)
     }
 
+    /// Where a key stands in other capitals, or the section.
+    pub fn place_in_any_capitals(&self, key: &str) -> Place {
+        let found = self.items.iter().find(|item| item.key.eq_ignore_ascii_case(key));
+        found.map_or(self.header, |item| item.place)
+    }
+
     fn set(&mut self, key: &'t str, value: Cow<'t, str>, place: Place, refusals: &mut Refusals) -> usize {
         let item = Item { key, value, place };
         if let Some(at) = self.by_key.get(&folded(key, self.capitals)) {

@@ -151,13 +151,15 @@ fn entry(ini: &Ini<'_>, section: &Section<'_>, refusals: &mut Refusals) {
     {
         number(defined, "DefaultValue", 0, refusals);
     }
-    refusals.wants(section.item("AccessType"), section.header, Cause::Missing, "`AccessType`, spelled so");
+    let place = section.place_in_any_capitals("AccessType");
+    refusals.wants(section.item("AccessType"), place, Cause::Missing, "`AccessType`, spelled so");
     optional(section, "PDOMapping", 0, refusals);
 }
 
 fn name(section: &Section<'_>, refusals: &mut Refusals) {
     let item = section.item("ParameterName");
-    refusals.wants(item, section.header, Cause::Missing, "`ParameterName`, spelled so");
+    let place = section.place_in_any_capitals("ParameterName");
+    refusals.wants(item, place, Cause::Missing, "`ParameterName`, spelled so");
 }
 
 /// Names of the elements of a compact array: as many as there are, without gaps.
@@ -176,7 +178,7 @@ fn names(section: &Section<'_>, object: Option<Object>, refusals: &mut Refusals)
 
 fn number(section: &Section<'_>, key: &'static str, base: u32, refusals: &mut Refusals) -> Option<i128> {
     let Some(value) = section.value(key) else {
-        refusals.add(section.header, Cause::Missing, missing(key));
+        refusals.add(section.place_in_any_capitals(key), Cause::Missing, missing(key));
         return None;
     };
     refusals.wants(int(value, base), section.place(key), Cause::Number, UNREADABLE)

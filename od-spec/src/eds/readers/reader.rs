@@ -122,10 +122,10 @@ impl Readers {
         Reader::ALL.into_iter().filter(move |reader| self.contains(*reader))
     }
 
-    /// Those that were run, as the subject of a sentence: `dcfchk refuses`.
-    pub(super) fn refuse(self) -> String {
+    /// The beginning of a sentence: `dcfchk refuses`, `dcfchk and python-canopen refuse`.
+    pub(super) fn with_verb(self, one: &str, several: &str) -> String {
         let names: Vec<&str> = self.iter().map(Reader::name).collect();
-        format!("{} {}", listed(&names), if names.len() == 1 { "refuses" } else { "refuse" })
+        format!("{} {}", listed(&names), if names.len() == 1 { one } else { several })
     }
 
     /// What is said at a finding: who refuses the file because of it, and who is reported to stumble; a line each.

@@ -57,7 +57,7 @@ const DEVICE: &[&str] = &[
 
 pub(super) fn lint(ini: &Ini<'_>, refusals: &mut Refusals) {
     for place in &ini.defaults {
-        refusals.add(*place, Cause::Unknown, "a key below `[DEFAULT]`, which it takes for one of every section");
+        refusals.add(*place, Cause::Unknown, "a key below `[DEFAULT]`, which it takes for a key of every section");
     }
     for section in &ini.sections {
         match section.name.to_lowercase().as_str() {
@@ -71,7 +71,7 @@ pub(super) fn lint(ini: &Ini<'_>, refusals: &mut Refusals) {
                 Some(Kind::Object(index)) => objects::object(ini, section, index, refusals),
                 Some(Kind::Sub(index, sub)) => objects::sub_index(ini, section, index, sub, refusals),
                 Some(Kind::Elements(index)) => elements(ini, section, index, refusals),
-                None => refusals.add(section.header, Cause::Unknown, "a section that it does not know"),
+                None => refusals.add(section.header, Cause::Unknown, "a section of this name"),
             },
         }
     }
@@ -104,7 +104,7 @@ impl Kind {
 fn keys(section: &Section<'_>, known: &[&str], refusals: &mut Refusals) {
     for item in &section.items {
         if !known.contains(&item.key.to_lowercase().as_str()) {
-            refusals.add(item.place, Cause::Unknown, "a key about file, device or node that it does not know");
+            refusals.add(item.place, Cause::Unknown, "a key of this name about file, device or node");
         }
     }
 }
@@ -114,7 +114,7 @@ fn dummies(section: &Section<'_>, refusals: &mut Refusals) {
         let key = item.key.to_lowercase();
         let digits = key.strip_prefix("dummy").filter(|digits| digits.len() == 4);
         if digits.is_none_or(|digits| !digits.bytes().all(|byte| byte.is_ascii_hexdigit())) {
-            refusals.add(item.place, Cause::Unknown, "a key about dummies that it does not know");
+            refusals.add(item.place, Cause::Unknown, "a key of this name about dummies");
         } else if int(&item.value, 2).is_none() {
             refusals.add(item.place, Cause::Number, "a dummy that is neither 0 nor 1");
         }

@@ -89,7 +89,7 @@ fn keys(section: &Section<'_>, refusals: &mut Refusals) {
     for item in &section.items {
         let key = item.key.to_lowercase();
         if !KEYS.contains(&key.as_str()) {
-            refusals.add(item.place, Cause::Unknown, "a key of an object that it does not know");
+            refusals.add(item.place, Cause::Unknown, "a key of this name of an object");
         } else if key == "accesstype" && !ACCESS.contains(&item.value.to_lowercase().as_str()) {
             refusals.add(item.place, Cause::Value, "an access type that is none");
         }
