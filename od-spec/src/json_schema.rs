@@ -251,6 +251,7 @@ fn integer(range: Option<(i128, i128)>) -> Json {
 /// The shapes of single values that have a definition of their own.
 const SCALARS: &[Shape] = &[
     Shape::Text,
+    Shape::HeaderText,
     Shape::Words,
     Shape::YesNo,
     Shape::Date,
@@ -274,6 +275,7 @@ const TEXT: &str = "text";
 const fn definition(shape: Shape) -> Option<&'static str> {
     Some(match shape {
         Shape::Text => TEXT,
+        Shape::HeaderText => "header-text",
         Shape::Words => "words",
         Shape::YesNo => "yes-or-no",
         Shape::Date => "date",
@@ -310,6 +312,7 @@ fn scalar(shape: Shape) -> Json {
     };
     match shape {
         Shape::Text => pattern(&["string", "number", "boolean"], "\\S".to_owned()),
+        Shape::HeaderText => any_text(),
         Shape::Words => any_of([any_text(), map_of(KeyKind::Language, Shape::Value)]),
         Shape::YesNo => object([("enum", yes_no())]),
         Shape::Date => pattern(&["string"], format!("^{DAY}$")),

@@ -43,7 +43,9 @@ impl Draft {
             (Spot::Object(index), Effort::Fact) => self.mend_object(*index, error),
             (Spot::Type(name), _) => self.drop_type(name),
             (Spot::Unit(name), _) => self.drop_unit(name),
-            (Spot::Device | Spot::Pdo(..), _) => self.mend_device(error),
+            (Spot::Device | Spot::Pdo(..), _) => {
+                self.mend_device(error).or_else(|| self.mend_named(error, effort))
+            }
             (Spot::Vendor, _) => self.mend_vendor(),
         }?;
         // What was written tells more than the model does, in the words of a specification.
@@ -254,13 +256,21 @@ impl Draft {
                 Some(fewer.to_string()),
             ));
         }
-        let parameter = value(self, id.sub.0)?;
+        // What no number can be read from is no parameter.
+        let Some(parameter) = value(self, id.sub.0) else { return self.drop_fact(id, Fact::Default) };
+        let entry_at = |sub: u8| EntryId { index: id.index, sub: SubIndex(sub) };
         for sub in id.sub.0..count {
-            let next = value(self, sub + 1)?;
-            self.entry(EntryId { index: id.index, sub: SubIndex(sub) })?.default = Some(Value::Integer(next));
+            let next = self.entry(entry_at(sub + 1)).and_then(|next| next.default.clone());
+            if let Some(entry) = self.entry(entry_at(sub)) {
+                entry.default = next;
+            }
         }
-        self.entry(EntryId { index: id.index, sub: SubIndex(count) })?.default = Some(Value::Integer(0));
-        self.entry(number)?.default = (count > 1).then(|| Value::Integer(i128::from(count) - 1));
+        if let Some(last) = self.entry(entry_at(count)) {
+            last.default = Some(Value::Integer(0));
+        }
+        if let Some(number) = self.entry(number) {
+            number.default = (count > 1).then(|| Value::Integer(i128::from(count) - 1));
+        }
         Some(repair(Place::Entry(id), Some(Fact::Default), format!("0x{parameter:08X}"), None))
     }
 
@@ -355,6 +365,16 @@ impl Draft {
                 })
             }
             _ => self.mend_header(),
+        }
+    }
+
+    /// The entry that a message names, where its place is the device: what the device fills in does not suit the entry.
+    fn mend_named(&mut self, error: &Diagnostic, effort: Effort) -> Option<Repair> {
+        let name = error.message.split([' ', ':']).next()?;
+        let id = self.device.entries().map(|(id, ..)| id).find(|id| id.to_string() == name)?;
+        match effort {
+            Effort::Fact => self.mend_entry(id, error),
+            Effort::Object => self.drop_object(id.index),
         }
     }
 

@@ -97,11 +97,14 @@ pub fn specification(
     options: &Options,
 ) -> Result<Specification, Diagnostics> {
     let mut draft = Draft { system: system.clone(), device: device.clone() };
-    let left_out = leave_out(&mut draft);
+    let mut left_out = leave_out(&mut draft);
+    name_device(&mut draft);
     let mut remarks = Remarks::default();
     names::settle(&mut draft.device, &mut remarks.repairs);
-    let plain = mended(&mut draft, options, &mut remarks)?;
-    let text = short(&draft, options, &remarks).unwrap_or(plain).text;
+    let (plain, found) = mended(&mut draft, options, &mut remarks)?;
+    let not_said = compare::differing(&draft.device, &found);
+    left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));
+    let text = short(&draft, &found, options, &remarks).unwrap_or(plain).text;
     Ok(Specification { text, repairs: remarks.repairs, left_out })
 }
 
@@ -129,6 +132,19 @@ fn leave_out(draft: &mut Draft) -> Vec<String> {
     left_out
 }
 
+/// A specification has a title and its device a name, which no EDS shows; where the model has none, the product's stands in.
+fn name_device(draft: &mut Draft) {
+    let (title, device) = (&mut draft.system.title, &mut draft.device);
+    let named = |text: &str| !text.trim().is_empty();
+    if !named(&device.name) {
+        let product = Some(&device.info.product_name).filter(|name| named(name));
+        device.name = product.unwrap_or(&device.key).clone();
+    }
+    if !named(title) {
+        title.clone_from(&device.name);
+    }
+}
+
 /// The errors of a text.
 fn errors(written: &Written) -> (Option<System>, Vec<Diagnostic>) {
     let mut sources = SourceMap::new();
@@ -138,15 +154,19 @@ fn errors(written: &Written) -> (Option<System>, Vec<Diagnostic>) {
     (compiled.system, errors.cloned().collect())
 }
 
-/// Changes the model until its plain text compiles; that text.
-fn mended(draft: &mut Draft, options: &Options, remarks: &mut Remarks) -> Result<Written, Diagnostics> {
+/// Changes the model until its plain text compiles; that text, and what it gives.
+fn mended(
+    draft: &mut Draft,
+    options: &Options,
+    remarks: &mut Remarks,
+) -> Result<(Written, Dictionary), Diagnostics> {
     let mut last = Vec::new();
     for round in 0..ROUNDS {
         let written = text::write(&draft.system, &draft.device, options, remarks, &Style::default());
         let (system, errors) = errors(&written);
         if let Some(found) = system.and_then(|mut system| system.devices.pop()) {
-            follow(&mut draft.device, found);
-            return Ok(written);
+            follow(&mut draft.device, &found);
+            return Ok((written, found));
         }
         let effort = if round < ROUNDS_FOR_FACTS { Effort::Fact } else { Effort::Object };
         let before = remarks.repairs.len();
@@ -177,16 +197,16 @@ fn mended(draft: &mut Draft, options: &Options, remarks: &mut Remarks) -> Result
 }
 
 /// Takes the PDOs as they follow from the parameter objects that are left; they keep their descriptions.
-fn follow(device: &mut Dictionary, found: Dictionary) {
-    let before = std::mem::replace(&mut device.pdos, found.pdos);
+fn follow(device: &mut Dictionary, found: &Dictionary) {
+    let before = std::mem::replace(&mut device.pdos, found.pdos.clone());
     for pdo in &mut device.pdos {
         let same = before.iter().find(|one| (one.direction, one.number) == (pdo.direction, pdo.number));
         pdo.about = same.map(|one| one.about.clone()).unwrap_or_default();
     }
 }
 
-/// The shortest text that gives the same model; `None` where none was found.
-fn short(draft: &Draft, options: &Options, remarks: &Remarks) -> Option<Written> {
+/// A short text that gives what the plain one gives; `None` where none was found.
+fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks) -> Option<Written> {
     let has = |index: &Index| draft.device.objects.contains_key(index);
     let usable = |library: &&Arc<Library>| {
         // What every device has that uses it cannot be left out.
@@ -200,11 +220,11 @@ fn short(draft: &Draft, options: &Options, remarks: &Remarks) -> Option<Written>
         let (system, errors) = errors(&written);
         let found = system.as_ref().and_then(|system| system.devices.first());
         let wrong: BTreeSet<Index> = match found {
-            Some(found) => compare::differing(&draft.device, found).into_iter().collect(),
+            Some(found) => compare::differing(plain, found).into_iter().collect(),
             None => errors.iter().filter_map(|error| blamed(draft, &written, error)).collect(),
         };
         if let Some(found) = found.filter(|_| wrong.is_empty()) {
-            style.renamed = compare::renamed(&draft.device, found);
+            style.renamed = compare::renamed(plain, found);
             // A comment more does not change what the text says.
             let with_remark = || text::write(&draft.system, &draft.device, options, remarks, &style);
             return Some(if style.renamed { with_remark() } else { written });

@@ -104,7 +104,7 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
         },
         _ => match node.text() {
             Some(text) => check_scalar(text, shape, diagnostics),
-            None if matches!((shape, &node.kind), (Shape::Text, NodeKind::Map(_))) => diagnostics.push(
+            None if matches!((shape, &node.kind), (Shape::Text | Shape::HeaderText, NodeKind::Map(_))) => diagnostics.push(
                 Diagnostic::new(
                     codes::WRONG_KIND,
                     node.span,
@@ -193,7 +193,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
         Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
-        Shape::Text | Shape::Words => "a text",
+        Shape::Text | Shape::HeaderText | Shape::Words => "a text",
         Shape::Map(_) | Shape::MapOf(..) | Shape::ShortOr(..) => "a map",
         Shape::List(_) | Shape::OneOrMore(_) => "a list",
     }

@@ -8,10 +8,10 @@ macro_rules! device_keys {
         $then! { $($head)* {
             "name" required: Shape::Text => name: Option<Name>, "full name";
             "about": Shape::Words => about: Words, "what the device does";
-            "product-name": Shape::Text => product_name: Option<Name>, "product name in the EDS; the device's name unless given";
+            "product-name": Shape::HeaderText => product_name: Option<Name>, "product name in the EDS; the device's name unless given";
             "product": U32 => product: Option<Spanned<i128>>, "product code (1018h.2)";
             "product-revision": U32 => product_revision: Option<Spanned<i128>>, "product revision (1018h.3): upper half major, lower half minor", "0x0001_0002";
-            "order-code": Shape::Text => order_code: Option<Name>, "order code; the product name unless given";
+            "order-code": Shape::HeaderText => order_code: Option<Name>, "order code; the product name unless given";
             "bit-rates": Shape::List(&Shape::Integer(10, 1000)) => bit_rates: Vec<Spanned<i128>>, "supported bit rates in kbit/s: 10, 20, 50, 125, 250, 500, 800, 1000", "[125, 250, 500, 1000]";
             "device-type": U32 => device_type: Option<Spanned<i128>>, "device type (1000h): low word profile number, high word additional information", "0x0002_0192";
             "granularity": Shape::Integer(0, 64) => granularity: Option<Spanned<i128>>, "smallest step of PDO mapping in bits; 8 unless given, 0 when no mapping can be changed";
@@ -36,11 +36,11 @@ device_keys! { keys
 macro_rules! file_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "description": Shape::Text => description: Option<Name>, "description of the file; the device's name unless given";
+            "description": Shape::HeaderText => description: Option<Name>, "description of the file; the device's name unless given";
             "created" required: Shape::DateTime => created: Option<Spanned<DateTime>>, "when the file was first made", "2009-05-27 09:00";
-            "created-by": Shape::Text => created_by: Option<Name>, "who made it; the vendor unless given";
+            "created-by": Shape::HeaderText => created_by: Option<Name>, "who made it; the vendor unless given";
             "modified": Shape::DateTime => modified: Option<Spanned<DateTime>>, "when it was last changed; `created` unless given";
-            "modified-by": Shape::Text => modified_by: Option<Name>, "who changed it; `created-by` unless given";
+            "modified-by": Shape::HeaderText => modified_by: Option<Name>, "who changed it; `created-by` unless given";
             "file-version": U8 => version: Option<Spanned<i128>>, "version of the file; 1 unless given";
             "file-revision": U8 => revision: Option<Spanned<i128>>, "revision of the file; 0 unless given";
         } }

@@ -76,7 +76,7 @@ revision_keys! { keys
 macro_rules! vendor_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "name" required: Shape::Text => name: Option<Name>, "company name";
+            "name" required: Shape::HeaderText => name: Option<Name>, "company name";
             "number": U32 => number: Option<Spanned<i128>>, "vendor-ID assigned by CiA (1018h.1); 0 when it is not known", "0x0000_0123";
         } }
     };

@@ -27,8 +27,10 @@ pub struct Key {
 /// What a value looks like.
 #[derive(Debug, Clone, Copy)]
 pub enum Shape {
-    /// Any text.
+    /// Any text but an empty one.
     Text,
+    /// A text that an EDS shows in its header, and that may be empty there.
+    HeaderText,
     /// A text, or a map from language code to text.
     Words,
     /// One of these words.

@@ -77,6 +77,7 @@ pub(super) fn cell(text: &str) -> String {
 fn value(shape: Shape) -> String {
     match shape {
         Shape::Text => "text".to_owned(),
+        Shape::HeaderText => "text, or `\"\"`".to_owned(),
         Shape::Words => "text, or text by language".to_owned(),
         Shape::Choice(words) => one_of(words),
         Shape::YesNo => one_of(&["yes", "no"]),

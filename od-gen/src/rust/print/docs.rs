@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Entry, Object, Outside, Pdo, Text};
+use od_spec::model::{Entry, Object, Outside, Text};
 use od_spec::wording::{Notation, Wording};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -105,9 +105,8 @@ impl Plan<'_> {
 
     /// The PDOs that carry the entry by default.
     fn pdos_of(&self, planned: &PlannedEntry<'_>, root: &str) -> Option<String> {
-        let carries =
-            |pdo: &Pdo| self.device.pdos_with(planned.id).any(|carrier| std::ptr::eq(carrier.pdo, pdo));
-        let carriers = self.pdos.iter().filter(|pdo| carries(pdo.pdo));
+        let row = self.row(planned.id)?;
+        let carriers = self.pdos.iter().filter(|pdo| pdo.fields.iter().any(|field| field.row == row));
         let names: Vec<String> = carriers
             .map(|pdo| {
                 let off = if pdo.pdo.valid { "" } else { ", off by default" };
