@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::check::RULES;
 use crate::diag::{Code, codes};
 use crate::eds;
+use crate::eds::readers::Evidence;
 
 /// All codes, ascending: those of reading and looking up, and those of the rules over texts and over the model.
 pub fn all_codes() -> Vec<&'static Code> {
@@ -30,10 +31,28 @@ pub fn explanation(code: &Code) -> String {
     if let Some(clause) = code.clause {
         let _ = write!(out, "\nSee {clause}.\n");
     }
+    out.push_str(&stumblers(code));
     if let Some(example) = code.example {
         let language = example.language.highlighting();
         let _ = write!(out, "\nRefused:\n\n```{language}\n{}\n```\n", example.before);
         let _ = write!(out, "\nAccepted:\n\n```{language}\n{}\n```\n", example.after);
+    }
+    out
+}
+
+/// Which readers of other people stumble over what a code is about, and why.
+fn stumblers(code: &Code) -> String {
+    let line = |evidence| {
+        let of = eds::readers::stumbling(code).iter().filter(move |one| one.reader.evidence() == evidence);
+        of.fold(String::new(), |lines, one| format!("{lines}- {}: {}\n", one.reader, one.reason))
+    };
+    let (tested, reported) = (line(Evidence::Tested), line(Evidence::Reported));
+    let mut out = String::new();
+    if !tested.is_empty() {
+        let _ = write!(out, "\nWho may refuse an EDS or DCF for it; each finding says who does:\n\n{tested}");
+    }
+    if !reported.is_empty() {
+        let _ = write!(out, "\nWho is reported to stumble:\n\n{reported}");
     }
     out
 }

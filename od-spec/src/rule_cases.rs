@@ -205,7 +205,7 @@ fn the_structure_of_an_object_does_not_count() {
   0x2000: {name: level, type: unsigned32, access: ro, pdo: transmit}
   0x2001: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";
     let mut sources = SourceMap::new();
-    let root = sources.add("case.od.yaml", Example::whole(text));
+    let root = sources.add("case.od.yaml", Example::whole_specification(text));
     let mut system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
     for object in system.devices[0].objects.values_mut().filter(|object| object.is_structured()) {
         let (sub, name) = (SubIndex::STRUCTURE, "structure of object".to_owned());
@@ -230,7 +230,7 @@ fn the_structure_of_an_object_does_not_count() {
 fn a_count_without_a_value_is_said_once() {
     let text = "objects:\n  0x2000: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";
     let mut sources = SourceMap::new();
-    let root = sources.add("case.od.yaml", Example::whole(text));
+    let root = sources.add("case.od.yaml", Example::whole_specification(text));
     let mut system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
     let levels = system.devices[0].objects.get_mut(&Index(0x2000)).unwrap();
     levels.entries[0].default = None;

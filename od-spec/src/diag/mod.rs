@@ -6,7 +6,7 @@ pub mod render;
 
 pub use code::{Code, Example, Language};
 
-use crate::eds::readers::Readers;
+use crate::eds::readers::{self, Readers};
 use crate::source::Span;
 
 /// How serious a [`Diagnostic`] is.
@@ -147,6 +147,13 @@ impl Diagnostic {
         self
     }
 
+    /// The notes, and who stumbles over it.
+    pub(crate) fn all_notes(&self) -> impl Iterator<Item = String> {
+        // Notes about what a reader refuses name it already.
+        let sentences = if readers::names_them(self.code) { Vec::new() } else { self.minded_by.sentences() };
+        self.notes.iter().cloned().chain(sentences)
+    }
+
     /// How serious it is.
     pub const fn severity(&self) -> Severity {
         self.severity
@@ -199,8 +206,8 @@ impl Diagnostics {
     }
 
     /// The messages, in order, to be changed.
-    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Diagnostic> {
-        self.list.iter_mut()
+    pub(crate) fn as_mut_slice(&mut self) -> &mut [Diagnostic] {
+        &mut self.list
     }
 
     /// The messages, in order.

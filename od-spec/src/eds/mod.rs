@@ -41,8 +41,8 @@ fn ends_with(name: &str, extension: &str) -> bool {
     start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
 }
 
-pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
 pub use crate::encoding::{Encoding, decode, encode};
+pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
 pub(crate) use findings::file_name;
 pub use findings::findings;
 pub use fix::{Change, Fixed, fix};

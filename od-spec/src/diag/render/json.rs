@@ -11,7 +11,8 @@ pub(super) fn json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let notes = diagnostic.notes.iter().map(|note| quote(note));
     let edits = diagnostic.edits.iter().map(|Edit { span, text }| marked(*span, text, sources));
     let edits = edits.collect::<Vec<_>>().join(",");
-    let readers = diagnostic.minded_by.iter().map(|reader| quote(reader.name())).collect::<Vec<_>>().join(",");
+    let readers =
+        diagnostic.minded_by.iter().map(|reader| quote(reader.name())).collect::<Vec<_>>().join(",");
     format!(
         "{{\"code\":{},\"severity\":{},\"message\":{},\"labels\":[{}],\"help\":{},\"notes\":[{}]{}{}}}",
         quote(diagnostic.code.id),

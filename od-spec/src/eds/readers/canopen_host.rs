@@ -54,7 +54,8 @@ fn is_object(name: &str) -> bool {
 
 fn entry(keys: &Keys<'_>, refusals: &mut Refusals) {
     let Some((text, place)) = keys.get("datatype") else { return };
-    let Some(data_type) = refusals.wants(sum(text), *place, Cause::Number, "a data type that is no number") else {
+    let Some(data_type) = refusals.wants(sum(text), *place, Cause::Number, "a data type that is no number")
+    else {
         return;
     };
     if ![&INTEGERS[..], &REALS, &BYTES].iter().any(|types| types.contains(&data_type)) {
@@ -65,7 +66,9 @@ fn entry(keys: &Keys<'_>, refusals: &mut Refusals) {
     {
         refusals.add(*place, Cause::Value, "an access type that is none");
     }
-    let Some((value, place)) = keys.get("parametervalue").or_else(|| keys.get("defaultvalue")) else { return };
+    let Some((value, place)) = keys.get("parametervalue").or_else(|| keys.get("defaultvalue")) else {
+        return;
+    };
     if value.is_empty() {
         return;
     }

@@ -8,7 +8,7 @@ macro_rules! codes {
     ($($name:ident $id:literal $title:literal: $explanation:literal)+) => {
         $(
             #[doc = $title]
-            const $name: &Code = &Code {
+            pub(super) const $name: &Code = &Code {
                 id: $id,
                 severity: Severity::Note,
                 foreign: Severity::Note,
@@ -39,6 +39,8 @@ codes! {
         "The standard does not say in which order sections stand. python-canopen and eds-utils take them as they come: an object has to stand before its sub-indices, and for eds-utils directly before them."
     REFERENCE "EDS807" "a reference that a reader cannot follow":
         "Where one section names what another describes, readers want to find it: dcfchk and eds-utils what PDOs map (eds-utils also dummies, which have no section), dcfchk the mapping of every PDO, node-canopen the object of every sub-index."
+    BOTH_WAYS "EDS808" "a mappable entry that is read and written":
+        "With `AccessType=rw` and `PDOMapping=1` the standard lets an entry travel in PDOs of both directions. It is reported of CODESYS that it offers entries for mapping by their access type only: rwr and ro for TPDOs, rww and wo for RPDOs; rw in neither. Where the device uses the entry in one direction, rwr or rww says which."
 }
 
 impl Cause {
@@ -60,7 +62,9 @@ impl Cause {
             Cause::Missing => readers.with_verb("needs", "need"),
             Cause::Unknown => readers.with_verb("does not know", "do not know"),
             Cause::Number => readers.with_verb("cannot read", "cannot read"),
-            Cause::Text | Cause::Value | Cause::Order | Cause::Reference => readers.with_verb("refuses", "refuse"),
+            Cause::Text | Cause::Value | Cause::Order | Cause::Reference => {
+                readers.with_verb("refuses", "refuse")
+            }
         }
     }
 }

@@ -32,10 +32,10 @@ pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
         let name = block.header.text;
         let Some(name) = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')) else { continue };
         if let Some(index) = hexadecimal(name).filter(|_| name.len() == 4) {
-            if let Some(object) = object(&block, &mut refusals) {
-                if objects.insert(index, object).is_some() {
-                    refusals.add(block.header.place(), Cause::Text, "a section that stands twice");
-                }
+            if let Some(object) = object(&block, &mut refusals)
+                && objects.insert(index, object).is_some()
+            {
+                refusals.add(block.header.place(), Cause::Text, "a section that stands twice");
             }
             before = Some(index);
         } else if let Some((index, sub)) = sub_index(name) {
@@ -144,7 +144,8 @@ fn add_sub<'t>(
         refusals.add(header, Cause::Order, "a sub-index that does not follow its object");
     }
     let data_type = block.keys.get("DataType").and_then(|(text, _)| number(text));
-    let data_type = data_type.filter(|number| matches!(number, 1..=0x0D | 0x0F..=0x16 | 0x18..=0x1B)).unwrap_or(7);
+    let data_type =
+        data_type.filter(|number| matches!(number, 1..=0x0D | 0x0F..=0x16 | 0x18..=0x1B)).unwrap_or(7);
     let value = block.keys.get("DefaultValue").copied().unwrap_or(("0", header));
     let subs = match objects.get_mut(&index) {
         None => return refusals.add(header, Cause::Order, "a sub-index before its object"),
@@ -169,8 +170,15 @@ fn list(block: &Block<'_>, refusals: &mut Refusals) {
     if !block.keys.contains_key("SupportedObjects") {
         refusals.add(block.header.place(), Cause::Missing, "`SupportedObjects`, spelled so");
     }
-    for (value, place) in block.keys.iter().filter(|(key, _)| **key != "SupportedObjects").map(|(_, item)| item) {
-        refusals.wants(number(value), *place, Cause::Number, "an entry of a list of objects that is no number");
+    for (value, place) in
+        block.keys.iter().filter(|(key, _)| **key != "SupportedObjects").map(|(_, item)| item)
+    {
+        refusals.wants(
+            number(value),
+            *place,
+            Cause::Number,
+            "an entry of a list of objects that is no number",
+        );
     }
 }
 
@@ -184,7 +192,9 @@ fn mappings(objects: &BTreeMap<u32, Object<'_>>, refusals: &mut Refusals) {
             continue;
         };
         for (value, place) in subs.iter().filter(|(sub, _)| **sub != 0).map(|(_, entry)| entry) {
-            let Some(mapped) = value.strip_prefix("0x").filter(|digits| digits.len() == 8).and_then(hexadecimal) else {
+            let Some(mapped) =
+                value.strip_prefix("0x").filter(|digits| digits.len() == 8).and_then(hexadecimal)
+            else {
                 // It is put right by the reader itself.
                 continue;
             };
@@ -193,7 +203,9 @@ fn mappings(objects: &BTreeMap<u32, Object<'_>>, refusals: &mut Refusals) {
                 || match objects.get(&index) {
                     None => false,
                     Some(Object::Single) => true,
-                    Some(Object::Array(subs, _) | Object::Record(subs)) => sub == 0 || subs.contains_key(&sub),
+                    Some(Object::Array(subs, _) | Object::Record(subs)) => {
+                        sub == 0 || subs.contains_key(&sub)
+                    }
                 };
             if !is_there && index < 0x20 {
                 refusals.add(*place, Cause::Reference, "a dummy in a PDO");

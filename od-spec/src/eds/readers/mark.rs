@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::reader::{Evidence, Readers};
 use super::refusal::{Cause, Refusal};
+use super::reported::both_ways;
 use super::table::stumbling;
 use super::{Reader, refusals};
 use crate::diag::{Diagnostic, Diagnostics};
@@ -29,7 +30,7 @@ use crate::source::{FileId, SourceFile, SourceMap, Span};
 pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
     let source = sources.file(file);
     let mut by_line: BTreeMap<usize, Vec<&mut Diagnostic>> = BTreeMap::new();
-    for diagnostic in diagnostics.iter_mut() {
+    for diagnostic in diagnostics.as_mut_slice() {
         for reader in stumbling(diagnostic.code).iter().map(|one| one.reader) {
             if reader.evidence() == Evidence::Reported {
                 diagnostic.minded_by.insert(reader);
@@ -52,7 +53,7 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
         }
     }
     let untold = all.into_iter().filter(|one| !told.contains(&(one.reader, one.cause, one.what)));
-    for note in notes(untold, source) {
+    for note in notes(untold, source).into_iter().chain(both_ways(source.text(), file)) {
         diagnostics.push(note);
     }
     diagnostics.sort();

@@ -16,6 +16,7 @@ mod python;
 mod python_canopen;
 mod reader;
 mod refusal;
+mod reported;
 mod table;
 
 pub use mark::mark;
@@ -23,8 +24,14 @@ pub use reader::{Evidence, Reader, Readers};
 pub use table::{Stumbling, stumbling};
 
 use self::refusal::{Cause, Place, Refusal, Refusals};
+use crate::diag::Code;
 use crate::encoding::Encoding;
 use crate::source::{FileId, SourceFile};
+
+/// Whether messages of a code name the readers that they are about.
+pub(crate) fn names_them(code: &Code) -> bool {
+    codes::ALL.contains(&code) && *code != *codes::BOTH_WAYS
+}
 
 /// What readers refuse in a file.
 fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {
@@ -63,11 +70,7 @@ fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {
 fn not_in_utf8(source: &SourceFile) -> Option<Place> {
     match source.encoding() {
         Encoding::Ascii | Encoding::Utf8 | Encoding::Utf8WithMark => None,
-        Encoding::Utf16Le
-        | Encoding::Utf16Be
-        | Encoding::Windows1252
-        | Encoding::Cp850
-        | Encoding::Cp437 => {
+        Encoding::Utf16Le | Encoding::Utf16Be | Encoding::Windows1252 | Encoding::Cp850 | Encoding::Cp437 => {
             let start = source.text().find(|c: char| !c.is_ascii()).unwrap_or(0);
             let length = source.text()[start..].chars().next().map_or(0, char::len_utf8);
             Some(Place { start, end: start + length })

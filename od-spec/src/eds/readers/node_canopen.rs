@@ -21,11 +21,15 @@ pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
         }
     }
     for (name, (header, keys)) in &sections {
-        let Some((index, sub)) = name.split_once("sub").filter(|(_, sub)| is_hexadecimal(sub)) else { continue };
+        let Some((index, sub)) = name.split_once("sub").filter(|(_, sub)| is_hexadecimal(sub)) else {
+            continue;
+        };
         let Some(index) = self::index(index) else { continue };
         match objects.get(&index) {
             None => refusals.add(*header, Cause::Reference, "a sub-index without its object"),
-            Some(false) => refusals.add(*header, Cause::Value, "a sub-index of an object that is a single value"),
+            Some(false) => {
+                refusals.add(*header, Cause::Value, "a sub-index of an object that is a single value");
+            }
             Some(true) if u8::from_str_radix(sub, 16).is_err() => {
                 refusals.add(*header, Cause::Value, "a sub-index above FFh");
             }
@@ -64,7 +68,8 @@ impl Section<'_> {
 
     /// Where a key stands, also in other capitals, or the section.
     fn place(&self, key: &str) -> Place {
-        let named = || self.keys.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, found)| found);
+        let named =
+            || self.keys.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, found)| found);
         self.keys.get(key).or_else(named).map_or(self.header, |(_, place)| *place)
     }
 
@@ -136,7 +141,11 @@ fn default_value(data_type: i128, value: &Value, place: Place, refusals: &mut Re
         _ => return,
     };
     let is_signed = matches!(data_type, 0x02..=0x04 | 0x10 | 0x12..=0x15);
-    let (low, high) = if is_signed { (-(1_i128 << (bits - 1)), (1_i128 << (bits - 1)) - 1) } else { (0, (1_i128 << bits) - 1) };
+    let (low, high) = if is_signed {
+        (-(1_i128 << (bits - 1)), (1_i128 << (bits - 1)) - 1)
+    } else {
+        (0, (1_i128 << bits) - 1)
+    };
     let is_in_range = match value {
         Value::Boolean(_) | Value::Null => true,
         Value::Text(text) if bits == 64 => match big_int(text) {

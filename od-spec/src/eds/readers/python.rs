@@ -109,7 +109,10 @@ impl<'t> Ini<'t> {
             return;
         }
         at.indent = indent;
-        if let Some(name) = text.strip_prefix('[').and_then(|rest| Some(&rest[..rest.rfind(']')?])).filter(|name| !name.is_empty())
+        if let Some(name) = text
+            .strip_prefix('[')
+            .and_then(|rest| Some(&rest[..rest.rfind(']')?]))
+            .filter(|name| !name.is_empty())
         {
             at.section = self.open(name, place, refusals);
             at.item = None;

@@ -71,7 +71,8 @@ impl Kind {
             return Some(Kind::Dummies);
         }
         let (digits, rest) = name.split_at_checked(4)?;
-        let is_hexadecimal = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let is_hexadecimal =
+            |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_hexdigit());
         let index = u16::from_str_radix(digits, 16).ok().filter(|_| is_hexadecimal(digits))?;
         if rest.is_empty() {
             return Some(Kind::Object(index));
@@ -86,15 +87,11 @@ impl Kind {
 }
 
 fn information(ini: &Ini<'_>, refusals: &mut Refusals) {
-    if let Some(section) = ini.section("Comments") {
-        if let Some(lines) = number(section, "Lines", 0, refusals) {
-            for line in 1..=lines {
-                if section.item(&format!("Line{line}")).is_none() {
-                    refusals.add(section.place("Lines"), Cause::Missing, "a comment line that `Lines` counts");
-                    break;
-                }
-            }
-        }
+    if let Some(section) = ini.section("Comments")
+        && let Some(lines) = number(section, "Lines", 0, refusals)
+        && (1..=lines).any(|line| section.item(&format!("Line{line}")).is_none())
+    {
+        refusals.add(section.place("Lines"), Cause::Missing, "a comment line that `Lines` counts");
     }
     if let Some(section) = ini.section("DeviceInfo") {
         let rates = BIT_RATES.iter().map(|rate| format!("BaudRate_{rate}"));
@@ -168,7 +165,11 @@ fn names(section: &Section<'_>, object: Option<Object>, refusals: &mut Refusals)
     match object {
         Some(Object::Structured { has_first: true }) => {}
         Some(Object::Structured { .. } | Object::Single) | None => {
-            return refusals.add(section.header, Cause::Reference, "names of elements that no compact array has");
+            return refusals.add(
+                section.header,
+                Cause::Reference,
+                "names of elements that no compact array has",
+            );
         }
     }
     if (1..=count).any(|element| section.item(&element.to_string()).is_none()) {

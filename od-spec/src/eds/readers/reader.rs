@@ -112,6 +112,11 @@ impl Readers {
         self.0 & reader.bit() != 0
     }
 
+    /// Whether one of them is among the others.
+    pub const fn meet(self, others: Self) -> bool {
+        self.0 & others.0 != 0
+    }
+
     /// Whether there is none.
     pub const fn is_empty(self) -> bool {
         self.0 == 0

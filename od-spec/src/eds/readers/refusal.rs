@@ -59,7 +59,13 @@ impl Refusals {
     }
 
     /// The value, or a refusal.
-    pub fn wants<T>(&mut self, found: Option<T>, place: Place, cause: Cause, what: &'static str) -> Option<T> {
+    pub fn wants<T>(
+        &mut self,
+        found: Option<T>,
+        place: Place,
+        cause: Cause,
+        what: &'static str,
+    ) -> Option<T> {
         if found.is_none() {
             self.add(place, cause, what);
         }
@@ -85,7 +91,10 @@ pub(super) fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
     let mut start = 0;
     std::iter::from_fn(move || {
         let rest = text.get(start..).filter(|rest| !rest.is_empty())?;
-        let row = Row { text: &rest[..memchr::memchr2(b'\r', b'\n', rest.as_bytes()).unwrap_or(rest.len())], start };
+        let row = Row {
+            text: &rest[..memchr::memchr2(b'\r', b'\n', rest.as_bytes()).unwrap_or(rest.len())],
+            start,
+        };
         let end = row.place().end;
         start = end + if text[end..].starts_with("\r\n") { 2 } else { 1 };
         Some(row)

@@ -91,7 +91,10 @@ fn entry<'t>(section: &'t Section<'_>, refusals: &mut Refusals) -> Option<Entry<
         refusals.add(section.place("DataType"), Cause::Missing, "the data type of a listed entry");
         return None;
     };
-    for item in ["LowLimit", "HighLimit", "DefaultValue", "ParameterValue"].iter().filter_map(|key| section.filled(key)) {
+    for item in ["LowLimit", "HighLimit", "DefaultValue", "ParameterValue"]
+        .iter()
+        .filter_map(|key| section.filled(key))
+    {
         if !can_be_kept(data_type, &item.value) {
             refusals.add(item.place, Cause::Number, "a value or limit of a listed entry that is no number");
         }
@@ -151,7 +154,11 @@ fn identity(ini: &Ini<'_>, objects: &BTreeMap<u16, Object<'_>>, refusals: &mut R
         if let Some(item) = ini.section(section).and_then(|section| section.filled(key))
             && int(&item.value, 0).is_none()
         {
-            refusals.add(item.place, Cause::Number, "a number of the device in another notation than `10` or `0xA`");
+            refusals.add(
+                item.place,
+                Cause::Number,
+                "a number of the device in another notation than `10` or `0xA`",
+            );
         }
     }
 }
@@ -170,7 +177,11 @@ fn pdos(ini: &Ini<'_>, objects: &BTreeMap<u16, Object<'_>>, implied: &Implied, r
         match objects.get(&(index + 0x200)) {
             Some(mapping) => mapped(objects, mapping, implied, refusals),
             None if implied.mapping.contains(&(index + 0x200)) => {}
-            None => refusals.add(ini.place(&format!("{index:04X}")), Cause::Reference, "a PDO without its mapping"),
+            None => refusals.add(
+                ini.place(&format!("{index:04X}")),
+                Cause::Reference,
+                "a PDO without its mapping",
+            ),
         }
     }
     for index in &implied.communication {
@@ -185,7 +196,12 @@ fn pdos(ini: &Ini<'_>, objects: &BTreeMap<u16, Object<'_>>, implied: &Implied, r
     }
 }
 
-fn mapped(objects: &BTreeMap<u16, Object<'_>>, mapping: &Object<'_>, implied: &Implied, refusals: &mut Refusals) {
+fn mapped(
+    objects: &BTreeMap<u16, Object<'_>>,
+    mapping: &Object<'_>,
+    implied: &Implied,
+    refusals: &mut Refusals,
+) {
     let count = mapping.get(&0).map_or(0, |entry| parse(*entry, refusals).unwrap_or(0));
     for (_, entry) in mapping.iter().filter(|(sub, _)| **sub != 0 && i128::from(**sub) <= count) {
         let Some(value) = parse(*entry, refusals).filter(|value| *value != 0) else { continue };
@@ -194,7 +210,8 @@ fn mapped(objects: &BTreeMap<u16, Object<'_>>, mapping: &Object<'_>, implied: &I
         let is_there = if index < 0x1000 {
             sub == 0 && (values::is_basic(index.into()) || matches!(index, 0x09..=0x0D | 0x0F))
         } else {
-            implied.communication.contains(&index) || objects.get(&index).is_some_and(|object| object.contains_key(&sub))
+            implied.communication.contains(&index)
+                || objects.get(&index).is_some_and(|object| object.contains_key(&sub))
         };
         if !is_there {
             refusals.add(entry.place, Cause::Reference, "a PDO that maps what is not listed");

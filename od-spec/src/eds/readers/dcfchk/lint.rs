@@ -57,7 +57,11 @@ const DEVICE: &[&str] = &[
 
 pub(super) fn lint(ini: &Ini<'_>, refusals: &mut Refusals) {
     for place in &ini.defaults {
-        refusals.add(*place, Cause::Unknown, "a key below `[DEFAULT]`, which it takes for a key of every section");
+        refusals.add(
+            *place,
+            Cause::Unknown,
+            "a key below `[DEFAULT]`, which it takes for a key of every section",
+        );
     }
     for section in &ini.sections {
         match section.name.to_lowercase().as_str() {
@@ -91,7 +95,8 @@ impl Kind {
         let index = u16::from_str_radix(digits, 16).ok().filter(|_| !digits.starts_with('+'))?;
         if let Some(sub) = rest.strip_prefix("sub") {
             let is_hexadecimal = !sub.is_empty() && sub.bytes().all(|byte| byte.is_ascii_hexdigit());
-            return is_hexadecimal.then(|| Kind::Sub(index, u32::from_str_radix(sub, 16).unwrap_or(u32::MAX)));
+            return is_hexadecimal
+                .then(|| Kind::Sub(index, u32::from_str_radix(sub, 16).unwrap_or(u32::MAX)));
         }
         match rest {
             "" => Some(Kind::Object(index)),
@@ -175,12 +180,20 @@ fn elements(ini: &Ini<'_>, section: &Section<'_>, index: u16, refusals: &mut Ref
             Some((Some(number), _)) => count = number,
             Some((None, place)) => refusals.add(place, Cause::Number, "a number of elements that is none"),
             None => {
-                refusals.add(section.header, Cause::Reference, "a list for elements that no compact array has");
+                refusals.add(
+                    section.header,
+                    Cause::Reference,
+                    "a list for elements that no compact array has",
+                );
             }
         }
         values::data_type(object, refusals);
     } else {
-        refusals.add(section.header, Cause::Reference, "a list for the elements of an object without a section");
+        refusals.add(
+            section.header,
+            Cause::Reference,
+            "a list for the elements of an object without a section",
+        );
     }
     for item in section.items.iter().filter(|item| !item.key.eq_ignore_ascii_case("NrOfEntries")) {
         match int(item.key, 10) {

@@ -31,7 +31,8 @@ pub(super) fn object(ini: &Ini<'_>, section: &Section<'_>, index: u16, refusals:
     if matches!(object_type, 5 | 7) && section.filled("DataType").is_none() {
         refusals.add(section.place("DataType"), Cause::Missing, "the data type of a VAR");
     }
-    let (subs, elements) = (number(section, "SubNumber", 0, refusals), number(section, "CompactSubObj", 0, refusals));
+    let (subs, elements) =
+        (number(section, "SubNumber", 0, refusals), number(section, "CompactSubObj", 0, refusals));
     match section.filled("AccessType") {
         Some(access) if matches!(object_type, 6 | 8 | 9) && elements == 0 => {
             refusals.add(access.place, Cause::Value, "an access type of an ARRAY or RECORD");
@@ -63,10 +64,10 @@ fn count(ini: &Ini<'_>, section: &Section<'_>, index: u16, subs: i128, refusals:
     if i128::try_from(described) != Ok(subs) {
         refusals.add(section.place("SubNumber"), Cause::Value, "a wrong number of sub-indices");
     }
-    if let Some(first) = ini.section(&format!("{index:04X}sub0")) {
-        if number(first, "DataType", 0, refusals) != 5 {
-            refusals.add(first.place("DataType"), Cause::Value, "a sub-index 0 that is no UNSIGNED8");
-        }
+    if let Some(first) = ini.section(&format!("{index:04X}sub0"))
+        && number(first, "DataType", 0, refusals) != 5
+    {
+        refusals.add(first.place("DataType"), Cause::Value, "a sub-index 0 that is no UNSIGNED8");
     }
 }
 
@@ -102,6 +103,11 @@ fn keys(section: &Section<'_>, refusals: &mut Refusals) {
 /// A number, if the key is there and not empty.
 fn number(section: &Section<'_>, key: &str, otherwise: i128, refusals: &mut Refusals) -> i128 {
     let Some(item) = section.filled(key) else { return otherwise };
-    let read = refusals.wants(int(&item.value, 0), item.place, Cause::Number, "a number in another notation than `10` or `0xA`");
+    let read = refusals.wants(
+        int(&item.value, 0),
+        item.place,
+        Cause::Number,
+        "a number in another notation than `10` or `0xA`",
+    );
     read.unwrap_or(otherwise)
 }

@@ -6,10 +6,7 @@ use super::super::refusal::{Cause, Refusals};
 /// A value as the reader takes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Value {
-    Integer {
-        number: i128,
-        has_node: bool,
-    },
+    Integer { number: i128, has_node: bool },
     Real(f64),
 }
 
@@ -55,7 +52,9 @@ fn formula(text: &str) -> Option<(&str, bool)> {
     let bare = digits.strip_prefix('-').unwrap_or(digits);
     let hexadecimal = bare.strip_prefix("0x").or_else(|| bare.strip_prefix("0X"));
     let is_number = match hexadecimal {
-        Some(hexadecimal) => !hexadecimal.is_empty() && hexadecimal.bytes().all(|byte| byte.is_ascii_hexdigit()),
+        Some(hexadecimal) => {
+            !hexadecimal.is_empty() && hexadecimal.bytes().all(|byte| byte.is_ascii_hexdigit())
+        }
         None => !bare.is_empty() && bare.bytes().all(|byte| byte.is_ascii_digit()),
     };
     is_number.then_some((digits, has_node))
@@ -88,7 +87,8 @@ fn real(data_type: i128, text: &str) -> Option<f64> {
 }
 
 const OUT_OF_TYPE: &str = "a limit that its data type does not have";
-const UNREADABLE: &str = "a value or limit in another notation than `10`, `0xA` or `$NODEID+0xA`, or a REAL in decimal";
+const UNREADABLE: &str =
+    "a value or limit in another notation than `10`, `0xA` or `$NODEID+0xA`, or a REAL in decimal";
 
 /// `DataType` and the limits of a section.
 pub(super) fn data_type(section: &Section<'_>, refusals: &mut Refusals) {
