@@ -34,8 +34,21 @@ pub fn explanation(code: &Code) -> String {
     out.push_str(&stumblers(code));
     if let Some(example) = code.example {
         let language = example.language.highlighting();
-        let _ = write!(out, "\nRefused:\n\n```{language}\n{}\n```\n", example.before);
-        let _ = write!(out, "\nAccepted:\n\n```{language}\n{}\n```\n", example.after);
+        let _ = write!(out, "\nRefused:\n\n```{language}\n{}\n```\n", visible(example.before));
+        let _ = write!(out, "\nAccepted:\n\n```{language}\n{}\n```\n", visible(example.after));
+    }
+    out
+}
+
+/// A text in which characters that nobody sees, such as a carriage return, stand as their numbers.
+fn visible(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c == '\n' || !(c.is_control() || c == '\u{FEFF}') {
+            out.push(c);
+        } else {
+            let _ = write!(out, "<{:02X}>", u32::from(c));
+        }
     }
     out
 }

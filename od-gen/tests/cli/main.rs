@@ -10,6 +10,7 @@ mod codes;
 mod dcf;
 mod diff;
 mod docs;
+mod fix;
 mod foreign;
 mod formats;
 mod new;

@@ -57,16 +57,19 @@ fn names_clash() -> Diagnostics {
     diagnostics
 }
 
+/// What is said about an EDS or DCF that is an example, with the text.
+pub(crate) fn eds_example(example: &Example) -> (Diagnostics, SourceMap) {
+    let mut sources = SourceMap::new();
+    let file = sources.add(example.language.file_name(), example.whole(example.before));
+    (findings(&sources, file, Encoding::Ascii), sources)
+}
+
 /// What is said about the example of a code, with the settings that it gives as comments.
 fn example(example: &Example) -> BTreeSet<&'static Code> {
     let text = example.whole(example.before);
     match example.language {
         Language::Specification => {}
-        Language::Eds | Language::Dcf => {
-            let mut sources = SourceMap::new();
-            let file = sources.add(example.language.file_name(), text);
-            return codes(&findings(&sources, file, Encoding::Ascii));
-        }
+        Language::Eds | Language::Dcf => return codes(&eds_example(example).0),
     }
     let settings: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("# --set ")).collect();
     let (_, _, compiled) = run("example.od.yaml", &text);

@@ -1,9 +1,10 @@
 //! Rules that hold for every message.
 
-use od_spec::diag::Diagnostic;
 use od_spec::diag::render::{Format, render};
+use od_spec::diag::{Diagnostic, Language};
 use od_spec::source::{SourceMap, Span};
 
+use crate::codes::eds_example;
 use crate::{cases, human, run};
 
 /// The wording rules: what the message says, how it starts and ends, that there is help, and that places exist.
@@ -56,6 +57,25 @@ fn messages_keep_the_wording_rules() {
         for diagnostic in &compiled.diagnostics {
             check_wording(diagnostic, &sources, &name);
             assert!(!diagnostic.labels.is_empty(), "{name}: {} has no place", diagnostic.message);
+        }
+    }
+}
+
+#[test]
+fn messages_about_eds_texts_keep_the_wording_rules() {
+    let of_texts = od_spec::all_codes().into_iter().filter_map(|code| Some((code, code.example?)));
+    let of_texts: Vec<_> =
+        of_texts.filter(|(_, example)| example.language != Language::Specification).collect();
+    assert!(of_texts.len() > 50);
+    for (code, example) in of_texts {
+        let (diagnostics, sources) = eds_example(&example);
+        for diagnostic in &diagnostics {
+            check_wording(diagnostic, &sources, code.id);
+            assert!(!diagnostic.labels.is_empty(), "{code}: {} has no place", diagnostic.message);
+            // Who is told that a command does it must find that it does.
+            let promises = diagnostic.help.as_deref().unwrap_or_default().contains("`odgen fix` does");
+            let is_about_bytes = code.id == "EDS102";
+            assert!(!promises || is_about_bytes || !diagnostic.edits.is_empty(), "{code}: nothing is mended");
         }
     }
 }

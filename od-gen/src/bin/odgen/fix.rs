@@ -3,15 +3,17 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
 use od_spec::eds::{Document, Fixed, decode, fix};
 use od_spec::source::SourceMap;
-use similar::TextDiff;
+use similar::{ChangeTag, DiffOp, group_diff_ops};
 
 use super::args::FixArgs;
+use super::line_diff::line_diff;
 use super::output::save;
 use super::report::{Report, print};
 use super::{ERRORS, SUCCESS};
@@ -78,11 +80,12 @@ impl File {
 
     /// What changes, each part with the codes of what it puts right.
     fn diff(&self) -> String {
-        let new = self.fixed.text();
-        let lines = TextDiff::from_lines(self.old.as_str(), new);
-        let starts = line_starts(new);
+        let text = self.fixed.text();
+        let (old, new): (Vec<&str>, Vec<&str>) =
+            (self.old.split_inclusive('\n').collect(), text.split_inclusive('\n').collect());
+        let changed = self.changed_lines();
         let mut out = String::new();
-        for group in lines.grouped_ops(CONTEXT) {
+        for group in group_diff_ops(line_diff(&old, &new), CONTEXT) {
             if out.is_empty() {
                 let _ = write!(out, "--- {0}\n+++ {0}\n", self.name);
             }
@@ -92,26 +95,23 @@ impl File {
                 first.new_range().start..last.new_range().end,
             );
             let codes: Vec<String> =
-                self.codes(&starts, &new_range).iter().map(|code| format!(" {code}")).collect();
+                codes_of(&changed, &new_range).iter().map(|code| format!(" {code}")).collect();
             let _ = writeln!(out, "@@ -{} +{} @@{}", hunk(&old_range), hunk(&new_range), codes.concat());
-            group.iter().flat_map(|op| lines.iter_changes(op)).for_each(|change| {
-                let text = change.value();
-                let is_last = !text.ends_with(['\n', '\r']);
-                let end = if is_last { "\n\\ No newline at end of file\n" } else { "" };
-                let _ = write!(out, "{}{text}{end}", change.tag());
-            });
+            for op in &group {
+                print_lines(op, &old, &new, &mut out);
+            }
         }
         out
     }
 
-    /// The codes of the changes in some lines of the new text.
-    fn codes(&self, starts: &[usize], lines: &std::ops::Range<usize>) -> BTreeSet<&'static Code> {
-        let line = |at: usize| starts.partition_point(|start| *start <= at).saturating_sub(1);
-        let in_lines = self.fixed.changes.iter().filter(|change| {
-            let (first, last) = (line(change.place.start), line(change.place.end));
-            first < lines.end.max(lines.start + 1) && last >= lines.start
-        });
-        in_lines.map(|change| change.code).collect()
+    /// The line of the new text in which each change begins, ascending.
+    fn changed_lines(&self) -> Vec<(usize, &'static Code)> {
+        let text = self.fixed.text();
+        let starts: Vec<usize> =
+            std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let last = text.lines().count().saturating_sub(1);
+        let line = |at: usize| starts.partition_point(|start| *start <= at).saturating_sub(1).min(last);
+        self.fixed.changes.iter().map(|change| (line(change.place.start), change.code)).collect()
     }
 
     /// Tells people what was put right, and what they have to decide; whether errors are left.
@@ -156,18 +156,30 @@ impl File {
 }
 
 /// `3,7`: the first line, from 1, and how many.
-fn hunk(lines: &std::ops::Range<usize>) -> String {
+fn hunk(lines: &Range<usize>) -> String {
     let first = if lines.is_empty() { lines.start } else { lines.start + 1 };
     format!("{first},{}", lines.len())
 }
 
-/// Where lines begin, as the diff divides them: behind a line feed, or a carriage return without one.
-fn line_starts(text: &str) -> Vec<usize> {
-    let bytes = text.as_bytes();
-    let is_end = |at: &usize| match bytes.get(*at) {
-        Some(b'\n') => true,
-        Some(b'\r') => bytes.get(at + 1) != Some(&b'\n'),
-        _ => false,
-    };
-    std::iter::once(0).chain((0..bytes.len()).filter(is_end).map(|at| at + 1)).collect()
+/// The lines of a step, each with its sign.
+fn print_lines(op: &DiffOp, old: &[&str], new: &[&str], out: &mut String) {
+    for change in op.iter_changes(old, new) {
+        let sign = match change.tag() {
+            ChangeTag::Equal => ' ',
+            ChangeTag::Delete => '-',
+            ChangeTag::Insert => '+',
+        };
+        let line: &str = change.value();
+        let end = if line.ends_with('\n') { "" } else { "\n\\ No newline at end of file\n" };
+        let _ = write!(out, "{sign}{line}{end}");
+    }
+}
+
+/// The codes of the changes in some lines.
+fn codes_of(changed: &[(usize, &'static Code)], lines: &Range<usize>) -> BTreeSet<&'static Code> {
+    // Lines that are only taken out leave a change at the line behind them.
+    let end = lines.end.max(lines.start + 1);
+    let from = changed.partition_point(|(line, _)| *line < lines.start);
+    let to = changed.partition_point(|(line, _)| *line < end);
+    changed.get(from..to).unwrap_or_default().iter().map(|(_, code)| *code).collect()
 }

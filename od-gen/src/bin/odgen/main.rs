@@ -10,6 +10,7 @@ mod errata;
 mod fix;
 mod git;
 mod import;
+mod line_diff;
 mod new;
 mod output;
 mod report;

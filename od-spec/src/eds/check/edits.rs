@@ -2,7 +2,7 @@
 
 use crate::diag::Edit;
 use crate::eds::document::{Line, LineEnd, LineKind, SectionRef};
-use crate::eds::names::{List, Topic};
+use crate::eds::names::{self, List, Topic};
 use crate::eds::view::View;
 use crate::source::Span;
 
@@ -50,6 +50,12 @@ pub(super) fn above(view: &View<'_>, line: &Line<'_>, text: &str) -> Edit {
     Edit { span: Span { file: view.file, start, end: start }, text: format!("{text}{line_break}") }
 }
 
+/// A number in the notation in which another one stands.
+pub(super) fn number_like(old: &str, number: impl Into<i128>) -> String {
+    let number = number.into();
+    if old.starts_with("0x") { format!("{number:#X}").replacen("0X", "0x", 1) } else { number.to_string() }
+}
+
 /// The line break that most lines have, that of the standard's examples where it is undecided.
 pub(super) fn usual_break(view: &View<'_>) -> LineEnd {
     let count = |end| view.document.lines().iter().filter(|line| line.end() == end).count();
@@ -77,6 +83,14 @@ pub(super) fn new_section<'l>(
         Topic::Objects(List::Optional),
         Topic::Objects(List::Manufacturer),
     ];
+    // A section whose name lacks a bracket is there, and gets it.
+    let is_there = |line: &Line<'_>| {
+        line.kind() == LineKind::Unreadable
+            && line.text().trim().strip_suffix(']').is_some_and(|name| names::topic(name) == topic)
+    };
+    if view.document.lines().iter().any(is_there) {
+        return None;
+    }
     let before = ORDER.iter().take_while(|other| **other != topic);
     let sections = before.filter_map(|other| view.section(*other)?.sections.last());
     let behind = sections.max_by_key(|section| place(view, section.header()).start)?;

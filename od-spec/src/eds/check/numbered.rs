@@ -13,7 +13,7 @@ use crate::model::Index;
 pub(super) struct NumberedList<'v, 'd> {
     pub part: &'v Part<'d>,
     pub form: Form,
-    /// The entries with their numbers, in the order of the text.
+    /// The entries by number; of two with one number, the first in the text.
     pub entries: Vec<(u32, Entry<'d>)>,
 }
 
@@ -91,7 +91,8 @@ impl<'v, 'd> NumberedList<'v, 'd> {
             let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
             (is_number && front.eq_ignore_ascii_case(form.prefix)).then(|| digits.parse().ok())?
         };
-        let entries = part.entries().filter_map(|entry| Some((number(&entry)?, entry))).collect();
+        let mut entries: Vec<_> = part.entries().filter_map(|entry| Some((number(&entry)?, entry))).collect();
+        entries.sort_by_key(|(number, _)| *number);
         Self { part, form, entries }
     }
 
@@ -105,9 +106,7 @@ impl<'v, 'd> NumberedList<'v, 'd> {
     pub(super) fn rewritten(&self, view: &View<'_>, without: &BTreeSet<u32>, more: &[Index]) -> Vec<Edit> {
         let mut edits = Vec::new();
         let is_gone = |entry: &Entry<'_>| without.contains(&entry.key.span.start);
-        let mut kept: Vec<&(u32, Entry<'_>)> =
-            self.entries.iter().filter(|(_, entry)| !is_gone(entry)).collect();
-        kept.sort_by_key(|(number, entry)| (*number, entry.key.span.start));
+        let kept: Vec<&(u32, Entry<'_>)> = self.entries.iter().filter(|(_, entry)| !is_gone(entry)).collect();
         for (at, (number, entry)) in (1u32..).zip(&kept) {
             if *number != at {
                 edits.push(Edit { span: entry.key.span, text: format!("{}{at}", self.form.prefix) });
@@ -136,8 +135,7 @@ impl<'v, 'd> NumberedList<'v, 'd> {
             return Some(edits::below(view, header, [line.as_str()]));
         };
         let is_right = lenient_integer(entry.value.value) == i128::try_from(count).ok();
-        let is_hexadecimal = entry.value.value.starts_with("0x");
-        let text = if is_hexadecimal { format!("{count:#X}") } else { count.to_string() };
+        let text = edits::number_like(entry.value.value, i128::try_from(count).ok()?);
         (!is_right).then_some(Edit { span: entry.value.span, text })
     }
 }

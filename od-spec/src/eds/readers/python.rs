@@ -84,7 +84,7 @@ fn folded(name: &str, capitals: Capitals) -> Cow<'_, str> {
 
 impl<'t> Ini<'t> {
     /// Reads a text. `remarks` are the signs that begin a comment behind a blank.
-    pub fn read(text: &'t str, remarks: &[char], capitals: Capitals, refusals: &mut Refusals) -> Self {
+    pub(super) fn read(text: &'t str, remarks: &[char], capitals: Capitals, refusals: &mut Refusals) -> Self {
         let mut ini = Self { capitals, sections: Vec::new(), defaults: Vec::new(), by_name: BTreeMap::new() };
         let mut at = At { section: Where::Before, item: None, indent: 0 };
         for row in rows(text) {
@@ -158,38 +158,38 @@ impl<'t> Ini<'t> {
         Where::In(at)
     }
 
-    pub fn section(&self, name: &str) -> Option<&Section<'t>> {
+    pub(super) fn section(&self, name: &str) -> Option<&Section<'t>> {
         self.by_name.get(&folded(name, self.capitals)).map(|at| &self.sections[*at])
     }
 
     /// The header of a section, or the beginning of the file.
-    pub fn place(&self, name: &str) -> Place {
+    pub(super) fn place(&self, name: &str) -> Place {
         self.section(name).or(self.sections.first()).map_or(Place::default(), |section| section.header)
     }
 }
 
 impl<'t> Section<'t> {
-    pub fn item(&self, key: &str) -> Option<&Item<'t>> {
+    pub(super) fn item(&self, key: &str) -> Option<&Item<'t>> {
         self.by_key.get(&folded(key, self.capitals)).map(|at| &self.items[*at])
     }
 
     /// The value of a key, also an empty one.
-    pub fn value(&self, key: &str) -> Option<&str> {
+    pub(super) fn value(&self, key: &str) -> Option<&str> {
         self.item(key).map(|item| item.value.as_ref())
     }
 
     /// The key, if its value is not empty.
-    pub fn filled(&self, key: &str) -> Option<&Item<'t>> {
+    pub(super) fn filled(&self, key: &str) -> Option<&Item<'t>> {
         self.item(key).filter(|item| !item.value.is_empty())
     }
 
     /// Where a key stands, or the section.
-    pub fn place(&self, key: &str) -> Place {
+    pub(super) fn place(&self, key: &str) -> Place {
         self.item(key).map_or(self.header, |item| item.place)
     }
 
     /// Where a key stands in other capitals, or the section.
-    pub fn place_in_any_capitals(&self, key: &str) -> Place {
+    pub(super) fn place_in_any_capitals(&self, key: &str) -> Place {
         let found = self.items.iter().find(|item| item.key.eq_ignore_ascii_case(key));
         found.map_or(self.header, |item| item.place)
     }

@@ -48,18 +48,18 @@ pub(super) struct Place {
 }
 
 impl Refusals {
-    pub fn new(reader: Reader, file: FileId) -> Self {
+    pub(super) fn new(reader: Reader, file: FileId) -> Self {
         Self { reader, file, list: Vec::new() }
     }
 
-    pub fn add(&mut self, place: Place, cause: Cause, what: &'static str) {
+    pub(super) fn add(&mut self, place: Place, cause: Cause, what: &'static str) {
         let at = |offset| u32::try_from(offset).unwrap_or(u32::MAX);
         let place = Span { file: self.file, start: at(place.start), end: at(place.end) };
         self.list.push(Refusal { reader: self.reader, cause, what, place });
     }
 
     /// The value, or a refusal.
-    pub fn wants<T>(
+    pub(super) fn wants<T>(
         &mut self,
         found: Option<T>,
         place: Place,
@@ -81,7 +81,7 @@ pub(super) struct Row<'t> {
 }
 
 impl Row<'_> {
-    pub fn place(&self) -> Place {
+    pub(super) fn place(&self) -> Place {
         Place { start: self.start, end: self.start + self.text.len() }
     }
 }

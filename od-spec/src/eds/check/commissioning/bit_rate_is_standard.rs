@@ -35,7 +35,6 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let diagnostic = Diagnostic::new(CODE, value.span, message);
     // A bit rate in bit/s is far above every one in kbit/s.
     let in_kbit = BIT_RATES.into_iter().find(|standard| rate == Some(i128::from(*standard) * 1000));
-    let in_kbit = in_kbit.filter(|standard| *standard != 10 || rate != Some(1000));
     diagnostics.push(match in_kbit {
         Some(standard) => {
             let mut diagnostic = diagnostic.help(format!("write `Baudrate={standard}`; `odgen fix` does"));

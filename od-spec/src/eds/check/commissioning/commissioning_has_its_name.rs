@@ -26,13 +26,18 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(meant) = canonical(Topic::Commissioning) else { return };
     for section in part.sections.iter().filter(|section| section.name() != meant) {
         let place = name_place(section.header(), view.file);
+        let is_single = part.sections.len() == 1;
         let mut diagnostic = Diagnostic::new(
             CODE,
             place,
             format!("`{}` is written `{meant}` in the standard", shorten(section.name())),
         )
-        .help(format!("write `{meant}`; `odgen fix` does"));
-        diagnostic.edits.push(Edit { span: place, text: meant.clone() });
+        .help(if is_single {
+            format!("write `{meant}`; `odgen fix` does")
+        } else {
+            format!("have one section `{meant}` only")
+        });
+        diagnostic.edits.extend(is_single.then(|| Edit { span: place, text: meant.clone() }));
         diagnostics.push(diagnostic);
     }
 }

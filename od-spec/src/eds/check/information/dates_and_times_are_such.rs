@@ -49,7 +49,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
 }
 
 fn mended(mut diagnostic: Diagnostic, text: Option<String>) -> Diagnostic {
-    let Some(text) = text else { return diagnostic.help("write it so") };
+    let Some(text) = text else {
+        return diagnostic.help("write it as the standard has it: two digits each, month first");
+    };
     let span = diagnostic.labels.first().map(|label| label.span);
     let help = format!("write `{text}`; `odgen fix` does");
     diagnostic.edits.extend(span.map(|span| Edit { span, text }));

@@ -30,7 +30,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             continue;
         }
         let place = edits::place(view, line);
-        let cut = [(0, start), (end, sign)].into_iter().filter(|(from, to)| from < to);
+        // Where the line is touched, it becomes as the standard has it.
+        let value = line.value_part().map_or(sign + 1, |value| value.start as usize);
+        let cut = [(0, start), (end, sign), (sign + 1, value)].into_iter().filter(|(from, to)| from < to);
         let cuts = cut.map(|(from, to)| Edit { span: place.part(from, to), text: String::new() });
         found.add(place, cuts, || {
             let name = shorten(line.key().unwrap_or_default());

@@ -36,7 +36,10 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 continue;
             }
             let place = inside(view, section);
-            found.add(place, [Edit { span: place, text: meant.clone() }], || {
+            // In one spelling two sections would stand there that every reader takes for one.
+            let is_single = part.sections.len() == 1;
+            let edit = is_single.then(|| Edit { span: place, text: meant.clone() });
+            found.add(place, edit, || {
                 Diagnostic::new(
                     CODE,
                     place,
@@ -45,7 +48,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                         shorten(name_between_brackets(section.header().text()))
                     ),
                 )
-                .help(format!("write `{meant}`; `odgen fix` does"))
+                .help(help(&meant, is_single))
             });
         }
     }
@@ -68,5 +71,13 @@ fn inside(view: &View<'_>, section: &SectionRef<'_, '_>) -> Span {
     match (text.find('['), text.find(']')) {
         (Some(open), Some(close)) => edits::place(view, section.header()).part(open + 1, close),
         _ => name_place(section.header(), view.file),
+    }
+}
+
+fn help(meant: &str, is_single: bool) -> String {
+    if is_single {
+        format!("write `{meant}`; `odgen fix` does")
+    } else {
+        format!("write `{meant}`, and have one section of this name only")
     }
 }

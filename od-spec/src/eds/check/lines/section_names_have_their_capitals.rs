@@ -30,15 +30,26 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 continue;
             }
             let place = name_place(section.header(), view.file);
-            found.add(place, [Edit { span: place, text: meant.clone() }], || {
+            // In one spelling two sections would stand there that every reader takes for one.
+            let is_single = part.sections.len() == 1;
+            let edit = is_single.then(|| Edit { span: place, text: meant.clone() });
+            found.add(place, edit, || {
                 Diagnostic::new(
                     CODE,
                     place,
                     format!("`{}` is written `{meant}` in the standard", shorten(name)),
                 )
-                .help(format!("write `{meant}`; `odgen fix` does"))
+                .help(help(&meant, is_single))
             });
         }
     }
     found.finish("sections", diagnostics);
+}
+
+fn help(meant: &str, is_single: bool) -> String {
+    if is_single {
+        format!("write `{meant}`; `odgen fix` does")
+    } else {
+        format!("write `{meant}`, and have one section of this name only")
+    }
 }

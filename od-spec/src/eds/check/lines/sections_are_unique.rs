@@ -36,13 +36,17 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
 
 fn compare<'d>(view: &View<'d>, sections: &[SectionRef<'d, 'd>], diagnostics: &mut Diagnostics) {
     let [first, others @ ..] = sections else { return };
+    if others.is_empty() {
+        return;
+    }
+    let first_keys = keys(first);
     for other in others {
         let place = name_place(other.header(), view.file);
         let name = shorten(other.name());
         let mut diagnostic = Diagnostic::new(CODE, place, format!("section `{name}` stands twice"))
             .label("again here")
             .with(name_place(first.header(), view.file), "first here");
-        if other.keys().next().is_none() || keys(first) == keys(other) {
+        if other.keys().next().is_none() || first_keys == keys(other) {
             diagnostic = diagnostic.help("remove one of the two, they say the same; `odgen fix` does");
             diagnostic.edits = removal(view, other);
         } else {

@@ -29,9 +29,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         if list.form.numbers != Numbers::Order || list.is_in_sequence() {
             continue;
         }
-        let mut sorted: Vec<_> = list.entries.iter().collect();
-        sorted.sort_by_key(|(number, entry)| (*number, entry.key.span.start));
-        let Some((at, (_, entry))) = (1..).zip(sorted).find(|(at, (number, _))| number != at) else {
+        let Some((at, (_, entry))) = (1..).zip(&list.entries).find(|(at, (number, _))| number != at) else {
             continue;
         };
         let prefix = list.form.prefix;

@@ -21,8 +21,7 @@ const CODE: &Code = &Code {
 };
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
-    for (_, mut list) in numbered::of_objects(view) {
-        list.entries.sort_by_key(|(number, _)| *number);
+    for (_, list) in numbered::of_objects(view) {
         let indices: Vec<_> = list
             .entries
             .iter()

@@ -4,8 +4,8 @@ use super::super::numbered;
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
-use crate::eds::names::List;
-use crate::eds::view::View;
+use crate::eds::names::{List, ModuleTopic};
+use crate::eds::view::{Part, View};
 use crate::model::Index;
 use std::collections::BTreeSet;
 
@@ -49,5 +49,39 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             });
         }
     }
+    of_modules(view, &mut found);
     found.finish("objects", diagnostics);
+}
+
+/// Objects that a module brings or extends, and that its lists do not name.
+fn of_modules(view: &View<'_>, found: &mut Repeated) {
+    for (number, module) in &view.modules {
+        let named = |list: ModuleTopic| -> BTreeSet<Index> {
+            module
+                .get(&list)
+                .into_iter()
+                .flat_map(Part::entries)
+                .filter_map(|entry| numbered::index(&entry))
+                .collect()
+        };
+        let (brought, extended) = (named(ModuleTopic::FixedObjects), named(ModuleTopic::SubExtends));
+        for (topic, part) in module {
+            let (index, list, name) = match topic {
+                ModuleTopic::Fixed(index, None) => (index, &brought, "FixedObjects"),
+                ModuleTopic::SubExtension(index) => (index, &extended, "SubExtends"),
+                ModuleTopic::ModuleInfo
+                | ModuleTopic::Comments
+                | ModuleTopic::FixedObjects
+                | ModuleTopic::SubExtends
+                | ModuleTopic::Fixed(_, Some(_)) => continue,
+            };
+            if !list.contains(index) {
+                found.add(part.place(), [], || {
+                    let message = format!("{index} of module {number} stands in no list of the module");
+                    Diagnostic::new(CODE, part.place(), message)
+                        .help(format!("add it to `[M{number}{name}]`"))
+                });
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! `SubNumber` is the number of sub-indices that have a section.
 
+use super::super::edits;
 use super::super::object_form::{Form, described, form};
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
@@ -35,7 +36,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         if declared == Some(count) || declared == Some(0) {
             continue;
         }
-        let edit = (count > 0).then(|| Edit { span: value.span, text: count.to_string() });
+        let text = || edits::number_like(value.value, count);
+        let edit = (count > 0).then(|| Edit { span: value.span, text: text() });
         found.add(value.span, edit, || {
             let message = match declared {
                 Some(declared) if count == 1 => {

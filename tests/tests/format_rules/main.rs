@@ -1,0 +1,44 @@
+//! The rules over the text of an EDS or DCF, and what `odgen fix` makes of them.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+
+mod messy;
+mod own_files;
+mod planted;
+mod random;
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use od_spec::diag::{Diagnostics, Severity};
+use od_spec::eds::{decode, findings};
+use od_spec::source::SourceMap;
+use od_tests::root;
+
+/// What is said about the bytes of a file.
+fn said(name: &str, bytes: &[u8]) -> (Diagnostics, SourceMap) {
+    let (text, encoding) = decode(bytes);
+    let mut sources = SourceMap::new();
+    let file = sources.add(name, text);
+    (findings(&sources, file, encoding), sources)
+}
+
+fn codes(diagnostics: &Diagnostics) -> BTreeSet<&'static str> {
+    diagnostics.iter().map(|diagnostic| diagnostic.code.id).collect()
+}
+
+fn errors(diagnostics: &Diagnostics) -> usize {
+    diagnostics.iter().filter(|one| one.severity() == Severity::Error).count()
+}
+
+/// The files with one of the endings in a directory of the repository.
+fn files(directory: &str, endings: &[&str]) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join(directory)).unwrap();
+    let has_ending = |path: &PathBuf| {
+        path.extension().is_some_and(|ending| endings.iter().any(|known| ending.eq_ignore_ascii_case(known)))
+    };
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).filter(has_ending).collect();
+    files.sort();
+    assert!(!files.is_empty(), "{directory}");
+    files
+}

@@ -1,0 +1,36 @@
+//! The files of `tests/eds`, each with a fault that the world's files have: what is said, and what is mended.
+
+use od_spec::diag::render::{Format, render};
+use od_spec::eds::fix;
+
+use crate::{codes, errors, files, said};
+
+#[test]
+fn messy_files_say_what_was_reviewed() {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path("../../eds/snapshots");
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| {
+        for path in files("tests/eds", &["eds", "dcf"]) {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            let bytes = std::fs::read(&path).unwrap();
+            let (found, sources) = said(name, &bytes);
+            let code = name.split('_').next().unwrap().to_uppercase();
+            assert!(codes(&found).contains(code.as_str()), "{name}: {:?}", codes(&found));
+
+            let fixed = fix(name, &bytes);
+            assert!(errors(&fixed.left) <= errors(&found), "{name}");
+            let left = render(&fixed.left, &fixed.sources, Format::Short, false);
+            let found = render(&found, &sources, Format::Short, false);
+            // Breaks and what cannot be seen are seen.
+            let text: String = fixed.text().split_inclusive('\n').map(|line| format!("{line:?}\n")).collect();
+            insta::assert_snapshot!(
+                name,
+                format!("found:\n{found}\nmended, in {}:\n{text}\nleft:\n{left}", fixed.encoding)
+            );
+            let again = fix(name, &fixed.to_bytes());
+            assert!(again.changes.is_empty() && again.to_bytes() == fixed.to_bytes(), "{name}");
+        }
+    });
+}

@@ -1,0 +1,17 @@
+//! What we write ourselves gives no rule a reason, not even for a note.
+
+use od_spec::eds::fix;
+
+use crate::{files, said};
+
+#[test]
+fn our_own_files_are_without_a_remark() {
+    for path in files("generated/eds", &["eds", "dcf"]) {
+        let name = path.to_str().unwrap();
+        let bytes = std::fs::read(&path).unwrap();
+        let (diagnostics, _) = said(name, &bytes);
+        assert!(diagnostics.is_empty(), "{name}: {diagnostics:?}");
+        let fixed = fix(name, &bytes);
+        assert!(fixed.changes.is_empty() && fixed.to_bytes() == bytes, "{name}: {:?}", fixed.changes);
+    }
+}
