@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Plant faults in EDS and DCF files, one in each copy.
 
-    mutate.py OUT
+    mutate.py OUT [--all]
 
 Takes files without a fault, the device of the self test and the shipped ones, and writes copies with one fault
 each: what vendors and editors do wrong, and what one reader or another does not take. A fault of an entry is
 planted in the first, a middle and the last object and sub-index where it can be. The same files come out of each
-run; their names say what was done where.
+run; their names say what was done where. Without --all, it is one of seven.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from pathlib import Path
 
 from run import HERE, ROOT
 
-Section = list[str]
-Lines = list[str]
+EVERY = 7
 
 
 class File:
@@ -326,31 +325,37 @@ def bases() -> Iterator[tuple[str, File, bool]]:
     yield shipped.name, File(shipped.read_text(encoding="utf-8")), False
 
 
-def write(folder: Path) -> int:
-    """Writes all files; how many."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    count = 0
+def contents() -> dict[str, bytes]:
+    """All files by name."""
+    files: dict[str, bytes] = {}
     for base, file, is_small in bases():
         stem, suffix = base.split(".")
-        all_of_it = [("as-it-is", file.text), *mutations(file, is_small)]
-        for what, text in all_of_it:
-            if what != "as-it-is" and text == file.text:
-                continue
-            (folder / f"{stem}-{what}.{suffix}").write_bytes(text.encode("utf-8"))
-            count += 1
-        if is_small:
-            for encoding in ("cp1252", "utf-16"):
-                text = file.text.replace("Umlaut", "Umläut", 1)
-                (folder / f"{stem}-{encoding}.{suffix}").write_bytes(text.encode(encoding))
-                count += 1
-    return count
+        files[f"{stem}-as-it-is.{suffix}"] = file.text.encode("utf-8")
+        for what, text in mutations(file, is_small):
+            if text != file.text:
+                files[f"{stem}-{what}.{suffix}"] = text.encode("utf-8")
+        for encoding in ("cp1252", "utf-16") if is_small else ():
+            text = file.text.replace("Umlaut", "Uml\u00e4ut", 1)
+            files[f"{stem}-{encoding}.{suffix}"] = text.encode(encoding)
+    return files
+
+
+def write(folder: Path, every: int = EVERY) -> int:
+    """Writes one file of so many; how many there are."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    chosen = list(contents().items())[::every]
+    for name, content in chosen:
+        (folder / name).write_bytes(content)
+    return len(chosen)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("out", type=Path)
-    print(f"{write(parser.parse_args().out)} files")
+    parser.add_argument("--all", action="store_true")
+    args = parser.parse_args()
+    print(f"{write(args.out, 1 if args.all else EVERY)} files")
     return 0
 
 

@@ -4,8 +4,8 @@
     predictions.py [FOLDER] [--odgen PROGRAM] [--out CACHE]
 
 A file is foretold to be refused by a reader if a finding about it, also a note, names the reader. Every reader
-has to agree on at least 97 of 100 files of FOLDER, by default those that mutate.py makes. Exit code 0: they do;
-1: one does not; 3: a reader could not be installed and was not asked.
+has to agree on at least 97 of 100 files of FOLDER, by default those that mutate.py makes.
+Exit code 0: they do; 1: one does not; 3: a reader could not be installed and was not asked.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
+from mutate import write
 from run import ROOT, installed
 from verdicts import Verdicts, files_in, verdicts
 
@@ -25,9 +26,9 @@ SHOWN = 10
 Predictions = dict[str, dict[str, list[str]]]
 
 
-def predictions(program: Path, files: list[Path]) -> Predictions:
+def predictions(program: Path, folder: Path, files: list[Path]) -> Predictions:
     """The codes of the findings that name a reader: by file, then by reader."""
-    command = [program, "check", "--format", "json", "--notes", "--all", *files]
+    command = [program, "check", "--format", "json", "--notes", "--all", folder]
     done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     found: Predictions = {file.name: defaultdict(list) for file in files}
     for line in done.stderr.splitlines():
@@ -53,34 +54,42 @@ def wrong(reader: str, said: Verdicts, foretold: Predictions) -> list[str]:
     return lines
 
 
-def compare(said: Verdicts, foretold: Predictions, names: list[str]) -> bool:
-    """Prints a table; whether each reader agrees on enough files."""
-    files, enough = len(said), True
+def compare(said: Verdicts, foretold: Predictions, names: list[str]) -> dict[str, float]:
+    """Prints a table; on how many of 100 files each reader does what was foretold."""
+    files, shares = len(said), {}
     print(f"{'reader':<16}{'files':>6}{'refused':>9}{'agreed':>8}")
     for name in names:
         lines = wrong(name, said, foretold)
         refused = sum(readers[name] is not None for readers in said.values())
         share = 100 * (files - len(lines)) / files
-        verdict = "" if share >= ENOUGH else f"   under {ENOUGH} %"
+        verdict = "" if share >= ENOUGH else f"  under {ENOUGH} %"
         print(f"{name:<16}{files:>6}{refused:>9}{share:>7.1f}%{verdict}")
-        print("\n".join(lines[:SHOWN] + ([f"  and {len(lines) - SHOWN} more"] if len(lines) > SHOWN else [])) or "  no difference")
-        enough = enough and share >= ENOUGH
-    return enough
+        for line in lines[:SHOWN]:
+            print(line)
+        if len(lines) > SHOWN:
+            print(f"  and {len(lines) - SHOWN} more")
+        shares[name] = share
+    return shares
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("folder", type=Path, nargs="?")
     parser.add_argument("--odgen", type=Path, required=True, help="the program")
     parser.add_argument("--out", type=Path, default=ROOT / "target" / "readers", help="cache of the tools")
     args = parser.parse_args()
     readers, missing = installed(args.out.resolve())
-    files = files_in(args.folder)
+    folder = args.folder or args.out / "mutated"
+    if not args.folder:
+        write(folder)
+    files = files_in(folder)
     said = verdicts(files, readers)
-    enough = compare(said, predictions(args.odgen, files), [reader.name for reader in readers])
+    names = [reader.name for reader in readers]
+    short = [name for name, share in compare(said, predictions(args.odgen, folder, files), names).items() if share < ENOUGH]
     for name, reason in missing.items():
         print(f"{name} was not asked: {reason}")
-    return 1 if not enough else 3 if missing else 0
+    print(f"\n{len(names) - len(short)} passed, {len(short)} failed, {len(missing)} skipped")
+    return 1 if short or not names else 3 if missing else 0
 
 
 if __name__ == "__main__":
