@@ -1,8 +1,6 @@
 //! An EDS or DCF as a specification: the model as text, with what was wrong beside the object that it was wrong at, and what
 //! has no place at the end.
 
-use std::collections::BTreeMap;
-
 use od_spec::Compiled;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::eds::{Document, Owner};
@@ -20,6 +18,8 @@ pub struct Imported {
     pub text: String,
     /// What it says otherwise than the file; the text has a comment for each.
     pub repairs: Vec<Repair>,
+    /// Rules that the device breaks; the text allows them, with what was found.
+    pub allowed: Vec<&'static str>,
     /// How many facts of the file have no place in a specification; they are listed at the end of the text.
     pub without_place: usize,
 }
@@ -56,7 +56,7 @@ pub fn import(
         if WITHOUT_PLACE.contains(&finding.code.id) {
             without_place.push(format!("line {line}: {}", finding.message));
         } else if changes_what_is_read(finding) {
-            let text = format!("{} line {line}: {}", base_name(file.name()), finding.message);
+            let text = format!("line {line}: {} ({})", finding.message, finding.code.id);
             let place = place(device, document.owner(label.span)).unwrap_or(Place::Device);
             options.comments.entry(place).or_default().push(text);
         }
@@ -68,14 +68,17 @@ pub fn import(
     Some(written.map(|written| Imported {
         text: written.text,
         repairs: written.repairs,
+        allowed: written.allowed,
         without_place: count + written.left_out.len(),
     }))
 }
 
 /// Whether a finding means that the specification says something else than the letters of the file.
 fn changes_what_is_read(finding: &Diagnostic) -> bool {
-    let of_reader = ["EDS4", "EDS5", "OD04"].iter().any(|prefix| finding.code.id.starts_with(prefix));
-    of_reader && finding.code.severity == Severity::Error && finding.edits.is_empty()
+    let about_facts =
+        ["EDS40", "EDS41", "EDS5", "OD"].iter().any(|prefix| finding.code.id.starts_with(prefix));
+    let is_about_name = ["OD0303", "OD0318"].contains(&finding.code.id);
+    about_facts && !is_about_name && finding.code.severity == Severity::Error && finding.edits.is_empty()
 }
 
 /// Where a specification speaks of what a section is about; `None` for the file as a whole, and for what is left out.

@@ -91,6 +91,11 @@ pub fn compile_as(
     }
 }
 
+/// Everything that there is to say about an EDS or DCF, as serious as the standard takes it.
+pub(crate) fn findings(sources: &SourceMap, file: FileId) -> Diagnostics {
+    compile_eds(&check::RULES.iter().collect::<Vec<_>>(), sources, file, Strictness::Standard).diagnostics
+}
+
 /// An EDS or DCF goes the way of a specification, but for its reader.
 fn compile_eds(
     rules: &[&check::Rule],
@@ -101,8 +106,9 @@ fn compile_eds(
     let mut diagnostics = Diagnostics::new();
     let file = sources.file(root);
     let document = eds::Document::scan(root, file.text());
-    let facts = FileFacts { name: eds::file_name(file.name()), encoding: file.encoding() };
-    let view = View::new(&document, root, eds::is_dcf(facts.name), facts);
+    let name = eds::file_name(file.name());
+    let facts = FileFacts { name, encoding: file.encoding() };
+    let view = View::new(&document, root, eds::is_dcf(name), facts);
     eds::check::document(&view, &mut diagnostics);
     let Read { spec, node } = read(&view, file.name(), &mut diagnostics);
     let Resolved { system, .. } = resolve::resolve(&spec, &[], &mut diagnostics);

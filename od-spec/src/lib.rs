@@ -34,6 +34,7 @@ pub mod eds;
 pub mod encoding;
 mod explain;
 pub mod expr;
+mod fix;
 #[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;
@@ -53,6 +54,7 @@ mod standard;
 pub mod wording;
 pub mod yaml;
 
+pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::Commissioning;
@@ -60,6 +62,7 @@ pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, co
 pub use decode::{is_device_key, nearest};
 pub use departures::departures;
 pub use explain::{all_codes, code, explanation};
+pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;
 pub use library::{Feature, Library, LibraryObject, library};

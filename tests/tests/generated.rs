@@ -21,7 +21,7 @@ fn everything(name: &str, text: &str) -> Vec<u8> {
     let mut sources = SourceMap::new();
     let id = sources.add(name, text);
     let system = compile(&mut sources, id, &mut NoFiles).system.expect("no errors");
-    let set = artifacts(&system, "x", &Selection { devices: &[], node: Some(5), configured: None });
+    let set = artifacts(&system, "x", &Selection { node: Some(5), ..Selection::default() });
     set.into_iter().flat_map(|artifact| artifact.bytes).collect()
 }
 

@@ -56,7 +56,7 @@ fn outputs(text: &str) -> Vec<(String, String)> {
     let templates = [Format::Markdown, Format::Html].map(|format| Templates::new(Some(format), &[]).unwrap());
     let documents =
         docs::artifacts(&system, "docs/", "spec", &docs::options(&system, &[], None), &templates).unwrap();
-    let files = artifacts(&system, "spec", &Selection { devices: &[], node: Some(1) });
+    let files = artifacts(&system, "spec", &Selection { node: Some(1), ..Selection::default() });
     let all = files.into_iter().chain(rust).chain(documents);
     all.map(|Artifact { path, bytes, .. }| (path, String::from_utf8(bytes).unwrap())).collect()
 }

@@ -26,6 +26,11 @@ pub(super) fn header(context: &Context<'_>, uses: &[String]) -> Vec<Item> {
     if !uses.is_empty() {
         items.push(Item::new("uses", Node::List(uses.iter().map(Node::plain).collect())));
     }
+    let allowed = &context.remarks.allowed;
+    if !allowed.is_empty() {
+        let reasons = allowed.iter().map(|(code, reason)| Item::new(*code, Node::text(reason.clone())));
+        items.push(Item::new("allow", Node::Block(reasons.collect())));
+    }
     items
 }
 

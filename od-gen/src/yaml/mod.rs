@@ -49,6 +49,8 @@ pub struct Specification {
     pub text: String,
     /// What it says otherwise than the model; the text has a comment for each.
     pub repairs: Vec<Repair>,
+    /// The rules that the model breaks, by code: the text allows them, each with what was found.
+    pub allowed: Vec<&'static str>,
     /// What the model has and the text does not: parts of a specification that no EDS can hold.
     pub left_out: Vec<String>,
 }
@@ -105,7 +107,8 @@ pub fn specification(
     let not_said = compare::differing(&draft.device, &found);
     left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));
     let text = short(&draft, &found, options, &remarks).unwrap_or(plain).text;
-    Ok(Specification { text, repairs: remarks.repairs, left_out })
+    let allowed = remarks.allowed.into_keys().collect();
+    Ok(Specification { text, repairs: remarks.repairs, allowed, left_out })
 }
 
 /// Takes out what a specification made of an EDS does not have; tells what that was.
@@ -150,7 +153,7 @@ fn errors(written: &Written) -> (Option<System>, Vec<Diagnostic>) {
     let mut sources = SourceMap::new();
     let root = sources.add("specification.od.yaml", written.text.as_str());
     let compiled = compile(&mut sources, root, &mut NoFiles);
-    let errors = compiled.diagnostics.iter().filter(|one| one.code.severity == Severity::Error);
+    let errors = compiled.diagnostics.iter().filter(|one| one.severity() == Severity::Error);
     (compiled.system, errors.cloned().collect())
 }
 
@@ -169,9 +172,13 @@ fn mended(
             return Ok((written, found));
         }
         let effort = if round < ROUNDS_FOR_FACTS { Effort::Fact } else { Effort::Object };
-        let before = remarks.repairs.len();
+        let before = remarks.count();
+        let allowed: BTreeSet<&str> = remarks.allowed.keys().copied().collect();
         let mut mended: BTreeSet<usize> = BTreeSet::new();
         for error in &errors {
+            if remarks.allow(error, &allowed) {
+                continue;
+            }
             // Of several messages about one place, the first may take the others with it.
             let at = error.labels.first().map(|label| label.span.start as usize);
             let spot = at.and_then(|at| {
@@ -185,7 +192,7 @@ fn mended(
             }
         }
         last = errors;
-        if remarks.repairs.len() == before {
+        if remarks.count() == before {
             break;
         }
     }

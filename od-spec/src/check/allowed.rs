@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::RULES;
 use crate::ast::{Name, Spec};
 use crate::decode::nearest;
-use crate::diag::{Diagnostic, Diagnostics, Severity, codes, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Severity, codes, shorten};
 use crate::model::Text;
 
 /// The codes that a specification allows, each with the reason.
@@ -13,6 +13,11 @@ pub(crate) struct Allowed<'a> {
     by_code: BTreeMap<&'a str, (&'a Name, &'a Text)>,
     /// Those that a rule has found something for.
     used: Vec<&'a str>,
+}
+
+/// Whether a specification can allow what a code says: that of a rule, and none of reading.
+pub fn can_be_allowed(code: &Code) -> bool {
+    RULES.iter().any(|rule| rule.code == code)
 }
 
 impl<'a> Allowed<'a> {

@@ -4,10 +4,10 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use super::Encoding;
 use super::check::{FormatRule, RULES};
 use super::findings::findings_with;
 use crate::diag::{Diagnostics, Example};
+use crate::encoding::Encoding;
 use crate::source::SourceMap;
 
 fn said<'r>(rules: impl Iterator<Item = &'r FormatRule>, example: Example, text: &str) -> Diagnostics {

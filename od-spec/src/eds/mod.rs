@@ -9,8 +9,8 @@ pub(crate) mod codes;
 pub(crate) mod dates;
 mod document;
 pub(crate) mod example;
+#[cfg(test)]
 mod findings;
-mod fix;
 pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod owner;
@@ -31,6 +31,11 @@ pub fn has_eds_name(name: &str) -> bool {
     ends_with(name, ".eds") || is_dcf(name)
 }
 
+/// The name of a file without its directories.
+pub(crate) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
 /// Whether a file is named like a DCF.
 pub(crate) fn is_dcf(name: &str) -> bool {
     ends_with(name, ".dcf")
@@ -41,11 +46,7 @@ fn ends_with(name: &str, extension: &str) -> bool {
     start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
 }
 
-pub use crate::encoding::{Encoding, decode, encode};
 pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
-pub(crate) use findings::file_name;
-pub use findings::findings;
-pub use fix::{Change, Fixed, fix};
 pub use owner::{Owner, Remark};
 
 #[cfg(test)]

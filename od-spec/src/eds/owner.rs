@@ -49,7 +49,7 @@ fn owner(section: &SectionRef<'_, '_>) -> Owner {
     }
 }
 
-impl<'t> Document<'t> {
+impl Document<'_> {
     /// What a place in the document is about.
     pub fn owner(&self, place: Span) -> Owner {
         let begins = |section: &SectionRef<'_, '_>| {

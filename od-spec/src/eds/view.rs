@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::Encoding;
 use super::document::{Document, Line, LineKind, SectionRef};
 use super::names::{ElementList, List, ModuleTopic, Topic, topic};
+use crate::encoding::Encoding;
 use crate::model::Index;
 use crate::source::{FileId, Span, Spanned};
 
@@ -67,12 +67,17 @@ pub(crate) struct Entry<'d> {
 }
 
 impl<'d> View<'d> {
-    pub(crate) fn new(document: &'d Document<'d>, file: FileId, is_dcf: bool, facts: FileFacts<'d>) -> Self {
+    pub(crate) fn new(
+        document: &'d Document<'d>,
+        file: FileId,
+        has_dcf_name: bool,
+        facts: FileFacts<'d>,
+    ) -> Self {
         let mut view = Self {
             document,
             file,
             facts,
-            is_dcf,
+            is_dcf: has_dcf_name,
             sections: BTreeMap::new(),
             unknown: Vec::new(),
             objects: BTreeMap::new(),

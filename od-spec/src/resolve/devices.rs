@@ -29,7 +29,6 @@ pub(super) fn resolve(
                 around: Surroundings {
                     scope,
                     file: root.file,
-                    front_end: root.front_end,
                     eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
                 objects: BTreeMap::new(),
@@ -74,7 +73,7 @@ pub(super) fn of_library(
     diagnostics: &mut Diagnostics,
 ) -> Option<Dictionary> {
     let profile = root.profile.as_ref()?;
-    let around = Surroundings { scope, file: root.file, front_end: root.front_end, eds: EdsDefaults::Safe };
+    let around = Surroundings { scope, file: root.file, eds: EdsDefaults::Safe };
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));

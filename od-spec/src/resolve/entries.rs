@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{BitErrorDecl, BitRange, EntryDecl, FrontEnd, Name, SpecialDecl};
+use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -20,8 +20,6 @@ pub(super) struct Surroundings<'a> {
     pub scope: &'a Scope,
     /// The specification's own file; other facts come from libraries.
     pub file: FileId,
-    /// In which form the device was written.
-    pub front_end: FrontEnd,
     /// Which defaults the EDS withholds.
     pub eds: EdsDefaults,
 }

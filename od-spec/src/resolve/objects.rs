@@ -3,7 +3,7 @@
 use super::decls::Declared;
 use super::entries::{self, Surroundings};
 use super::types::words;
-use crate::ast::{ArrayDecl, EntryDecl, FrontEnd, ObjectDecl, RecordDecl};
+use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -212,10 +212,7 @@ fn finish(
         sub0 = entries::resolve(&count.over(&usual), SubIndex(0), name, around, diagnostics)?;
     }
     // How many of its entries a PDO maps, and how many errors there were, does not follow from how many it has.
-    let varies = match around.front_end {
-        FrontEnd::Specification => Role::of(decl.index.value) == Role::PdoMapping,
-        FrontEnd::Eds => sub0.access.is_writable() || is_counted_at_run_time(decl.index.value),
-    };
+    let varies = sub0.access.is_writable() || is_counted_at_run_time(decl.index.value);
     if sub0.default.is_none() && !varies {
         sub0.set_default(Some(Value::Integer(i128::from(highest.0))), Statement::derived(span));
     }

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::{Code, Diagnostics, Example, Language, Severity, codes as known};
-use od_spec::eds::{Encoding, findings};
 use od_spec::source::SourceMap;
-use od_spec::{all_codes, code, read_text};
+use od_spec::{NoFiles, Strictness, all_codes, code, compile_as, read_text};
 
 use crate::bytes_and_libraries::{LAMP, compiled_with};
 use crate::settings::{HEATER, assigned};
@@ -61,7 +60,8 @@ fn names_clash() -> Diagnostics {
 pub(crate) fn eds_example(example: &Example) -> (Diagnostics, SourceMap) {
     let mut sources = SourceMap::new();
     let file = sources.add(example.language.file_name(), example.whole(example.before));
-    (findings(&sources, file, Encoding::Ascii), sources)
+    let compiled = compile_as(Strictness::Standard, &mut sources, file, &mut NoFiles);
+    (compiled.diagnostics, sources)
 }
 
 /// What is said about the example of a code, with the settings that it gives as comments.

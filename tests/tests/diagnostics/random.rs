@@ -75,7 +75,7 @@ fn apply(text: &str, damage: &Damage) -> String {
 /// Compiles and renders in every format; nothing may panic, and a refusal has a reason with a place.
 fn compile_anything(text: &str) {
     let (sources, root, compiled) = run("random.od.yaml", text);
-    for format in [Format::Human, Format::Short, Format::Json] {
+    for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
         let out = render(&compiled.diagnostics, &sources, format, false);
         if format != Format::Human {
             assert_eq!(out.lines().count(), compiled.diagnostics.iter().count());

@@ -93,7 +93,11 @@ fn shape(text: &str) -> (Vec<String>, Vec<&'static str>) {
             object.entries.iter().map(|entry| format!("{} {}", entry.sub, entry.name)).collect();
         format!("{} {}: {}", object.index, object.kind.name(), subs.join(", "))
     });
-    let codes = compiled.diagnostics.iter().map(|found| found.code.id).filter(|id| id.starts_with("EDS4"));
+    let codes = compiled
+        .diagnostics
+        .iter()
+        .map(|found| found.code.id)
+        .filter(|id| id.starts_with("EDS40") || id.starts_with("EDS41"));
     (shown.collect(), codes.collect())
 }
 

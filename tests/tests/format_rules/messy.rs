@@ -1,7 +1,8 @@
 //! The files of `tests/eds`, each with a fault that the world's files have: what is said, and what is mended.
 
 use od_spec::diag::render::{Format, render};
-use od_spec::eds::fix;
+use od_spec::fix;
+use std::fmt::Write as _;
 
 use crate::{codes, errors, files, said};
 
@@ -24,7 +25,10 @@ fn messy_files_say_what_was_reviewed() {
             let left = render(&fixed.left, &fixed.sources, Format::Short, false);
             let found = render(&found, &sources, Format::Short, false);
             // Breaks and what cannot be seen are seen.
-            let text: String = fixed.text().split_inclusive('\n').map(|line| format!("{line:?}\n")).collect();
+            let text: String = fixed.text().split_inclusive('\n').fold(String::new(), |mut text, line| {
+                let _ = writeln!(text, "{line:?}");
+                text
+            });
             insta::assert_snapshot!(
                 name,
                 format!("found:\n{found}\nmended, in {}:\n{text}\nleft:\n{left}", fixed.encoding)

@@ -1,6 +1,6 @@
 //! What we write ourselves gives no rule a reason, not even for a note.
 
-use od_spec::eds::fix;
+use od_spec::fix;
 
 use crate::{files, said};
 

@@ -1,6 +1,7 @@
 //! Faults that are planted into a file of ours: each gives its code at its line, and what can be mended is as before.
 
-use od_spec::eds::{Document, fix};
+use od_spec::eds::Document;
+use od_spec::fix;
 use od_spec::source::SourceMap;
 use od_tests::root;
 

@@ -1,6 +1,6 @@
 //! Whatever a text is, the rules say something about it without a panic, at places that exist, and mending it ends.
 
-use od_spec::eds::fix;
+use od_spec::fix;
 use od_tests::root;
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -96,8 +96,8 @@ impl Cli {
             Command::Dcf(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
-            Command::Fix(args) => args.messages.format,
             Command::Import(args) => args.messages.format,
+            Command::Fix(args) => args.messages.format,
             Command::New(args) => args.messages.format,
             _ => None,
         };
@@ -151,10 +151,10 @@ pub(crate) enum Command {
     Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
-    /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
-    Fix(FixArgs),
     /// Make a specification of an EDS or DCF
     Import(ImportArgs),
+    /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
+    Fix(FixArgs),
     /// Write a commented specification to start from
     New(NewArgs),
     /// Tell what a message code means and what to do about it

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
-use od_spec::eds::{Document, Fixed, decode, fix};
+use od_spec::eds::Document;
+use od_spec::encoding::decode;
 use od_spec::source::SourceMap;
+use od_spec::{Fixed, fix};
 use similar::{ChangeTag, DiffOp, group_diff_ops};
 
 use super::args::FixArgs;

@@ -9,11 +9,11 @@ use od_gen::source::{FileLoader, compile_file};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::source::SourceMap;
 
+use super::ERRORS;
 use super::args::ImportArgs;
 use super::output::{clash, save};
 use super::report::{Report, print};
 use super::specs::stem;
-use super::{ERRORS, SUCCESS};
 
 pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
     let mut set = Vec::new();
@@ -43,7 +43,7 @@ pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
         Ok(_) => {
             if let [only] = set.as_slice() {
                 let name = args.out.join(&only.path);
-                let _ = write!(summary, "next: odgen build --rust --docs html {}\n", name.display());
+                let _ = writeln!(summary, "next: odgen build --rust --docs html {}", name.display());
             }
             print(&summary)
         }
@@ -91,6 +91,7 @@ fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
 fn describe(name: &str, objects: usize, imported: &Imported) -> String {
     let mut line = format!("{name}: {objects} objects");
     for (count, what) in [
+        (imported.allowed.len(), "rules that it breaks allowed, see `allow:`"),
         (imported.repairs.len(), "changed because a specification refuses it, see the comments"),
         (imported.without_place, "without a place in a specification, listed at the end"),
     ] {

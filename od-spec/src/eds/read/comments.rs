@@ -4,6 +4,7 @@
 //! Everything else stays a text. A comment can add a meaning to what the keys say, and never contradict them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 
 use super::made;
 use crate::ast::{BitDecl, BitRange, EdsDecl, EntryDecl, SpecialDecl, TypeDecl, UnitDecl, ValueDecl};
@@ -368,7 +369,7 @@ fn content(named: &TypeDecl) -> String {
     let mut content = named.base.as_ref().map_or(String::new(), |base| base.value.clone());
     let mut add = |first: i128, last: i128, name: Option<&Spanned<String>>, supported: bool| {
         let name = name.map_or("", |name| name.value.as_str());
-        content.push_str(&format!("|{first}..{last}:{supported}:{name}"));
+        let _ = write!(content, "|{first}..{last}:{supported}:{name}");
     };
     for value in named.values.iter().flatten() {
         let number = value.value.value;

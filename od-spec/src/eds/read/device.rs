@@ -85,7 +85,7 @@ fn device_type(objects: &[ObjectDecl]) -> Option<Spanned<i128>> {
 
 /// A key made from the name of a file: `Drive_V1.08.eds` gives `drive-v1-08`.
 fn key(file_name: &str) -> String {
-    let base = file_name.rsplit(['/', '\\']).next().unwrap_or(file_name);
+    let base = crate::eds::file_name(file_name);
     let stem = base.rsplit_once('.').map_or(base, |(stem, _)| stem);
     let plain = stem.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "-");
     let words: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();

@@ -111,7 +111,7 @@ impl Extension {
                 }
             }
             Count::Bits(bits) if self.bits.saturating_add(u16::from(bits)) <= width => {
-                self.bits += u16::from(bits)
+                self.bits += u16::from(bits);
             }
             Count::Bits(bits) => {
                 self.add(&entry, highest, section.place(), objects);

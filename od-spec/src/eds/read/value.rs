@@ -133,14 +133,13 @@ fn real(text: Spanned<&str>, data_type: DataType, diagnostics: &mut Diagnostics)
 
 fn from_bits(digits: &str, data_type: DataType) -> Option<String> {
     let bits = u64::from_str_radix(digits, 16).ok()?;
-    let text = if data_type == DataType::Real32 {
+    if data_type == DataType::Real32 {
         let number = f32::from_bits(u32::try_from(bits).ok()?);
         number.is_finite().then(|| number.to_string())
     } else {
         let number = f64::from_bits(bits);
         number.is_finite().then(|| number.to_string())
-    };
-    text
+    }
 }
 
 fn decimal(text: &str, data_type: DataType) -> Option<String> {
@@ -172,7 +171,7 @@ fn octets(text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Option<String> 
     let digits =
         text.value.strip_prefix("0x").or_else(|| text.value.strip_prefix("0X")).unwrap_or(text.value);
     let digits = digits.replace([' ', '\t'], "");
-    if digits.len() % 2 != 0 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+    if !digits.len().is_multiple_of(2) || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         diagnostics.push(unreadable(text, "OCTET_STRING"));
         return None;
     }

@@ -32,7 +32,7 @@ pub(crate) fn configured(runner: &mut Runner) -> Result<(), Failure> {
 /// Writes the EDS, DCF and dump of `everything.od.yaml`.
 fn write_everything() -> Result<System, Failure> {
     let system = compile_clean("tests/readers/everything.od.yaml")?;
-    let set = artifacts(&system, "everything", &Selection { devices: &[], node: Some(5) });
+    let set = artifacts(&system, "everything", &Selection { node: Some(5), ..Selection::default() });
     write_all(&root().join("target/everything"), &set)?;
     Ok(system)
 }
@@ -55,7 +55,7 @@ pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
     let mut dumps = Vec::new();
     for stem in ["lift", "started", "started-all", "started-pp-hm"] {
         let system = compile_clean(&format!("target/drives/{stem}.od.yaml"))?;
-        write_all(&folder, &artifacts(&system, stem, &Selection { devices: &[], node: Some(1) }))?;
+        write_all(&folder, &artifacts(&system, stem, &Selection { node: Some(1), ..Selection::default() }))?;
         dumps.push(format!("target/drives/{stem}.json"));
     }
     let mut arguments = vec!["--eds-dir", "target/drives/eds", "--dump"];

@@ -2,7 +2,7 @@
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::findings::file_name;
+use crate::eds::file_name;
 use crate::eds::names::Topic;
 use crate::eds::view::View;
 

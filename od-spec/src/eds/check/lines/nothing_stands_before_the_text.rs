@@ -2,8 +2,8 @@
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
-use crate::eds::Encoding;
 use crate::eds::view::View;
+use crate::encoding::Encoding;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 

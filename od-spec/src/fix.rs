@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::findings::findings;
-use super::{Encoding, decode, encode};
+use crate::compile::findings;
 use crate::diag::{Code, Diagnostics, Edit, Severity};
+use crate::eds::check::BYTE_ORDER_MARK;
+use crate::encoding::{Encoding, decode, encode};
 use crate::source::{FileId, SourceMap};
 
 /// Most rounds of changes: each may make room for others, such as the first entry of a list that was missing.
@@ -64,7 +65,7 @@ impl Fixed {
 /// Doing it twice changes nothing, and it never makes more errors than there were.
 ///
 /// ```
-/// use od_spec::eds::fix;
+/// use od_spec::fix;
 ///
 /// let fixed = fix("lamp.eds", b"# nothing to say\n[comments]\nLines = 1\n");
 /// assert!(fixed.text().starts_with("; nothing to say\n[Comments]\nLines=0\n"));
@@ -76,11 +77,14 @@ pub fn fix(name: &str, bytes: &[u8]) -> Fixed {
     let mut fixed = rounds(name, text, encoding, findings);
     // A mark in front of the text, or two bytes for each character, are no part of the text.
     if fixed.text().is_ascii() && fixed.encoding != Encoding::Ascii {
-        let mark = fixed.left.iter().find(|one| one.code.id == super::check::BYTE_ORDER_MARK.id);
+        let mark = fixed.left.iter().find(|one| one.code.id == BYTE_ORDER_MARK.id);
         fixed.changes.extend(mark.map(|one| Change { place: 0..0, code: one.code }));
         fixed.changes.sort_by_key(|change| (change.place.start, change.code));
         fixed.encoding = Encoding::Ascii;
-        fixed.left = findings(&fixed.sources, fixed.file, fixed.encoding);
+        let text = fixed.text().to_owned();
+        fixed.sources = SourceMap::new();
+        fixed.file = fixed.sources.add_decoded(name, text, Encoding::Ascii);
+        fixed.left = findings(&fixed.sources, fixed.file);
     }
     fixed
 }
@@ -90,12 +94,12 @@ fn rounds(
     name: &str,
     text: String,
     encoding: Encoding,
-    look: impl Fn(&SourceMap, FileId, Encoding) -> Diagnostics,
+    look: impl Fn(&SourceMap, FileId) -> Diagnostics,
 ) -> Fixed {
     let read = |text: String| {
         let mut sources = SourceMap::new();
-        let file = sources.add(name, text);
-        let left = look(&sources, file, encoding);
+        let file = sources.add_decoded(name, text, encoding);
+        let left = look(&sources, file);
         Fixed { sources, file, encoding, changes: Vec::new(), left }
     };
     let mut fixed = read(text);
@@ -232,7 +236,7 @@ mod tests {
     /// Whoever looks, two changes of one place are made one after the other, and the first by place comes first.
     #[test]
     fn changes_of_one_place_are_made_in_rounds() {
-        let look = |sources: &SourceMap, file: FileId, _: Encoding| {
+        let look = |sources: &SourceMap, file: FileId| {
             let mut said = Diagnostics::new();
             let text = sources.file(file).text();
             for (from, to, code) in
@@ -257,7 +261,7 @@ mod tests {
 
     #[test]
     fn changes_that_never_end_or_make_more_errors_are_not_made() {
-        let growing = |sources: &SourceMap, file: FileId, _: Encoding| {
+        let growing = |sources: &SourceMap, file: FileId| {
             let mut said = Diagnostics::new();
             let whole = sources.whole(file);
             for at in 0..whole.end {
@@ -267,7 +271,7 @@ mod tests {
             said
         };
         assert_eq!(rounds("a", "ab".to_owned(), Encoding::Ascii, growing).text(), "ab");
-        let endless = |sources: &SourceMap, file: FileId, _: Encoding| {
+        let endless = |sources: &SourceMap, file: FileId| {
             let mut said = Diagnostics::new();
             let start = sources.whole(file).part(0, 0);
             said.push(Diagnostic::new(codes::BAD_FLAG, start, "wrong").edit(start, "x"));
