@@ -86,7 +86,6 @@ fn real(data_type: i128, text: &str) -> Option<f64> {
     u64::try_from(bits).ok().map(f64::from_bits)
 }
 
-const OUT_OF_TYPE: &str = "a limit that its data type does not have";
 const UNREADABLE: &str =
     "a value or limit in another notation than `10`, `0xA` or `$NODEID+0xA`, or a REAL in decimal";
 
@@ -107,21 +106,25 @@ pub(super) fn data_type(section: &Section<'_>, refusals: &mut Refusals) {
 }
 
 fn check_limit(data_type: i128, limit: &Item<'_>, refusals: &mut Refusals) {
+    if is_outside_type(data_type, limit) {
+        return refusals.add(limit.place, Cause::Value, "a limit that its data type does not have");
+    }
+    // In a limit of an integer, what does not fit the expression at all is only warned of.
+    let is_warned_of = integer(data_type).is_some() && formula(&limit.value).is_none();
+    if value(data_type, &limit.value).is_none() && !is_warned_of {
+        refusals.add(limit.place, Cause::Number, UNREADABLE);
+    }
+}
+
+fn is_outside_type(data_type: i128, limit: &Item<'_>) -> bool {
     match (value(data_type, &limit.value), integer(data_type)) {
         (Some(Value::Integer { number, has_node }), Some((bits, is_signed))) => {
             let (low, high) = range(bits, is_signed);
             let (low, high) = if has_node { (low - 1, high - 127) } else { (low, high) };
-            if !(low..=high).contains(&number) {
-                refusals.add(limit.place, Cause::Value, OUT_OF_TYPE);
-            }
+            !(low..=high).contains(&number)
         }
-        (Some(Value::Real(number)), _) if is_too_large(data_type, number) => {
-            refusals.add(limit.place, Cause::Value, OUT_OF_TYPE);
-        }
-        (Some(_), _) => {}
-        // In a limit, what does not fit the expression at all is only warned of.
-        (None, Some(_)) if formula(&limit.value).is_none() => {}
-        (None, _) => refusals.add(limit.place, Cause::Number, UNREADABLE),
+        (Some(Value::Real(number)), _) => is_too_large(data_type, number),
+        (Some(Value::Integer { .. }) | None, _) => false,
     }
 }
 
@@ -146,6 +149,14 @@ pub(super) fn check_value(section: &Section<'_>, item: &Item<'_>, refusals: &mut
     let Some(data_type) = section.value("DataType").and_then(|text| int(text, 0)) else {
         return refusals.add(item.place, Cause::Missing, "the data type of a value");
     };
+    // A limit that its type does not have is refused itself.
+    if ["LowLimit", "HighLimit"]
+        .iter()
+        .filter_map(|key| section.filled(key))
+        .any(|limit| is_outside_type(data_type, limit))
+    {
+        return;
+    }
     let limit = |key| section.filled(key).map(|item| value(data_type, &item.value));
     let (low, high) = match (limit("LowLimit"), limit("HighLimit")) {
         (Some(None), _) | (_, Some(None)) if is_basic(data_type) => {
