@@ -14,7 +14,7 @@ macro_rules! codes {
                 foreign: Severity::Note,
                 title: $title,
                 explanation: $explanation,
-                clause: Some("CiA 306 4.2"),
+                clause: None,
                 example: None,
             };
         )+
