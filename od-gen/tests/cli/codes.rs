@@ -5,7 +5,8 @@ use std::fs;
 use crate::provoked::PROVOKED;
 use crate::{Scratch, odgen, stderr};
 
-/// Name and text of each file: a lamp whose 1017h departs from cia301, and a template with a mistake.
+/// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, and a file that each of five readers
+/// refuses for something.
 const FILES: &[(&str, &str)] = &[
     (
         "lamp.od.yaml",
@@ -13,6 +14,7 @@ const FILES: &[(&str, &str)] = &[
          objects:\n  0x1017: {from: cia301, name: heartbeat}\n",
     ),
     ("templates/device.txt", "{{ device.nmae }}\n"),
+    ("readers.eds", include_str!("eds/readers.eds")),
 ];
 
 #[test]

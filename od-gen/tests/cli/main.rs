@@ -6,6 +6,7 @@ mod build;
 mod check;
 mod check_inputs;
 mod check_policy;
+mod check_readers;
 mod codes;
 mod dcf;
 mod diff;

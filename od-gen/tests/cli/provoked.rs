@@ -6,7 +6,18 @@ pub(crate) struct Provocation {
     pub(crate) arguments: &'static [&'static str],
 }
 
+/// What readers do not take in a file that nobody else minds.
+const READERS: &[&str] = &["check", "readers.eds", "--notes", "--all"];
+
 pub(crate) const PROVOKED: &[Provocation] = &[
+    Provocation { code: "EDS801", arguments: READERS },
+    Provocation { code: "EDS802", arguments: READERS },
+    Provocation { code: "EDS803", arguments: READERS },
+    Provocation { code: "EDS804", arguments: READERS },
+    Provocation { code: "EDS805", arguments: READERS },
+    Provocation { code: "EDS806", arguments: READERS },
+    Provocation { code: "EDS807", arguments: READERS },
+    Provocation { code: "EDS808", arguments: READERS },
     Provocation { code: "OD0101", arguments: &["check", "missing.od.yaml"] },
     Provocation { code: "OD0701", arguments: &["dcf", "lamp.od.yaml", "--device", "lamp", "--node", "0"] },
     Provocation {

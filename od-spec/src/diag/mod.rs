@@ -6,6 +6,7 @@ pub mod render;
 
 pub use code::{Code, Example, Language};
 
+use crate::eds::readers::{self, Readers};
 use crate::source::Span;
 
 /// How serious a [`Diagnostic`] is.
@@ -66,6 +67,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// The changes that put it right, all together; none where a person has to decide.
     pub edits: Vec<Edit>,
+    /// The readers of other people that refuse an EDS or DCF because of this, or are reported to stumble.
+    pub minded_by: Readers,
 }
 
 /// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
@@ -103,6 +106,7 @@ impl Diagnostic {
             help: None,
             notes: Vec::new(),
             edits: Vec::new(),
+            minded_by: Readers::NONE,
         }
     }
 
@@ -141,6 +145,13 @@ impl Diagnostic {
     pub fn edit(mut self, span: Span, text: impl Into<String>) -> Self {
         self.edits.push(Edit { span, text: text.into() });
         self
+    }
+
+    /// The notes, and who stumbles over it.
+    pub(crate) fn all_notes(&self) -> impl Iterator<Item = String> {
+        // Notes about what a reader refuses name it already.
+        let sentences = if readers::names_them(self.code) { Vec::new() } else { self.minded_by.sentences() };
+        self.notes.iter().cloned().chain(sentences)
     }
 
     /// How serious it is.
@@ -197,6 +208,11 @@ impl Diagnostics {
         for diagnostic in &mut self.list {
             diagnostic.severity = diagnostic.code.foreign;
         }
+    }
+
+    /// The messages, in order, to be changed.
+    pub(crate) fn as_mut_slice(&mut self) -> &mut [Diagnostic] {
+        &mut self.list
     }
 
     /// The messages, in order.

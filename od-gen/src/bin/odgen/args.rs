@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
+use od_spec::eds::readers::Reader;
 
 /// Checks CANopen object dictionaries – specifications, EDS and DCF files – and makes EDS, DCF, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
@@ -207,6 +208,34 @@ pub(crate) struct BuildArgs {
     pub messages: Messages,
 }
 
+/// Readers of which it is foretold what they refuse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ReaderName {
+    /// dcfchk, the checker of lely's dcf-tools
+    #[value(alias = "dcfchk")]
+    Lely,
+    /// The Python library canopen
+    PythonCanopen,
+    /// The Python package eds-utils
+    EdsUtils,
+    /// The JavaScript library canopen
+    NodeCanopen,
+    /// The Rust crate canopen-host
+    CanopenHost,
+}
+
+impl From<ReaderName> for Reader {
+    fn from(name: ReaderName) -> Self {
+        match name {
+            ReaderName::Lely => Reader::Dcfchk,
+            ReaderName::PythonCanopen => Reader::PythonCanopen,
+            ReaderName::EdsUtils => Reader::EdsUtils,
+            ReaderName::NodeCanopen => Reader::NodeCanopen,
+            ReaderName::CanopenHost => Reader::CanopenHost,
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// Specifications, EDS and DCF files, directories to look for them in, or `-` for standard input [default: the
@@ -229,6 +258,10 @@ pub(crate) struct CheckArgs {
     /// Hold EDS and DCF files to the standard, as files of one's own, not as files of others that are only read
     #[arg(long)]
     pub strict: bool,
+
+    /// Take as errors what this reader refuses an EDS or DCF for, and nothing else
+    #[arg(long = "for", value_enum, value_name = "READER")]
+    pub readers: Vec<ReaderName>,
 
     /// Also show notes: what is not wrong but worth knowing, such as objects that depart from the standard they are taken from
     #[arg(long)]

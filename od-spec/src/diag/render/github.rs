@@ -19,7 +19,7 @@ pub(super) fn command(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let label = diagnostic.labels.first().map(|label| label.text.as_str()).filter(|text| !text.is_empty());
     let first = label.map_or(diagnostic.message.clone(), |label| format!("{}: {label}", diagnostic.message));
     let help = diagnostic.help.iter().map(|help| format!("help: {help}"));
-    let notes = diagnostic.notes.iter().map(|note| format!("note: {note}"));
+    let notes = diagnostic.all_notes().map(|note| format!("note: {note}"));
     let lines: Vec<String> = [first].into_iter().chain(help).chain(notes).collect();
     format!("::{word} {}title={}::{}", place.unwrap_or_default(), property(&title), data(&lines.join("\n")))
 }

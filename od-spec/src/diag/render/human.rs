@@ -24,7 +24,8 @@ pub(super) fn human(diagnostic: &Diagnostic, sources: &SourceMap, colour: bool) 
     }
     let snippets = files.iter().map(|file| snippet(*file, &diagnostic.labels, sources));
     let mut groups = vec![title.elements(snippets)];
-    let notes = diagnostic.notes.iter().map(|note| Level::NOTE.secondary_title(note.as_str()));
+    let notes: Vec<String> = diagnostic.all_notes().collect();
+    let notes = notes.iter().map(|note| Level::NOTE.secondary_title(note.as_str()));
     let help = diagnostic.help.iter().map(|help| Level::HELP.secondary_title(help.as_str()));
     groups.extend(help.chain(notes).map(Group::with_title));
     let text = renderer.render(&groups);

@@ -11,15 +11,18 @@ pub(super) fn json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let notes = diagnostic.notes.iter().map(|note| quote(note));
     let edits = diagnostic.edits.iter().map(|Edit { span, text }| marked(*span, text, sources));
     let edits = edits.collect::<Vec<_>>().join(",");
+    let readers =
+        diagnostic.minded_by.iter().map(|reader| quote(reader.name())).collect::<Vec<_>>().join(",");
     format!(
-        "{{\"code\":{},\"severity\":{},\"message\":{},\"labels\":[{}],\"help\":{},\"notes\":[{}]{}}}",
+        "{{\"code\":{},\"severity\":{},\"message\":{},\"labels\":[{}],\"help\":{},\"notes\":[{}]{}{}}}",
         quote(diagnostic.code.id),
         quote(diagnostic.severity().word()),
         quote(&diagnostic.message),
         labels.collect::<Vec<_>>().join(","),
         diagnostic.help.as_ref().map_or("null".to_owned(), |help| quote(help)),
         notes.collect::<Vec<_>>().join(","),
-        if edits.is_empty() { String::new() } else { format!(",\"edits\":[{edits}]") }
+        if edits.is_empty() { String::new() } else { format!(",\"edits\":[{edits}]") },
+        if readers.is_empty() { String::new() } else { format!(",\"minded-by\":[{readers}]") }
     )
 }
 

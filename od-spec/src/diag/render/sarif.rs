@@ -83,7 +83,7 @@ const fn level(severity: Severity) -> &'static str {
 
 fn result(diagnostic: &Diagnostic, rule: usize, file: &Findings<'_>) -> String {
     let help = diagnostic.help.iter().map(|help| format!("Help: {help}"));
-    let notes = diagnostic.notes.iter().map(|note| format!("Note: {note}"));
+    let notes = diagnostic.all_notes().map(|note| format!("Note: {note}"));
     let lines: Vec<String> = [diagnostic.message.clone()].into_iter().chain(help).chain(notes).collect();
     let (first, related) = match diagnostic.labels.split_first() {
         Some((first, related)) => (location(first, None, file.sources), related),
@@ -104,6 +104,10 @@ fn result(diagnostic: &Diagnostic, rule: usize, file: &Findings<'_>) -> String {
     let related: Vec<String> = related.collect();
     if !related.is_empty() {
         members.push(("relatedLocations", list(related)));
+    }
+    let readers: Vec<String> = diagnostic.minded_by.iter().map(|reader| quote(reader.name())).collect();
+    if !readers.is_empty() {
+        members.push(("properties", object(&[("mindedBy", list(readers))])));
     }
     if !diagnostic.edits.is_empty() {
         members.push(("fixes", list([fix(diagnostic, file.sources)])));

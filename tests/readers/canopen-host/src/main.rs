@@ -1,5 +1,7 @@
 //! `read-eds FILE`: one line for the file, then one line per entry, fields separated by tabs.
+//! `read-eds --accepts`: a line of JSON for each file named on standard input: why it is refused, or null.
 
+use std::io::BufRead;
 use std::process::ExitCode;
 
 use canopen_host::canopen_rs::datatypes::Value;
@@ -10,6 +12,9 @@ fn main() -> ExitCode {
         eprintln!("usage: read-eds FILE");
         return ExitCode::FAILURE;
     };
+    if path == "--accepts" {
+        return accepts();
+    }
     match Eds::from_file(path) {
         Ok(eds) => {
             println!("node\t{}", eds.node_id.map_or(String::new(), |id| id.to_string()));
@@ -21,6 +26,27 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn accepts() -> ExitCode {
+    for file in std::io::stdin().lock().lines() {
+        let Ok(file) = file else { return ExitCode::FAILURE };
+        match Eds::from_file(file) {
+            Ok(_) => println!("null"),
+            Err(error) => println!("\"{}\"", json(&error.to_string())),
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn json(text: &str) -> String {
+    text.chars()
+        .map(|c| match c {
+            '"' | '\\' => format!("\\{c}"),
+            c if c.is_control() => format!("\\u{:04x}", u32::from(c)),
+            c => c.to_string(),
+        })
+        .collect()
 }
 
 fn print_entry(entry: &ObjectDescription) {

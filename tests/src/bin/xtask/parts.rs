@@ -21,6 +21,8 @@ pub(crate) enum Part {
     Shipped,
     /// The README's drive, and what `odgen new` starts with.
     Drives,
+    /// What is foretold of the foreign readers, compared with what they do.
+    Foretold,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -49,13 +51,14 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 10] = [
+    pub(crate) const ALL: [Part; 11] = [
         Part::Rust,
         Part::ReadersSelfTest,
         Part::EveryFeature,
         Part::Configured,
         Part::Shipped,
         Part::Drives,
+        Part::Foretold,
         Part::SdoClient,
         Part::Browser,
         Part::FirmwareSizes,
@@ -70,6 +73,7 @@ impl Part {
             Part::Configured => "EDS readers: a DCF with settings",
             Part::Shipped => "EDS readers: shipped devices",
             Part::Drives => "EDS readers: drives of odgen new",
+            Part::Foretold => "EDS readers: what is foretold of them",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::FirmwareSizes => "sizes of firmware",
@@ -85,6 +89,7 @@ impl Part {
             | Part::Configured
             | Part::Shipped
             | Part::Drives
+            | Part::Foretold
             | Part::SdoClient => Area::Readers,
             Part::Browser => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -100,6 +105,7 @@ impl Part {
             | Part::Configured
             | Part::Shipped
             | Part::Drives
+            | Part::Foretold
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::FirmwareSizes => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker],
@@ -110,9 +116,12 @@ impl Part {
     /// Tools without which it leaves something out: of the five readers, node-canopen.
     const fn uses(self) -> &'static [Tool] {
         match self {
-            Part::ReadersSelfTest | Part::EveryFeature | Part::Configured | Part::Shipped | Part::Drives => {
-                &[Tool::Node]
-            }
+            Part::ReadersSelfTest
+            | Part::EveryFeature
+            | Part::Configured
+            | Part::Shipped
+            | Part::Drives
+            | Part::Foretold => &[Tool::Node],
             Part::Rust | Part::SdoClient | Part::Browser | Part::FirmwareSizes | Part::FirmwareTests => &[],
         }
     }
@@ -140,6 +149,7 @@ impl Part {
             Part::Configured => readers::configured(runner),
             Part::Shipped => runner.python("tests/readers/run.py", &[]),
             Part::Drives => readers::drives(runner),
+            Part::Foretold => readers::foretold(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),

@@ -1,5 +1,6 @@
 //! EDS and DCF files, read by tools that others wrote.
 
+use std::path::Path;
 use std::process::Command;
 
 use od_gen::files::write_all;
@@ -60,6 +61,13 @@ pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
     let mut arguments = vec!["--eds-dir", "target/drives/eds", "--dump"];
     arguments.extend(dumps.iter().map(String::as_str));
     runner.python("tests/readers/run.py", &arguments)
+}
+
+/// Files with planted faults: who refuses them, as `odgen check` foretells it.
+pub(crate) fn foretold(runner: &mut Runner) -> Result<(), Failure> {
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let script = Path::new("tests/readers/predictions.py");
+    runner.run(Command::new("python3").arg(script).arg("--odgen").arg(odgen))
 }
 
 /// A client that others wrote, against the generated Rust.

@@ -6,7 +6,7 @@ use od_gen::rust;
 use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input};
 use od_spec::diag::render::Findings;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
-use od_spec::eds::is_eds;
+use od_spec::eds::{is_eds, readers};
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, Strictness, departures};
 
@@ -51,6 +51,14 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked
     let strictness = if args.strict { Strictness::Standard } else { Strictness::Foreign };
     let mut sources = SourceMap::new();
     let Compiled { system, mut diagnostics, .. } = compile(input, strictness, &mut sources);
+    let kind = match sources.files().next() {
+        None => Kind::Unknown,
+        Some((id, file)) if is_eds(file.name(), file.text()) => {
+            readers::mark(&sources, id, &mut diagnostics);
+            Kind::Eds
+        }
+        Some(_) => Kind::Specification,
+    };
     if let Some(system) = &system {
         for device in system.devices.iter().filter(|_| args.rust) {
             let _ = rust::tokens(system, device, &mut diagnostics);
@@ -58,11 +66,6 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked
         diagnostics.append(departures(system));
         diagnostics.sort();
     }
-    let kind = match sources.files().next() {
-        None => Kind::Unknown,
-        Some((_, file)) if is_eds(file.name(), file.text()) => Kind::Eds,
-        Some(_) => Kind::Specification,
-    };
     let errors = match kind {
         Kind::Eds => Errors::CanBeAllowed,
         Kind::Specification | Kind::Unknown => Errors::Stay,

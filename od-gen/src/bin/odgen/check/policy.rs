@@ -1,6 +1,7 @@
 //! What counts as an error and what is left out, as the command line wants it.
 
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
+use od_spec::eds::readers::Readers;
 use od_spec::{all_codes, nearest};
 
 use crate::args::CheckArgs;
@@ -25,6 +26,8 @@ enum Treatment {
 #[derive(Debug, Default)]
 pub(super) struct Policy {
     rules: Vec<(Selector, Treatment)>,
+    /// Who is to read the EDS or DCF; none: everybody.
+    readers: Readers,
 }
 
 /// Whether errors can be left out.
@@ -48,7 +51,11 @@ impl Policy {
         for (option, text, treatment) in deny.chain(allow) {
             rules.push((selector(option, text)?, treatment));
         }
-        Ok(Self { rules })
+        let mut readers = Readers::NONE;
+        for name in &args.readers {
+            readers.insert((*name).into());
+        }
+        Ok(Self { rules, readers })
     }
 
     /// The findings that are left, as serious as they are taken.
@@ -56,6 +63,10 @@ impl Policy {
         let mut left = Diagnostics::new();
         for diagnostic in found {
             let mut diagnostic = diagnostic.clone();
+            if !self.readers.is_empty() && errors == Errors::CanBeAllowed {
+                let is_minded = diagnostic.minded_by.meet(self.readers);
+                diagnostic.severity = if is_minded { Severity::Error } else { Severity::Note };
+            }
             let stays = diagnostic.severity == Severity::Error && errors == Errors::Stay;
             match self.treatment(diagnostic.code, diagnostic.severity) {
                 Some(Treatment::Allow) if !stays => continue,
