@@ -210,10 +210,12 @@ mod tests {
 
     const LAMP: &str = "[FileInfo]
 FileVersion=1
+Description=light
 CreationTime=09:00AM
 CreationDate=01-31-2020
 [DeviceInfo]
 ProductName=Lamp
+OrderCode=L1
 BaudRate_125=1
 [DummyUsage]
 Dummy0005=0
