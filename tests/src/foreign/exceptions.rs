@@ -2,7 +2,7 @@
 
 use od_gen::yaml::{Place, Repair};
 use od_spec::ascii::transliterate;
-use od_spec::model::{DataType, Dictionary, EntryId, Fact, SubIndex, Value};
+use od_spec::model::{DataType, Dictionary, EntryId, Fact, Object, SubIndex, Value};
 
 use super::{Checked, Difference, Stated, Step};
 
@@ -82,7 +82,7 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
         return (transliterate(text).len() > LONGEST_TEXT).then_some("a text that is too long for a line");
     };
     let entry = before.entry(id)?;
-    let is_counted = before.objects.get(&id.index).is_some_and(|object| object.is_structured());
+    let is_counted = before.objects.get(&id.index).is_some_and(Object::is_structured);
     match difference.fact {
         Stated::Name => {
             repairs.iter().any(renamed).then_some("a name that clashes, or that an EDS cannot hold")
