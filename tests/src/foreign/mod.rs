@@ -109,8 +109,6 @@ fn message(panic: &(dyn Any + Send)) -> &str {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
-
     use od_spec::model::Dictionary;
     use od_spec::source::SourceMap;
     use od_spec::{NoFiles, compile};

@@ -183,8 +183,6 @@ fn fixing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String>
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
     use od_spec::rule_codes;
 
     use super::*;
