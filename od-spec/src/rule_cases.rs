@@ -54,6 +54,12 @@ fn a_fixed_mapping_counts_all_of_its_entries() {
     assert_eq!(said(&text, 1, &[]), ["OD0507"]);
 }
 
+/// An array may say that it has no elements; a rule speaks of it, so that a device that is so can be allowed to be.
+#[test]
+fn an_array_without_elements_is_a_finding() {
+    assert_eq!(said("objects:\n  0x2000: {name: schedule, array: {count: 0}}", 1, &[]), ["OD0314"]);
+}
+
 /// Settings of a node are numbers: a formula is what it is on that node.
 #[test]
 fn formulas_of_a_configured_node_are_numbers() {

@@ -191,10 +191,16 @@ pub(super) fn eds(entry: &Entry, defaults: EdsDefaults) -> Vec<Item> {
     items
 }
 
+/// What sub-index 0 of an array or record says where nothing is stated: the highest sub-index, unless it can change.
+pub(super) fn derived_count(object: &Object) -> Option<Value> {
+    let is_counted_at_run_time = matches!(object.role(), Role::PdoMapping | Role::ErrorHistory);
+    let can_change = object.entries.first().is_some_and(|count| count.access.is_writable());
+    (!is_counted_at_run_time && !can_change).then(|| Value::Integer(object.highest().0.into()))
+}
+
 /// The keys of sub-index 0 of an array or record, as far as they are not the usual ones.
 pub(super) fn sub0(context: &Context<'_>, object: &Object, entry: &Entry) -> Keys {
-    let highest = object.entries.last().map(|last| Value::Integer(last.sub.0.into()));
-    let follows = object.role() != Role::PdoMapping && entry.default == highest;
+    let follows = entry.default == derived_count(object);
     let is_written = |fact: Fact| match fact {
         Fact::Name => entry.name != "number of elements",
         Fact::Access => entry.access != Access::Ro || entry.locked,

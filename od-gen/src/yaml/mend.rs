@@ -167,8 +167,8 @@ impl Draft {
         if object.role() == Role::ErrorHistory && id.sub == SubIndex(0) {
             return Some(Value::Integer(0));
         }
-        if object.is_structured() && id.sub == SubIndex(0) && object.role() != Role::PdoMapping {
-            return object.entries.last().map(|last| Value::Integer(last.sub.0.into()));
+        if object.is_structured() && id.sub == SubIndex(0) {
+            return super::entry::derived_count(object);
         }
         super::entry::device_value(&self.system, &self.device, id.index, id.sub)
     }

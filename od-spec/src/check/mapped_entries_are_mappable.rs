@@ -17,7 +17,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Error,
     title: "an entry that cannot be mapped into this PDO",
     explanation: "The entry's `pdo:` does not allow this direction, or none at all, or the mapping parameter names an entry that is not there, or says another length than the entry has. \
-        A device answers such a mapping with abort code 0604 0041h; one that does not would send or take other bits than the master expects. \
+        A device answers such a mapping with abort code 0604 0041h, or 0602 0000h where it has no such object; one that does not would send or take other bits than the master expects. \
         Give the entry `pdo: receive` or `pdo: transmit`, or map another one.",
     clause: Some("CiA 301, objects 1600h and 1A00h (PDO mapping parameters)"),
     example: Some(Example::new(

@@ -2,7 +2,7 @@
 
 use od_gen::yaml::{Place, Repair};
 use od_spec::ascii::transliterate;
-use od_spec::model::{DataType, Dictionary, EntryId, Fact, SubIndex, Value};
+use od_spec::model::{DataType, Dictionary, EntryId, Fact, Object, SubIndex, Value};
 
 use super::{Checked, Difference, Stated, Step};
 
@@ -24,46 +24,19 @@ impl Round<'_> {
     }
 }
 
-/// A difference of one file that is as it should be.
-#[derive(Debug)]
-struct Exception {
-    file: &'static str,
-    fact: Stated,
-    reason: &'static str,
-}
-
-const EXCEPTIONS: [Exception; 0] = [];
-
-/// The longest text that our EDS have in a line of `[FileInfo]` and `[DeviceInfo]`.
+/// The longest text that an EDS of ours has in a line of `[FileInfo]` and `[DeviceInfo]`.
 const LONGEST_TEXT: usize = 243;
-
-/// The exceptions of files for which nothing was found.
-pub fn unused(found: &[(&str, &Checked)]) -> Vec<String> {
-    let is_used = |exception: &Exception| {
-        found
-            .iter()
-            .filter(|(file, _)| *file == exception.file)
-            .any(|(_, checked)| checked.excepted.iter().any(|(reason, _)| *reason == exception.reason))
-    };
-    let idle = EXCEPTIONS.iter().filter(|one| !is_used(one));
-    idle.map(|one| format!("{}: {}: {}", one.file, one.fact, one.reason)).collect()
-}
+/// The longest default.
+const LONGEST_DEFAULT: usize = 242;
 
 /// Takes away what is as it should be, and tells of the rest.
-pub(super) fn except(
-    round: Round<'_>,
-    file: &str,
-    before: &Dictionary,
-    found: Vec<Difference>,
-    checked: &mut Checked,
-) {
+pub(super) fn except(round: Round<'_>, before: &Dictionary, found: Vec<Difference>, checked: &mut Checked) {
     for difference in found {
-        let listed = EXCEPTIONS.iter().find(|one| one.file == file && one.fact == difference.fact);
-        let general = match round {
+        let reason = match round {
             Round::Import(repairs) => imported(&difference, before, repairs),
             Round::Fix(codes) => fixed(&difference, codes),
         };
-        let Some(reason) = general.or(listed.map(|one| one.reason)) else {
+        let Some(reason) = reason else {
             checked.problem(round.step(), told(&difference, round));
             continue;
         };
@@ -109,7 +82,7 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
         return (transliterate(text).len() > LONGEST_TEXT).then_some("a text that is too long for a line");
     };
     let entry = before.entry(id)?;
-    let is_counted = before.objects.get(&id.index).is_some_and(od_spec::model::Object::is_structured);
+    let is_counted = before.objects.get(&id.index).is_some_and(Object::is_structured);
     match difference.fact {
         Stated::Name => {
             repairs.iter().any(renamed).then_some("a name that clashes, or that an EDS cannot hold")
@@ -123,10 +96,11 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
             Some("a DOMAIN, of which an EDS of ours shows neither a value nor a mapping")
         }
         Stated::Default => match &entry.default {
-            Some(Value::Text(text)) if transliterate(text).contains('?') && !text.contains('?') => {
-                Some("a text with characters that ASCII does not have")
-            }
-            _ => None,
+            Some(Value::Text(text)) if !fits(text) => Some("a text that no line of an EDS can hold"),
+            Some(
+                Value::Text(_) | Value::Integer(_) | Value::NodeId(_) | Value::Real(_) | Value::Bytes(_),
+            )
+            | None => None,
         },
         Stated::Existence
         | Stated::Kind
@@ -140,8 +114,51 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
     }
 }
 
+/// Whether a default is plain ASCII that fits into its line.
+fn fits(text: &str) -> bool {
+    text.len() <= LONGEST_DEFAULT && text.bytes().all(|byte| matches!(byte, b' '..=b'~'))
+}
+
 /// Why a file that was put right has another fact than before.
 fn fixed(difference: &Difference, codes: &[&str]) -> Option<&'static str> {
     let is_date = matches!(difference.fact, Stated::Device("created" | "modified"));
     (is_date && codes.contains(&"EDS210")).then_some("a date or time that could not be read before")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::foreign::differences;
+    use crate::foreign::tests::device;
+
+    /// What is told of two files, as far as it is no exception.
+    fn told(round: Round<'_>, before: &str, after: &str) -> Vec<String> {
+        let (before, after) = (device(before), device(after));
+        let mut checked = Checked::default();
+        except(round, &before, differences(&before, &after), &mut checked);
+        assert!(checked.problems.iter().all(|problem| problem.step == round.step()));
+        checked.problems.into_iter().map(|problem| problem.what).collect()
+    }
+
+    #[test]
+    fn dates_may_change_only_where_one_could_not_be_read() {
+        let (one, other) = ("[FileInfo]\nCreationDate=01-31-2020\n", "[FileInfo]\nCreationDate=02-01-2020\n");
+        assert_eq!(told(Round::Fix(&["EDS210"]), one, other), [""; 0]);
+        // Without a date of its own, the file is as it was made.
+        assert_eq!(told(Round::Fix(&["EDS101"]), one, other).len(), 2);
+        assert_eq!(told(Round::Import(&[]), one, other).len(), 2);
+    }
+
+    #[test]
+    fn only_what_a_line_cannot_hold_may_be_lost() {
+        let text = |value: &str| {
+            format!("[2000]\nParameterName=a\nObjectType=7\nDataType=9\nAccessType=ro\n{value}PDOMapping=0\n")
+        };
+        let none = text("");
+        let lost = |value: &str| told(Round::Import(&[]), &text(&format!("DefaultValue={value}\n")), &none);
+        assert_eq!(lost("plain").len(), 1);
+        assert_eq!(lost("ω"), [""; 0]);
+        assert_eq!(lost(&"x".repeat(LONGEST_DEFAULT)).len(), 1);
+        assert_eq!(lost(&"x".repeat(LONGEST_DEFAULT + 1)), [""; 0]);
+    }
 }

@@ -202,3 +202,100 @@ fn default(entry: &Entry) -> Option<String> {
         other @ (Value::Integer(_) | Value::NodeId(_) | Value::Bytes(_)) => format!("{other:?}"),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::foreign::tests::device;
+
+    const LAMP: &str = "[FileInfo]
+FileVersion=1
+Description=light
+CreationTime=09:00AM
+CreationDate=01-31-2020
+[DeviceInfo]
+ProductName=Lamp
+OrderCode=L1
+BaudRate_125=1
+[DummyUsage]
+Dummy0005=0
+[2000]
+ParameterName=level
+ObjectType=0x7
+DataType=0x0005
+LowLimit=1
+HighLimit=9
+AccessType=rw
+DefaultValue=4
+PDOMapping=0
+ObjFlags=0
+[2001]
+ParameterName=steps
+ObjectType=0x8
+SubNumber=2
+[2001sub0]
+ParameterName=count
+ObjectType=0x7
+DataType=0x0005
+AccessType=ro
+DefaultValue=1
+PDOMapping=0
+[2001sub1]
+ParameterName=first
+ObjectType=0x7
+DataType=0x0007
+AccessType=ro
+PDOMapping=0
+";
+
+    /// What is told when a part of the file is another.
+    fn told(part: &str, other: &str) -> Vec<String> {
+        assert!(LAMP.contains(part), "{part}");
+        let (before, after) = (device(LAMP), device(&LAMP.replacen(part, other, 1)));
+        differences(&before, &after).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn every_planted_difference_is_found() {
+        for (part, other, expected) in [
+            ("FileVersion=1", "FileVersion=2", "file version: 1, then 2"),
+            ("ProductName=Lamp", "ProductName=Lump", "product name: \"Lamp\", then \"Lump\""),
+            ("BaudRate_125=1", "BaudRate_250=1", "bit rates: [125], then [250]"),
+            ("Dummy0005=0", "Dummy0005=1", "placeholders: [], then [Unsigned8]"),
+            ("=level", "=lever", "2000h: name: \"level\", then \"lever\""),
+            ("DataType=0x0005", "DataType=0x0006", "2000h: data type: Unsigned8, then Unsigned16"),
+            ("LowLimit=1", "LowLimit=2", "2000h: low limit: Some(1), then Some(2)"),
+            ("HighLimit=9", "HighLimit=8", "2000h: high limit: Some(9), then Some(8)"),
+            ("AccessType=rw", "AccessType=rwr", "2000h: access: Rw, then Rwr"),
+            (
+                "DefaultValue=4",
+                "DefaultValue=5",
+                "2000h: default: Some(\"Integer(4)\"), then Some(\"Integer(5)\")",
+            ),
+            ("DefaultValue=4\n", "", "2000h: default: Some(\"Integer(4)\"), then None"),
+            ("PDOMapping=0", "PDOMapping=1", "2000h: mapping: false, then true"),
+            ("ObjFlags=0", "ObjFlags=3", "2000h: flags: 0, then 3"),
+            ("ObjectType=0x8", "ObjectType=0x9", "2001h: object type: Array, then Record"),
+            ("=first", "=second", "2001h.1: name: \"first\", then \"second\""),
+        ] {
+            assert_eq!(told(part, other), [expected]);
+        }
+    }
+
+    #[test]
+    fn objects_and_entries_that_are_missing_or_more_are_found() {
+        let (whole, without) = (device(LAMP), device(LAMP.split("[2001]").next().unwrap_or_default()));
+        let said = |one: &Dictionary, other: &Dictionary| {
+            differences(one, other).iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(said(&whole, &without), ["2001h: existence: there, then missing"]);
+        assert_eq!(said(&without, &whole), ["2001h: existence: missing, then there"]);
+        let more = LAMP.replace(
+            "[2001sub1]",
+            "[2001sub2]\nParameterName=second\nDataType=0x0007\nAccessType=ro\n[2001sub1]",
+        );
+        assert_eq!(said(&whole, &device(&more)), ["2001h.2: existence: missing, then there"]);
+        assert_eq!(said(&device(&more), &whole), ["2001h.2: existence: there, then missing"]);
+        assert_eq!(said(&whole, &whole), [""; 0]);
+    }
+}

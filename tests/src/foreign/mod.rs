@@ -8,7 +8,6 @@ use std::any::Any;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-pub use exceptions::unused as unused_exceptions;
 pub use facts::{Difference, Stated, differences};
 
 /// What is done with a file.
@@ -91,22 +90,43 @@ impl Checked {
 pub fn check(name: &str, bytes: &[u8]) -> Checked {
     let mut checked = Checked::default();
     for step in Step::ALL {
-        let mut part = Checked::default();
-        let outcome = catch_unwind(AssertUnwindSafe(|| steps::run(step, name, bytes, &mut part)));
-        checked.problems.append(&mut part.problems);
-        checked.excepted.append(&mut part.excepted);
-        checked.changes += part.changes;
-        if step == Step::Reading {
-            checked.findings = part.findings;
-        }
-        if let Err(panic) = outcome {
-            checked.problem(step, format!("panicked: {}", message(panic.as_ref())));
-        }
+        guarded(step, &mut checked, |checked| steps::run(step, name, bytes, checked));
     }
     checked
+}
+
+/// Takes a step; a panic becomes a problem of it.
+fn guarded(step: Step, checked: &mut Checked, run: impl FnOnce(&mut Checked)) {
+    if let Err(panic) = catch_unwind(AssertUnwindSafe(|| run(checked))) {
+        checked.problem(step, format!("panicked: {}", message(panic.as_ref())));
+    }
 }
 
 fn message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a message")
+}
+
+#[cfg(test)]
+mod tests {
+    use od_spec::model::Dictionary;
+    use od_spec::source::SourceMap;
+    use od_spec::{NoFiles, compile};
+
+    use super::*;
+
+    /// The device of an EDS.
+    pub(super) fn device(text: &str) -> Dictionary {
+        let mut sources = SourceMap::new();
+        let root = sources.add("lamp.eds", text);
+        compile(&mut sources, root, &mut NoFiles).system.unwrap().devices.remove(0)
+    }
+
+    #[test]
+    fn a_panic_is_a_problem_of_its_step() {
+        let mut checked = Checked::default();
+        guarded(Step::Fixing, &mut checked, |_| panic!("out of {}", "range"));
+        assert_eq!(checked.problems[0].what, "panicked: out of range");
+        assert!(!checked.passed(Step::Fixing) && checked.passed(Step::Import));
+    }
 }

@@ -74,7 +74,7 @@ fn reading(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String
 }
 
 /// The first place of a message that is not in its text.
-pub(super) fn misplaced(sources: &SourceMap, diagnostic: &Diagnostic) -> Option<String> {
+fn misplaced(sources: &SourceMap, diagnostic: &Diagnostic) -> Option<String> {
     let is_outside = |span: &Span| {
         let text = sources.file(span.file).text();
         text.get(span.start as usize..span.end as usize).is_none()
@@ -127,7 +127,7 @@ fn facts_stay(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), Str
     let again = compile(&mut sources, root, &mut NoFiles);
     let before = original.devices.first().ok_or("no device")?;
     let found = differences(before, device(&again)?);
-    except(Round::Import(&imported.repairs), name, before, found, checked);
+    except(Round::Import(&imported.repairs), before, found, checked);
     Ok(())
 }
 
@@ -143,7 +143,7 @@ fn import_again(name: &str, bytes: &[u8]) -> Result<(), String> {
 }
 
 /// The first line that two specifications have otherwise, without comments: those speak of the original.
-pub(super) fn other_line(one: &str, other: &str) -> Option<String> {
+fn other_line(one: &str, other: &str) -> Option<String> {
     let lines = |text: &str| -> Vec<String> {
         let said = text.lines().filter(|line| !line.trim_start().starts_with('#') && !line.trim().is_empty());
         said.map(ToOwned::to_owned).collect()
@@ -169,14 +169,51 @@ fn fixing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String>
         strict.diagnostics.count().0
     };
     let model = |mut source: Source| compile(&mut source.sources, source.root, &mut NoFiles);
-    let (models, errors) =
-        ((model(before), model(after)), (errors(source(name, bytes)?), errors(source(name, &put_right)?)));
-    if errors.1 > errors.0 {
-        checked.problem(Step::Fixing, format!("{} errors before, {} after", errors.0, errors.1));
+    let (had, has) = (errors(source(name, bytes)?), errors(source(name, &put_right)?));
+    if has > had {
+        checked.problem(Step::Fixing, format!("{had} errors before, {has} after"));
     }
-    let before = device(&models.0)?;
-    let found = differences(before, device(&models.1)?);
+    let (before, after) = (model(before), model(after));
+    let before = device(&before)?;
+    let found = differences(before, device(&after)?);
     let codes: Vec<&str> = fixed.counts().into_keys().map(|code| code.id).collect();
-    except(Round::Fix(&codes), name, before, found, checked);
+    except(Round::Fix(&codes), before, found, checked);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use od_spec::rule_codes;
+
+    use super::*;
+
+    #[test]
+    fn a_place_outside_the_text_is_found() {
+        let Source { sources, root } = source("lamp.eds", "[é]\n".as_bytes()).unwrap();
+        let at = |start, end| Span { file: root, start, end };
+        let said = |label: Span, edit: Span| {
+            let diagnostic = Diagnostic::new(rule_codes::DUPLICATE_NAME, label, "twice").edit(edit, "x");
+            misplaced(&sources, &diagnostic)
+        };
+        assert_eq!(said(at(0, 5), at(1, 3)), None);
+        assert!(said(at(0, 6), at(1, 3)).unwrap().starts_with("0 to 6 is no place in the text: twice"));
+        assert!(said(at(0, 5), at(2, 3)).unwrap().starts_with("2 to 3"));
+    }
+
+    #[test]
+    fn specifications_differ_in_what_is_no_comment() {
+        assert_eq!(other_line("a: 1\n# one\n\nb: 2\n", "a: 1\n  # two\nb: 2\n"), None);
+        assert_eq!(other_line("a: 1\n  b: 2\n", "a: 1\n"), Some("first `b: 2`, then `nothing`".to_owned()));
+    }
+
+    /// Each step tells what it cannot do.
+    #[test]
+    fn what_cannot_be_read_is_a_problem() {
+        let large = vec![b' '; (64 << 20) + 1];
+        let mut checked = Checked::default();
+        run(Step::Reading, "lamp.eds", &large, &mut checked);
+        assert!(!checked.passed(Step::Reading));
+        let told = turn("lamp.yaml", b"od-spec: 1\n").err();
+        assert!(told.is_some_and(|told| told.starts_with("no model")));
+    }
 }

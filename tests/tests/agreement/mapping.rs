@@ -30,14 +30,20 @@ fn unsaid(case: Case) -> Case {
     case.but(Specification, Said::NoWords, Reason::FollowsFromType)
 }
 
+/// `pdos:` names what it maps: a name or index that is not there is unknown before it is mapped.
+fn unnamed(case: Case) -> Case {
+    case.but(Specification, Said::Refused("OD0310".to_owned()), Reason::MapNamesEntries)
+}
+
 fn entries() -> Vec<Case> {
     use AbortCode as A;
     const NOT_MAPPABLE: &str = "OD0502";
     let wrong = |about, mapping, parameter| {
         refused(about, &single(mapping, parameter), NOT_MAPPABLE, A::NOT_MAPPABLE)
     };
-    let unknown =
-        |mapping, parameter| refused("no entry", &single(mapping, parameter), "OD0502", A::NO_OBJECT);
+    let unknown = |mapping, parameter| {
+        unnamed(refused("no entry", &single(mapping, parameter), "OD0502", A::NO_OBJECT))
+    };
     vec![
         accepted("an entry for RPDOs", &single(RECEIVE, 0x2020_0008)),
         accepted("an entry for both", &single(RECEIVE, 0x2025_0010)),
@@ -80,7 +86,12 @@ fn placeholders() -> Vec<Case> {
             "OD0506",
             A::NOT_MAPPABLE,
         )),
-        refused("no placeholder has a sub-index", &single(RECEIVE, 0x0005_0108), "OD0502", A::NO_OBJECT),
+        unnamed(refused(
+            "no placeholder has a sub-index",
+            &single(RECEIVE, 0x0005_0108),
+            "OD0502",
+            A::NO_OBJECT,
+        )),
     ]
 }
 

@@ -25,6 +25,7 @@ reasons! {
     EdsLineHoldsLess: "an EDS or DCF line cannot hold the text; the bus can";
     NoNotation: "no specification, EDS or DCF has a notation for values of this type";
     FollowsFromType: "lengths of mapped entries, their number and empty places follow from `map:`";
+    MapNamesEntries: "`map:` names entries, and a name or index that is not there is unknown before it can be mapped";
     KeyHasARange: "the key of the language has a range of its own";
     TargetIsWider: "a specification states the value of the target, whose type has it";
     BetweenSteps: "a specification states the value of the target, which has no such step";
