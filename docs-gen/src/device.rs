@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Dictionary, Direction, Entry, EntryId, Object, ObjectKind, PdoMapping, Storage, TypeKind, Value,
+    Dictionary, Direction, Entry, EntryId, Fact, Object, ObjectKind, PdoMapping, Storage, SystemSource,
+    TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -60,7 +61,10 @@ impl Source<'_> {
                 Storage::No,
             ]
             .into_iter()
-            .filter(|group| occurs(|object| &object.stored, group.word()))
+            .filter(|group| {
+                let word = self.storage_word(*group);
+                !word.is_empty() && occurs(|object| &object.stored, word)
+            })
             .map(|group| (group.word(), self.wording.storage_group(group).to_owned()))
             .collect(),
             mappable: [Direction::Receive, Direction::Transmit]
@@ -75,18 +79,24 @@ impl Source<'_> {
         let info = &device.info;
         let number = |number: u32| self.wording.hexadecimal(number.into(), 8);
         let rates: Vec<String> = info.bit_rates.iter().map(u16::to_string).collect();
+        // What an EDS leaves out is not 0: nobody knows it.
+        let is_known = |fact: Fact| match self.system.source {
+            SystemSource::Specification => true,
+            SystemSource::Eds => device.facts.get(fact).is_some(),
+        };
+        let if_known = |fact: Fact, text: String| is_known(fact).then_some(text);
         let rows = [
-            (Word::Vendor, self.system.vendor.name.clone()),
-            (Word::Name, info.product_name.clone()),
-            (Word::OrderCode, info.order_code.clone()),
-            (Word::Product, number(info.product)),
-            (Word::ProductRevision, number(info.product_revision)),
-            (Word::DeviceType, number(info.device_type)),
-            (Word::BitRates, format!("{} kbit/s", rates.join(", "))),
+            (Word::Vendor, Some(self.system.vendor.name.clone())),
+            (Word::Name, Some(info.product_name.clone())),
+            (Word::OrderCode, Some(info.order_code.clone())),
+            (Word::Product, if_known(Fact::Product, number(info.product))),
+            (Word::ProductRevision, if_known(Fact::ProductRevision, number(info.product_revision))),
+            (Word::DeviceType, if_known(Fact::DeviceType, number(info.device_type))),
+            (Word::BitRates, if_known(Fact::BitRates, format!("{} kbit/s", rates.join(", ")))),
         ];
         let rows = rows
             .into_iter()
-            .map(|(word, text)| Row::of(vec![Cell::plain(self.word(word)), Cell::plain(text)]));
+            .filter_map(|(word, text)| Some(Row::of(vec![Cell::plain(self.word(word)), Cell::plain(text?)])));
         let grid = Columns::new()
             .left(self, "name", Word::Parameter)
             .left(self, "value", Word::Value)
@@ -140,7 +150,7 @@ impl Source<'_> {
             access: self.accesses(object),
             data_types: data_types.into_iter().map(str::to_owned).collect(),
             units,
-            stored: among(object, |entry| entry.stored.word().to_owned()),
+            stored: among(object, |entry| self.storage_word(entry.stored).to_owned()),
             mappable: mappable(object),
             search: String::new(),
         };
@@ -170,7 +180,7 @@ impl Source<'_> {
             low: limit(entry.low),
             high: limit(entry.high),
             unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit)),
-            stored: entry.stored.word(),
+            stored: self.storage_word(entry.stored),
             path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
             rust: self
                 .accessors

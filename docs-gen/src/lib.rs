@@ -36,7 +36,7 @@ pub fn context(system: &System, options: &Options) -> Context {
     Context {
         format: view::FORMAT,
         language: source.language.code.to_owned(),
-        words: source.language.words(),
+        words: source.words(),
         system: view::SystemView {
             title: system.title.clone(),
             vendor: system.vendor.name.clone(),

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use od_spec::model::{
     BitErrors, BitField, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index, Object,
-    System, TableContent, Text, TypeKind,
+    Storage, System, SystemSource, TableContent, Text, TypeKind,
 };
 use od_spec::wording::Wording;
 
@@ -74,6 +74,25 @@ impl<'a> Source<'a> {
             outline: Rc::clone(&self.outline),
             lookup: Rc::clone(&self.lookup),
             ..*self
+        }
+    }
+
+    /// The fixed words by the names that templates use.
+    pub(crate) fn words(&self) -> BTreeMap<&'static str, &'static str> {
+        let mut words = self.language.words();
+        words.remove(Word::LegendOfEds.key());
+        if self.system.source == SystemSource::Eds {
+            words.insert(Word::Legend.key(), self.word(Word::LegendOfEds));
+        }
+        words
+    }
+
+    /// Where an entry is stored, as the specification's word; nothing where an EDS does not say that it is, because it has no
+    /// key for that.
+    pub(crate) const fn storage_word(&self, storage: Storage) -> &'static str {
+        match (self.system.source, storage) {
+            (SystemSource::Eds, Storage::No) => "",
+            (SystemSource::Eds | SystemSource::Specification, storage) => storage.word(),
         }
     }
 

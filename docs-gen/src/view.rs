@@ -328,7 +328,7 @@ pub struct EntryView {
     pub high: String,
     /// One raw step: `0.1 °C`; may be empty.
     pub unit: String,
-    /// `no`, `communication`, `application`, `manufacturer`, `remanent`.
+    /// `no`, `communication`, `application`, `manufacturer`, `remanent`; empty where an EDS does not say it.
     pub stored: &'static str,
     /// `0x6040:00`, both hexadecimal.
     pub path: String,

@@ -275,7 +275,8 @@ fn faults() -> Vec<(&'static str, String)> {
 
 /// The same for DCF texts: what is set.
 fn faults_of_nodes() -> Vec<(&'static str, String)> {
-    let set = |access: &str, more: &str| var(0x2000, "level", 5, access, &format!("{more}\nParameterValue=120"));
+    let set =
+        |access: &str, more: &str| var(0x2000, "level", 5, access, &format!("{more}\nParameterValue=120"));
     let pdo = |sub: &str, value: &str| {
         let text = levels() + &TPDO.text();
         let start = text.find(&format!("[{sub}]")).unwrap_or_default();
@@ -353,7 +354,9 @@ fn a_specification_is_spoken_of_in_its_own_words() {
 /// The guards see what they are there for.
 #[test]
 fn words_of_either_side_are_recognised() {
-    for text in ["add `bit-rates:`, or not", "make it `special`", "`0x1000: {from: cia301}`", "the feature `drive`"] {
+    for text in
+        ["add `bit-rates:`, or not", "make it `special`", "`0x1000: {from: cia301}`", "the feature `drive`"]
+    {
         assert!(word_of_specifications(text).is_some(), "{text}");
         assert!(word_of_eds(text).is_none(), "{text}");
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_spec::model::{Entry, Index, Object};
+use od_spec::model::{Entry, Index, Object, SystemSource};
 
 use super::Columns;
 use super::variants::device_keys;
@@ -56,7 +56,13 @@ impl Source<'_> {
             .left(self, "access", Word::Access)
             .center(self, "mem", Word::Mem)
             .left(self, "device", Word::Device)
-            .grid(rows, &["index", "object", "name", "type", "access", "mem"])
+            .grid(
+                rows,
+                match self.system.source {
+                    SystemSource::Specification => &["index", "object", "name", "type", "access", "mem"],
+                    SystemSource::Eds => &["index", "object", "name", "type", "access"],
+                },
+            )
     }
 
     pub(crate) fn overview_row(&self, object: &Object) -> Row {
@@ -66,6 +72,12 @@ impl Source<'_> {
             self.home(object.index),
         );
         let stored = object.is_stored();
+        let mem = match (stored, self.system.source) {
+            (true, _) => "Y",
+            (false, SystemSource::Specification) => "N",
+            // An EDS has no key for it: nobody knows.
+            (false, SystemSource::Eds) => "",
+        };
         Row {
             cells: vec![
                 index,
@@ -73,7 +85,7 @@ impl Source<'_> {
                 Cell::plain(&object.name),
                 Cell::plain(among(object, |entry| entry.data_type.name()).join(", ")),
                 Cell::plain(among(object, |entry| self.wording.access(entry)).join(", ")),
-                Cell::plain(if stored { "Y" } else { "N" }),
+                Cell::plain(mem),
                 Cell::default(),
             ],
             stored,

@@ -35,6 +35,33 @@ fn an_eds_is_used_whatever_is_wrong_with_it() {
     assert!(!stderr(&output).contains("[EDS4") && !stderr(&output).contains("[EDS5"), "{}", stderr(&output));
 }
 
+/// An EDS has no key for what a device stores, and leaves out what it does not know: the documents do not make it up.
+#[test]
+fn documents_say_nothing_that_an_eds_does_not() {
+    let scratch = Scratch::new("unknown");
+    let document = |name: &str, text: &str| {
+        scratch.file(name, text);
+        let output = odgen(&scratch.0, &["docs", name, "--out", "out", "--format", "md", "--format", "html"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let page = |kind: &str| {
+            let base = name.trim_end_matches(".eds");
+            fs::read_to_string(scratch.0.join(format!("out/{base}/{base}.{kind}"))).unwrap()
+        };
+        (page("md"), page("html"))
+    };
+    let (md, html) = document("fan.eds", FAN);
+    assert!(!md.contains("| Mem. |") && !html.contains("not stored"), "{md}");
+    assert!(md.contains("| Product code     | 00000007h |"), "{md}");
+    let stored = FAN.replace("[2000]\n", ";stored with the application parameters\n[2000]\n");
+    let (md, html) = document("stored.eds", &stored);
+    let row = |index: &str| md.lines().find(|line| line.starts_with(&format!("| [{index}h]"))).unwrap();
+    assert!(md.contains("| Mem. |") && row("2000").ends_with("| Y   |"), "{md}");
+    assert!(row("2001").ends_with("|     |") && !html.contains("not stored"), "{md}");
+    let (md, _) =
+        document("unknown.eds", &FAN.replace("ProductNumber=7\n", "").replace("RevisionNumber=1\n", ""));
+    assert!(!md.contains("Product code     |") && !md.contains("Product revision |"), "{md}");
+}
+
 /// A build script and the macro give one warning for all that was found.
 #[test]
 fn a_build_says_one_line_about_an_eds() {

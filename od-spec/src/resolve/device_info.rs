@@ -14,7 +14,14 @@ const EPOCH: DateTime = DateTime { date: Date { year: 2000, month: 1, day: 1 }, 
 pub(super) fn facts(device: &DeviceDecl) -> Facts {
     let rates = device.bit_rates.iter().map(|rate| rate.span).reduce(Span::to);
     let granularity = device.granularity.map(|granularity| granularity.span);
-    let stated = [(Fact::BitRates, rates), (Fact::Granularity, granularity)];
+    let number = |number: &Option<Spanned<i128>>| number.as_ref().map(|number| number.span);
+    let stated = [
+        (Fact::BitRates, rates),
+        (Fact::Granularity, granularity),
+        (Fact::Product, number(&device.product)),
+        (Fact::ProductRevision, number(&device.product_revision)),
+        (Fact::DeviceType, number(&device.device_type)),
+    ];
     let written =
         |(fact, span): (Fact, Option<Span>)| Some((fact, Statement::written(span?, device.key.span.file)));
     stated.into_iter().filter_map(written).collect()
