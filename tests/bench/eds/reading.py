@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measure how long it takes to read, check, convert and import an EDS, beside what others read it with.
 
-    reading.py [--sizes 150 1500 10000 30000] [--wide 10000 60000] [--passes 3] [--rounds 7] [--budget 5] [--cache target/bench]
+    reading.py [--sizes 150 1500 10000] [--wide 10000 60000] [--passes 3] [--rounds 7] [--budget 2] [--cache target/bench]
                [--program FILE] [--python FILE]
 
 Prints Markdown. The times are taken inside the processes, from the bytes of a file in memory to the result; what it takes to
@@ -59,11 +59,11 @@ class File:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
-    parser.add_argument("--sizes", type=int, nargs="*", default=[150, 1500, GOAL_SIZE, 30000], help="objects of a synthetic specification")
+    parser.add_argument("--sizes", type=int, nargs="*", default=[150, 1500, GOAL_SIZE], help="objects of a synthetic specification")
     parser.add_argument("--wide", type=int, nargs="*", default=[10000, 60000], help="members of wide records, multiples of 250")
     parser.add_argument("--passes", type=int, default=3)
     parser.add_argument("--rounds", type=int, default=7, help="of each pass")
-    parser.add_argument("--budget", type=float, default=5, help="seconds for one program, file and pass; but one round is run")
+    parser.add_argument("--budget", type=float, default=2, help="seconds for one program, file and pass; but one round is run")
     parser.add_argument("--cache", type=Path, default=ROOT / "target" / "bench", help="where programs are built and installed")
     parser.add_argument("--program", type=Path, help="the program in `peer`; without it, it is built with cargo")
     parser.add_argument("--python", type=Path, help="a Python that has python-canopen; without it, one is installed")
