@@ -65,8 +65,12 @@ impl Step {
                 let lines = Document::scan(root, sources.file(root).text()).lines().len();
                 Ok((sources, lines))
             }),
-            Step::Model => timed(|| compiled(own, Strictness::Foreign).map(|(_, _, compiled)| count(compiled))),
-            Step::Check => timed(|| compiled(own, Strictness::Standard).map(|(_, _, compiled)| count(compiled))),
+            Step::Model => {
+                timed(|| compiled(own, Strictness::Foreign).map(|(_, _, compiled)| count(compiled)))
+            }
+            Step::Check => {
+                timed(|| compiled(own, Strictness::Standard).map(|(_, _, compiled)| count(compiled)))
+            }
             Step::Convert => timed(|| {
                 let (_, _, compiled) = compiled(own, Strictness::Foreign)?;
                 let system = compiled.system.as_ref().ok_or("no model")?;
