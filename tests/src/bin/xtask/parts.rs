@@ -73,7 +73,7 @@ impl Part {
             Part::Configured => "EDS readers: a DCF with settings",
             Part::Shipped => "EDS readers: shipped devices",
             Part::Drives => "EDS readers: drives of odgen new",
-            Part::Foretold => "EDS readers: what is foretold of them",
+            Part::Foretold => "EDS readers: what is foretold",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::FirmwareSizes => "sizes of firmware",
