@@ -7,7 +7,7 @@ mod names;
 
 use std::borrow::Cow;
 
-use od_spec::model::{Access, Dictionary, Entry, Family, System, SystemSource};
+use od_spec::model::{Access, Dictionary, Entry, Fact, Family, Statement, System, SystemSource};
 
 use super::Language;
 
@@ -26,7 +26,10 @@ pub(crate) fn decided<'a>(
             let mut device = device.clone();
             names::tell_apart(&mut device, language);
             for entry in device.objects.values_mut().flat_map(|object| &mut object.entries) {
-                entry.capacity = entry.capacity.or_else(|| capacity(entry));
+                if let Some(capacity) = capacity(entry).filter(|_| entry.capacity.is_none()) {
+                    entry.capacity = Some(capacity);
+                    entry.facts.state(Fact::Capacity, Statement::derived(entry.span));
+                }
             }
             Cow::Owned(device)
         }

@@ -14,6 +14,7 @@ mod docs;
 mod fix;
 mod foreign;
 mod formats;
+mod import;
 mod new;
 mod provoked;
 mod readme;

@@ -41,6 +41,10 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
         context.push(without_place(codes::OBJECT_LEFT_OUT, place, message));
         return None;
     }
+    if let Some(links) = &part.links {
+        let message = format!("the object links of {index} are left out");
+        context.push(without_place(codes::NO_PLACE, links.place(), message));
+    }
     let Some(main) = &part.object else {
         let message = format!("there is no section `[{:X}]` for this sub-index", index.0);
         context.push(
