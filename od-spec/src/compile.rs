@@ -15,7 +15,7 @@ use crate::model::System;
 use crate::parameters::of_node;
 use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceMap, Span};
-use crate::standard::LIBRARIES;
+use crate::standard::{self, LIBRARIES};
 use crate::yaml;
 
 /// Largest file that is read, in bytes.
@@ -82,23 +82,29 @@ pub fn compile_as(
     root: FileId,
     loader: &mut dyn Loader,
 ) -> Compiled {
-    let rules = check::RULES.iter().collect::<Vec<_>>();
+    let list = check::RULES.iter().collect::<Vec<_>>();
     let file = sources.file(root);
     if eds::is_eds(file.name(), file.text()) {
-        compile_eds(&rules, sources, root, strictness)
+        compile_eds(standard::rules(&list), sources, root, strictness)
     } else {
-        compile_with(&rules, sources, root, loader)
+        compile_with(standard::rules(&list), sources, root, loader)
     }
 }
 
 /// Everything that there is to say about an EDS or DCF, as serious as the standard takes it.
 pub(crate) fn findings(sources: &SourceMap, file: FileId) -> Diagnostics {
-    compile_eds(&check::RULES.iter().collect::<Vec<_>>(), sources, file, Strictness::Standard).diagnostics
+    compile_eds(
+        standard::rules(&check::RULES.iter().collect::<Vec<_>>()),
+        sources,
+        file,
+        Strictness::Standard,
+    )
+    .diagnostics
 }
 
 /// An EDS or DCF goes the way of a specification, but for its reader.
 fn compile_eds(
-    rules: &[&check::Rule],
+    rules: check::Rules<'_>,
     sources: &SourceMap,
     root: FileId,
     strictness: Strictness,
@@ -126,7 +132,7 @@ fn compile_eds(
 
 /// Compiles under some of the rules.
 pub(crate) fn compile_with(
-    rules: &[&check::Rule],
+    rules: check::Rules<'_>,
     sources: &mut SourceMap,
     root: FileId,
     loader: &mut dyn Loader,
@@ -139,7 +145,7 @@ pub(crate) fn compile_with(
 }
 
 fn build(
-    rules: &[&check::Rule],
+    rules: check::Rules<'_>,
     sources: &mut SourceMap,
     root: FileId,
     loader: &mut dyn Loader,

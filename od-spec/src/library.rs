@@ -9,7 +9,7 @@ use crate::decode::decode;
 use crate::diag::Diagnostics;
 use crate::model::{Entry, Index, NamedType, Object, SubIndex, Unit};
 use crate::source::SourceMap;
-use crate::standard::LIBRARIES;
+use crate::standard::{self, LIBRARIES};
 use crate::yaml;
 
 /// A built-in library: what a specification that uses it can take from it.
@@ -134,7 +134,7 @@ fn probe(
     }
     let mut sources = SourceMap::new();
     let root = sources.add("", text);
-    compile_with(&[], &mut sources, root, &mut NoFiles).system
+    compile_with(standard::rules(&[]), &mut sources, root, &mut NoFiles).system
 }
 
 #[cfg(test)]

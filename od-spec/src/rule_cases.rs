@@ -8,6 +8,7 @@ use crate::diag::{Diagnostics, Example};
 use crate::model::{Access, DataType, Entry, Index, SubIndex, System};
 use crate::parameters::assign;
 use crate::source::{SourceMap, Spanned};
+use crate::standard;
 
 /// The codes of what is said about a specification, and about settings of node `node` of its first device.
 fn said(text: &str, node: u8, settings: &[&str]) -> Vec<&'static str> {
@@ -219,7 +220,7 @@ fn the_structure_of_an_object_does_not_count() {
     }
     let judged = |system: &System| {
         let (rules, mut diagnostics) = (RULES.iter().collect::<Vec<_>>(), Diagnostics::new());
-        crate::check::system(&rules, system, None, &mut Allowed::none(), &mut diagnostics);
+        crate::check::system(standard::rules(&rules), system, None, &mut Allowed::none(), &mut diagnostics);
         codes(&diagnostics)
     };
     assert_eq!(judged(&system), NONE);
@@ -241,6 +242,6 @@ fn a_count_without_a_value_is_said_once() {
     let levels = system.devices[0].objects.get_mut(&Index(0x2000)).unwrap();
     levels.entries[0].default = None;
     let (rules, mut diagnostics) = (RULES.iter().collect::<Vec<_>>(), Diagnostics::new());
-    crate::check::system(&rules, &system, None, &mut Allowed::none(), &mut diagnostics);
+    crate::check::system(standard::rules(&rules), &system, None, &mut Allowed::none(), &mut diagnostics);
     assert_eq!(codes(&diagnostics), ["OD0818"]);
 }

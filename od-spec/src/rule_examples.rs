@@ -8,12 +8,13 @@ use crate::compile::{NoFiles, compile_with};
 use crate::diag::{Diagnostics, Example};
 use crate::parameters::assign_with;
 use crate::source::{SourceMap, Spanned};
+use crate::standard;
 
 /// What is said about a text of an example; its lines `# --set ENTRY=VALUE` are settings of node 1.
 pub(crate) fn said(rules: &[&Rule], text: &str) -> Diagnostics {
     let mut sources = SourceMap::new();
     let root = sources.add("example.od.yaml", Example::whole_specification(text));
-    let compiled = compile_with(rules, &mut sources, root, &mut NoFiles);
+    let compiled = compile_with(standard::rules(rules), &mut sources, root, &mut NoFiles);
     let mut diagnostics = compiled.diagnostics;
     let settings: Vec<_> = text
         .lines()
@@ -24,7 +25,7 @@ pub(crate) fn said(rules: &[&Rule], text: &str) -> Diagnostics {
         })
         .collect();
     if let Some(system) = compiled.system.filter(|_| !settings.is_empty()) {
-        assign_with(rules, &system, &system.devices[0], 1, &settings, &mut diagnostics);
+        assign_with(standard::rules(rules), &system, &system.devices[0], 1, &settings, &mut diagnostics);
     }
     diagnostics
 }

@@ -6,17 +6,9 @@ use std::sync::Arc;
 use od_spec::Library;
 use od_spec::model::{DataType, Dictionary, Direction, EntryId, Index, NamedType, System, Unit};
 
+use super::eds::{EdsDefaults, fewest_exceptions};
 use super::options::{Options, Place};
 use super::remarks::{Remarks, Repair};
-
-/// Which defaults the EDS withholds unless an entry says otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum EdsDefaults {
-    /// Those of writable entries that are locked or stored.
-    Safe,
-    /// None.
-    All,
-}
 
 /// How a device is written.
 #[derive(Debug, Clone, Default)]
@@ -196,17 +188,4 @@ pub(super) fn same_unit(one: &Unit, other: &Unit) -> bool {
         && one.base == other.base
         && text(one) == text(other)
         && (one.about == other.about || other.about.is_empty())
-}
-
-/// The policy of the device from which fewer of its entries differ.
-fn fewest_exceptions(device: &Dictionary) -> EdsDefaults {
-    let exceptions = |defaults| {
-        let entries = device.entries().filter(|(.., entry)| entry.default.is_some());
-        entries.filter(|(.., entry)| entry.eds.default != super::entry::eds_default(entry, defaults)).count()
-    };
-    if exceptions(EdsDefaults::Safe) < exceptions(EdsDefaults::All) {
-        EdsDefaults::Safe
-    } else {
-        EdsDefaults::All
-    }
 }

@@ -50,7 +50,8 @@ fn whole(object: &Object, below: &Object, context: &Context<'_>) -> Vec<Item> {
         |fact: Fact, node: Node| Item::new(fact.word(), node).about(Spot::ObjectFact(object.index, fact));
     let category = object.category.filter(|category| Some(*category) != below.category);
     let since = object.since.clone().filter(|since| Some(since) != below.since.as_ref());
-    let about = entry::words(&object.about, context.language()).filter(|_| object.about != below.about);
+    let about =
+        super::texts::words(&object.about, context.language()).filter(|_| object.about != below.about);
     let items = [
         (object.name != below.name).then(|| item(Fact::Name, Node::text(object.name.clone()))),
         object.identifier.clone().map(|name| item(Fact::Identifier, Node::Plain(name))),

@@ -2,9 +2,10 @@
 
 use od_spec::model::{Date, DateTime};
 
-use super::context::{Context, EdsDefaults};
-use super::entry::words;
+use super::context::Context;
+use super::eds::EdsDefaults;
 use super::node::{Item, Node, Spot};
+use super::texts::words;
 
 /// The keys before `units:`.
 pub(super) fn header(context: &Context<'_>, uses: &[String]) -> Vec<Item> {
@@ -63,7 +64,7 @@ pub(super) fn device(context: &Context<'_>, features: &[String]) -> Item {
     add("eds", (!eds.is_empty()).then_some(Node::Map(eds)));
     let differs = device
         .entries()
-        .any(|(.., entry)| entry.default.is_some() && !super::entry::eds_default(entry, EdsDefaults::Safe));
+        .any(|(.., entry)| entry.default.is_some() && !super::eds::default_shown(entry, EdsDefaults::Safe));
     add("eds-defaults", (context.eds == EdsDefaults::All && differs).then(|| Node::plain("all")));
     let above = context.above_device();
     let item = Item::new(device.key.clone(), Node::Block(items)).about(Spot::Device);

@@ -2,11 +2,14 @@
 
 use od_spec::model::{
     Access, BitErrors, Dictionary, Entry, Fact, Index, Object, PdoMapping, Role, Storage, SubIndex, System,
-    Text, TypeKind, Value,
+    TypeKind, Value,
 };
 
-use super::context::{Context, EdsDefaults};
+use super::context::Context;
+use super::eds;
 use super::node::{Item, Node};
+use super::texts::{named, one_or_more, words};
+use super::types::bits;
 use super::value::value;
 
 /// Facts with what is written about them, in the order of a specification.
@@ -35,7 +38,7 @@ pub(super) fn keys(context: &Context<'_>, index: Index, entry: &Entry) -> Keys {
         entry.writable_when.as_ref().map(|condition| Node::text(condition.text.clone())),
     );
     add(Fact::BitErrors, bit_errors(&entry.bit_errors, entry));
-    let eds = eds(entry, context.eds);
+    let eds = eds::keys(entry, context.eds);
     add(Fact::Eds, (!eds.is_empty()).then_some(Node::Map(eds)));
     add(Fact::About, words(&entry.about, context.language()));
     keys
@@ -97,31 +100,6 @@ fn special(context: &Context<'_>, entry: &Entry) -> Option<Node> {
     (!items.is_empty()).then_some(Node::Map(items))
 }
 
-/// A name by itself, or with what is said about it.
-pub(super) fn named(name: &str, more: Vec<Item>, about: &Text, language: &str) -> Node {
-    let about = words(about, language).map(|about| Item::new("about", about));
-    let more: Vec<Item> = more.into_iter().chain(about).collect();
-    if more.is_empty() {
-        return Node::text(name);
-    }
-    let name = Item::new("name", Node::text(name));
-    Node::Map(std::iter::once(name).chain(more).collect())
-}
-
-/// A text in one language as it is, in several by their codes.
-pub(super) fn words(text: &Text, language: &str) -> Option<Node> {
-    let by_language: Vec<(&str, &str)> = text.iter().collect();
-    match by_language.as_slice() {
-        [] => None,
-        [(code, text)] if *code == language => Some(Node::text(*text)),
-        texts => {
-            let items =
-                texts.iter().map(|(code, text)| Item::new(super::scalar::spelled(code), Node::text(*text)));
-            Some(Node::Map(items.collect()))
-        }
-    }
-}
-
 fn bit_errors(list: &[BitErrors], entry: &Entry) -> Option<Node> {
     let fields = match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Bits(fields)) => fields.as_slice(),
@@ -130,65 +108,10 @@ fn bit_errors(list: &[BitErrors], entry: &Entry) -> Option<Node> {
     let items = list.iter().filter_map(|errors| {
         let field = fields.iter().find(|field| field.first == errors.bit)?;
         let codes = errors.error_codes().map(|code| Node::Plain(format!("0x{code:04X}"))).collect();
-        Some(Item::new(super::types::bits(field), one_or_more(codes)))
+        Some(Item::new(bits(field), one_or_more(codes)))
     });
     let items: Vec<Item> = items.collect();
     (!items.is_empty()).then_some(Node::Map(items))
-}
-
-/// A value by itself, several as a list.
-pub(super) fn one_or_more(mut nodes: Vec<Node>) -> Node {
-    match nodes.pop() {
-        Some(one) if nodes.is_empty() => one,
-        last => Node::List(nodes.into_iter().chain(last).collect()),
-    }
-}
-
-/// Whether the EDS shows a default where nothing is said about that.
-pub(super) fn eds_default(entry: &Entry, defaults: EdsDefaults) -> bool {
-    let kept = entry.locked
-        || matches!(entry.stored, Storage::Application | Storage::Manufacturer | Storage::Remanent);
-    match defaults {
-        EdsDefaults::All => true,
-        EdsDefaults::Safe => !(kept && entry.access.is_writable()),
-    }
-}
-
-/// The access that the EDS shows where nothing is said about that.
-fn eds_access(entry: &Entry) -> Access {
-    match (entry.access, entry.pdo) {
-        _ if entry.locked && entry.access.is_readable() => Access::Ro,
-        (Access::Rw, PdoMapping::Receive) => Access::Rww,
-        (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
-        (access, _) => access,
-    }
-}
-
-/// Lets the EDS show what follows from the entry.
-pub(super) fn forget_eds(entry: &mut Entry) {
-    entry.eds.access = eds_access(entry);
-    entry.eds.default = true;
-    entry.eds.no_write = entry.locked;
-    entry.eds.no_scan = false;
-}
-
-/// Where the EDS shows something else than follows from the entry.
-pub(super) fn eds(entry: &Entry, defaults: EdsDefaults) -> Vec<Item> {
-    let mut items = Vec::new();
-    if entry.default.is_some() && entry.eds.default != eds_default(entry, defaults) {
-        let word = if entry.eds.default { "written" } else { "withheld" };
-        items.push(Item::new("default", Node::plain(word)));
-    }
-    if entry.eds.access != eds_access(entry) {
-        items.push(Item::new("access", Node::plain(entry.eds.access.word())));
-    }
-    let flags = [(entry.eds.no_write && !entry.locked, "no-write"), (entry.eds.no_scan, "no-scan")];
-    let flags: Vec<Node> =
-        flags.into_iter().filter(|(set, _)| *set).map(|(_, flag)| Node::plain(flag)).collect();
-    if !flags.is_empty() {
-        items.push(Item::new("flags", Node::List(flags)));
-    }
-    items
 }
 
 /// What sub-index 0 of an array or record says where nothing is stated: the highest sub-index, unless it can change.

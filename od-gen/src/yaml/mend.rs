@@ -147,11 +147,11 @@ impl Draft {
                 std::mem::take(&mut entry.locked).then(|| format!("{} locked", entry.access.word()))?
             }
             Fact::Eds => {
-                let eds = super::entry::eds(entry, super::context::EdsDefaults::All);
+                let eds = super::eds::keys(entry, super::eds::EdsDefaults::All);
                 if eds.is_empty() {
                     return None;
                 }
-                super::entry::forget_eds(entry);
+                super::eds::forget(entry);
                 "what the EDS shows otherwise".to_owned()
             }
             _ => return None,

@@ -8,6 +8,7 @@ mod compare;
 mod context;
 mod departures;
 mod device;
+mod eds;
 mod emit;
 mod entry;
 mod features;
@@ -22,6 +23,7 @@ mod remarks;
 mod runs;
 mod scalar;
 mod text;
+mod texts;
 mod types;
 mod value;
 

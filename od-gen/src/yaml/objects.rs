@@ -50,7 +50,7 @@ fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
         object.category.map(|category| item(Fact::Category, Node::plain(category.word()))),
         object.since.clone().map(|since| item(Fact::Since, Node::Text(since))),
     ];
-    let after = entry::words(&object.about, context.language()).map(|about| item(Fact::About, about));
+    let after = super::texts::words(&object.about, context.language()).map(|about| item(Fact::About, about));
     (before.into_iter().flatten().collect(), after.into_iter().collect())
 }
 

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use od_spec::model::{DataType, Direction, EntryId, Index, ObjectKind, Pdo, PdoTarget, SubIndex, Value};
 
 use super::context::Context;
-use super::entry::words;
 use super::node::{Item, Node, Spot};
 use super::scalar::spelled;
+use super::texts::words;
 
 /// The PDOs that stand under `pdos:`; the parameter objects of any other are written in full.
 pub(super) fn short<'a>(context: &Context<'a>) -> Vec<&'a Pdo> {

@@ -3,9 +3,9 @@
 use od_spec::model::{BitField, BitUsage, EnumValue, NamedType, Ratio, TypeKind, Unit};
 
 use super::context::Context;
-use super::entry::{named, one_or_more, words};
 use super::node::{Item, Node, Spot};
 use super::scalar::spelled;
+use super::texts::{named, one_or_more, words};
 
 /// `units:`.
 pub(super) fn units(context: &Context<'_>) -> Vec<Item> {

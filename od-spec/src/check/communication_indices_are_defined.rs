@@ -6,7 +6,6 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::Index;
-use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
@@ -32,7 +31,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     // From 1300h on, several standards have objects.
     for object in subject.device.objects.range(Index(0x1000)..Index(0x1200)).map(|(_, object)| object) {
         let index = object.index;
-        if is_from_library(object) || standard::object(index).is_some() || index.0 == NMT_INHIBIT_TIME {
+        if is_from_library(object)
+            || (subject.standard.object)(index).is_some()
+            || index.0 == NMT_INHIBIT_TIME
+        {
             continue;
         }
         let message = match index.0 {

@@ -10,6 +10,7 @@ mod from_library;
 mod help;
 mod pdo;
 mod rule;
+pub(crate) mod standard;
 mod subject;
 
 mod arrays_have_one_type;
@@ -87,8 +88,9 @@ use crate::source::Span;
 
 use allowed::Allowed;
 use findings::Findings;
-pub(crate) use rule::Rule;
 use rule::{Check, Needs};
+pub(crate) use rule::{Rule, Rules};
+pub(crate) use standard::Standard;
 use subject::Subject;
 
 /// All rules, by code.
@@ -153,7 +155,7 @@ pub(crate) static RULES: &[Rule] = &[
 
 /// Applies the rules to a system whose devices are types: each may become any node.
 pub(crate) fn system(
-    rules: &[&Rule],
+    rules: Rules<'_>,
     system: &System,
     library: Option<&Dictionary>,
     allowed: &mut Allowed<'_>,
@@ -164,24 +166,25 @@ pub(crate) fn system(
             return;
         }
         let mut found = Diagnostics::new();
-        for rule in rules.iter().filter(|rule| rule.needs == needs) {
-            apply(rule, system, library, None, &mut found);
+        for rule in rules.list.iter().filter(|rule| rule.needs == needs) {
+            apply(rule, rules.standard, system, library, None, &mut found);
         }
         diagnostics.append(allowed.soften(found));
     }
     allowed.report_unused(diagnostics);
 }
 
-/// Applies the rules to a device that was read from a foreign file, or to the node that a DCF is for. What is wrong there prevents nothing, so that every rule
-/// has its say.
-pub(crate) fn foreign(rules: &[&Rule], system: &System, node: Option<u8>, diagnostics: &mut Diagnostics) {
-    for rule in rules {
-        apply(rule, system, None, node, diagnostics);
+/// Applies the rules to a device that was read from a foreign file, or to the node that a DCF is for. What is wrong there
+/// prevents nothing, so that every rule has its say.
+pub(crate) fn foreign(rules: Rules<'_>, system: &System, node: Option<u8>, diagnostics: &mut Diagnostics) {
+    for rule in rules.list {
+        apply(rule, rules.standard, system, None, node, diagnostics);
     }
 }
 
 fn apply(
     rule: &Rule,
+    standard: Standard,
     system: &System,
     library: Option<&Dictionary>,
     node: Option<u8>,
@@ -189,7 +192,7 @@ fn apply(
 ) {
     let mut look = |check: fn(&Subject<'_>, &mut Findings), device: &Dictionary| {
         let mut findings = Findings::of(device);
-        check(&Subject { system, device, node }, &mut findings);
+        check(&Subject { system, device, node, standard }, &mut findings);
         diagnostics.append(findings.into_diagnostics());
     };
     match rule.check {
@@ -211,15 +214,15 @@ fn apply(
 /// Applies the rules to a node that was read from a DCF: `device` has the file's parameter values. What is wrong with its
 /// defaults was said about the device.
 pub(crate) fn foreign_node(
-    rules: &[&Rule],
+    rules: Rules<'_>,
     system: &System,
     device: &Dictionary,
     node: u8,
     diagnostics: &mut Diagnostics,
 ) {
-    let subject = Subject { system, device, node: Some(node) };
+    let subject = Subject { system, device, node: Some(node), standard: rules.standard };
     let places: BTreeSet<Span> = subject.set_entries().map(|(.., place)| place).collect();
-    for rule in rules {
+    for rule in rules.list {
         let (Check::Objects(check) | Check::Device(check) | Check::Settings(check)) = rule.check else {
             continue;
         };
@@ -232,20 +235,20 @@ pub(crate) fn foreign_node(
 /// Applies the rules to one configured node: `device` has the settings laid over its defaults. What is wrong without the
 /// settings is not said again.
 pub(crate) fn configuration(
-    rules: &[&Rule],
+    rules: Rules<'_>,
     system: &System,
     device: &Dictionary,
     node: u8,
     diagnostics: &mut Diagnostics,
 ) {
-    let subject = Subject { system, device, node: Some(node) };
+    let subject = Subject { system, device, node: Some(node), standard: rules.standard };
     let before = diagnostics.count().0;
     // As for a specification: what is only a consequence of something wrong is not said.
     for needs in [Needs::Nothing, Needs::Everything] {
         if needs == Needs::Everything && diagnostics.count().0 > before {
             return;
         }
-        for rule in rules.iter().filter(|rule| rule.needs == needs) {
+        for rule in rules.list.iter().filter(|rule| rule.needs == needs) {
             let (Check::Objects(check) | Check::Device(check) | Check::Settings(check)) = rule.check else {
                 continue;
             };

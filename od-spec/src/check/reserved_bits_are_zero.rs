@@ -7,7 +7,6 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{BitUsage, Entry, EntryId, Fact, TypeKind};
-use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -31,7 +30,7 @@ fn meant<'a>(subject: &Subject<'a>, id: EntryId, entry: &'a Entry) -> &'a Entry 
     if says_it || subject.device.objects.get(&id.index).is_none_or(is_from_library) {
         return entry;
     }
-    let standard = standard::object(id.index).and_then(|object| standard::entry(object, id.sub));
+    let standard = subject.standard.entry(id.index, id.sub);
     standard.filter(|standard| standard.data_type == entry.data_type).unwrap_or(entry)
 }
 

@@ -1,6 +1,7 @@
 //! What a rule is.
 
 use super::findings::Findings;
+use super::standard::Standard;
 use super::subject::Subject;
 use crate::diag::Code;
 use crate::model::System;
@@ -43,4 +44,13 @@ pub(crate) enum Check {
     Device(fn(&Subject<'_>, &mut Findings)),
     /// One configured node: what is set, and whether it can be set.
     Settings(fn(&Subject<'_>, &mut Findings)),
+}
+
+/// Some rules, with the standard that they hold objects against.
+#[derive(Clone, Copy)]
+pub(crate) struct Rules<'a> {
+    /// The rules.
+    pub list: &'a [&'a Rule],
+    /// What CiA 301 says.
+    pub standard: Standard,
 }

@@ -6,7 +6,6 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Access, Entry, EntryId, Fact, Object, PdoMapping, SubIndex};
-use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
 
@@ -27,9 +26,8 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
-        let Some(defined) = standard::object(object.index) else { continue };
         for entry in &object.entries {
-            let Some(known) = standard::entry(defined, entry.sub) else { continue };
+            let Some(known) = subject.standard.entry(object.index, entry.sub) else { continue };
             for (problem, fact) in
                 [access(object, entry, known), mapping(object, entry, known)].into_iter().flatten()
             {

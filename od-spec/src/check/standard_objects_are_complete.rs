@@ -6,7 +6,6 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Category, Object, ObjectKind, Role, SubIndex};
-use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -30,7 +29,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     // What a feature brings from the library is complete.
     let is_written = |object: &&Object| !is_from_library(object) || object.span.file == device.span.file;
     for object in device.objects.values().filter(|object| object.is_structured()).filter(is_written) {
-        let Some(defined) = standard::object(object.index).filter(|defined| defined.is_structured()) else {
+        let Some(defined) = (subject.standard.object)(object.index).filter(|defined| defined.is_structured())
+        else {
             continue;
         };
         let problems = [missing(object, defined), unknown(object), gap(object)];

@@ -3,11 +3,11 @@
 use super::findings::{Findings, others};
 use super::from_library::{help, is_from_library};
 use super::rule::{Check, Needs, Rule};
+use super::standard::continued;
 use super::subject::Subject;
 use super::value_fits_type::is_of_type;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Author, DataType, Entry, EntryId, Fact, Index, Object, ObjectKind, Role};
-use crate::standard;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
@@ -28,7 +28,7 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
-        let Some(defined) = standard::object(object.index) else { continue };
+        let Some(defined) = (subject.standard.object)(object.index) else { continue };
         if let Some(finding) = shape(subject, object, defined) {
             findings.push(finding);
             continue;
@@ -36,7 +36,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         // The type of a count is fixed by CiA 301 for all objects.
         let entries = object.entries.iter().filter(|entry| !object.is_structured() || entry.sub.0 > 0);
         let wrong = entries.filter_map(|entry| {
-            let known = standard::entry(defined, entry.sub)?.data_type;
+            let known = continued(defined, entry.sub)?.data_type;
             has_other_type(object.index, entry, known).then_some((entry, known))
         });
         // One finding for all entries with one mistake: a PDO mapping has up to 64 of them.

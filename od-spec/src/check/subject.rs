@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
+use super::standard::Standard;
 use crate::diag::Diagnostic;
 use crate::model::{
     Author, Dictionary, Entry, EntryId, EntryRef, Fact, Index, Object, Ratio, SubIndex, System, Value,
@@ -19,6 +20,8 @@ pub(crate) struct Subject<'a> {
     pub device: &'a Dictionary,
     /// The node-ID of a configured node; `None` for a type.
     pub node: Option<u8>,
+    /// What CiA 301 says about objects.
+    pub standard: Standard,
 }
 
 impl<'a> Subject<'a> {

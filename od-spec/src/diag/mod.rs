@@ -2,12 +2,13 @@
 
 mod code;
 pub mod codes;
+pub mod readers;
 pub mod render;
 
 pub use code::{Code, Example, Language};
 
-use crate::eds::readers::{self, Readers};
 use crate::source::Span;
+use readers::Readers;
 
 /// How serious a [`Diagnostic`] is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,6 +70,8 @@ pub struct Diagnostic {
     pub edits: Vec<Edit>,
     /// The readers of other people that refuse an EDS or DCF because of this, or are reported to stumble.
     pub minded_by: Readers,
+    /// Who stumbles over it, a sentence each; none where the message names them itself.
+    pub(crate) stumbling: Box<[String]>,
 }
 
 /// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
@@ -107,6 +110,7 @@ impl Diagnostic {
             notes: Vec::new(),
             edits: Vec::new(),
             minded_by: Readers::NONE,
+            stumbling: Box::default(),
         }
     }
 
@@ -149,9 +153,7 @@ impl Diagnostic {
 
     /// The notes, and who stumbles over it.
     pub(crate) fn all_notes(&self) -> impl Iterator<Item = String> {
-        // Notes about what a reader refuses name it already.
-        let sentences = if readers::names_them(self.code) { Vec::new() } else { self.minded_by.sentences() };
-        self.notes.iter().cloned().chain(sentences)
+        self.notes.iter().chain(&self.stumbling).cloned()
     }
 
     /// How serious it is.

@@ -1,9 +1,8 @@
 //! The shape of an EDS or DCF text, without loss: every character of the text is in one of its lines.
 
-use std::borrow::Cow;
 use std::fmt::{self, Display};
-use std::ops::Range;
 
+use super::line::{Line, LineKind};
 use super::scan;
 use crate::source::{FileId, Span};
 
@@ -38,73 +37,6 @@ pub struct Document<'t> {
     lines: Vec<Line<'t>>,
 }
 
-/// A line and what ends it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line<'t> {
-    text: Cow<'t, str>,
-    /// First byte in its file.
-    start: u32,
-    content: Content,
-    end: LineEnd,
-}
-
-/// What a line says: positions in its text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Content {
-    Blank,
-    Comment,
-    /// Where the name ends, which begins behind the first bracket.
-    Header {
-        end: u32,
-    },
-    /// Where the equals sign stands.
-    KeyValue {
-        equals: u32,
-    },
-    Unreadable,
-}
-
-/// A part of a line's text, in bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Part {
-    pub start: u32,
-    pub end: u32,
-}
-
-impl Part {
-    fn range(self) -> Range<usize> {
-        self.start as usize..self.end as usize
-    }
-}
-
-/// How a line ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineEnd {
-    /// Carriage return and line feed, as most files have it.
-    CrLf,
-    /// Line feed alone.
-    Lf,
-    /// Carriage return alone, which CiA 306 does not know.
-    Cr,
-    /// With the text itself: the last line of a file without a break.
-    EndOfText,
-}
-
-/// What a line is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineKind {
-    /// Nothing but blanks.
-    Blank,
-    /// A comment: `;`, or what many take for one, `#`.
-    Comment,
-    /// The line that begins a section: `[1018sub1]`.
-    Header,
-    /// A key and its value: `DataType=0x0007`.
-    KeyValue,
-    /// None of these, such as a key without `=`.
-    Unreadable,
-}
-
 impl<'t> Document<'t> {
     /// The lines of a text. Whatever the text is, it becomes a document.
     pub fn scan(file: FileId, text: &'t str) -> Self {
@@ -114,7 +46,7 @@ impl<'t> Document<'t> {
     /// Adds a section behind the others. A section that a program wrote is set off by one blank line.
     pub fn push(&mut self, section: Section) {
         if !self.lines.is_empty() {
-            self.lines.push(Line::written(String::new(), Content::Blank));
+            self.lines.push(Line::new_blank());
         }
         self.lines.extend(section.lines);
     }
@@ -126,8 +58,7 @@ impl<'t> Document<'t> {
 
     /// Where a line stands, without its break.
     pub fn place(&self, line: &Line<'_>) -> Option<Span> {
-        let end = line.start.saturating_add(length(&line.text));
-        Some(Span { file: self.file?, start: line.start, end })
+        Some(line.place(self.file?))
     }
 
     /// The lines before the first section; keys among them belong to no section.
@@ -152,7 +83,7 @@ impl<'t> Document<'t> {
     /// The header of the section that a byte of the file belongs to. The lines of a text that was read ascend.
     pub(super) fn header_before(&self, start: u32) -> Option<&Line<'t>> {
         self.file?;
-        let end = self.lines.partition_point(|line| line.start <= start);
+        let end = self.lines.partition_point(|line| line.start() <= start);
         self.lines[..end].iter().rfind(|line| line.kind() == LineKind::Header)
     }
 
@@ -166,8 +97,8 @@ impl<'t> Document<'t> {
 impl Display for Document<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.lines.iter().try_for_each(|line| {
-            f.write_str(&line.text)?;
-            f.write_str(line.end.text())
+            f.write_str(line.text())?;
+            f.write_str(line.end().text())
         })
     }
 }
@@ -226,15 +157,13 @@ pub struct Section {
 impl Section {
     /// A section without keys. The name may hold neither brackets nor line breaks.
     pub fn new(name: impl Display) -> Self {
-        let text = format!("[{name}]");
-        let end = length(&text) - 1;
-        Self { lines: vec![Line::written(text, Content::Header { end })] }
+        Self { lines: vec![Line::new_header(name)] }
     }
 
     /// The section with comments directly above its header, a line each, without their `;`.
     #[must_use]
     pub fn with_comments<C: Display>(mut self, comments: impl IntoIterator<Item = C>) -> Self {
-        let lines = comments.into_iter().map(|text| Line::written(format!("; {text}"), Content::Comment));
+        let lines = comments.into_iter().map(|text| Line::new_comment(text));
         let above = self.lines.iter().position(|line| line.kind() == LineKind::Header).unwrap_or(0);
         self.lines.splice(above..above, lines);
         self
@@ -242,123 +171,14 @@ impl Section {
 
     /// Adds a key and its value behind the others. Neither may hold a line break, and the key no `=`.
     pub fn push(&mut self, key: &str, value: impl Display) {
-        self.lines.push(Line::written(format!("{key}={value}"), Content::KeyValue { equals: length(key) }));
+        self.lines.push(Line::new_key_value(key, value));
     }
-}
-
-impl<'t> Line<'t> {
-    /// A line that a program writes.
-    fn written(text: String, content: Content) -> Self {
-        Self { text: Cow::Owned(text), start: 0, content, end: LineEnd::CrLf }
-    }
-
-    /// A line of a text that begins at the byte `start` of its file.
-    pub(super) const fn read(text: &'t str, start: u32, content: Content, end: LineEnd) -> Self {
-        Self { text: Cow::Borrowed(text), start, content, end }
-    }
-
-    /// The text of the line, without its break.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// What ends the line.
-    pub const fn end(&self) -> LineEnd {
-        self.end
-    }
-
-    /// What the line is.
-    pub const fn kind(&self) -> LineKind {
-        match self.content {
-            Content::Blank => LineKind::Blank,
-            Content::Comment => LineKind::Comment,
-            Content::Header { .. } => LineKind::Header,
-            Content::KeyValue { .. } => LineKind::KeyValue,
-            Content::Unreadable => LineKind::Unreadable,
-        }
-    }
-
-    /// The name in a header, as it is spelled, without blanks around it.
-    pub fn name(&self) -> Option<&str> {
-        self.text.get(self.name_part()?.range())
-    }
-
-    /// The key, as it is spelled.
-    pub fn key(&self) -> Option<&str> {
-        self.text.get(self.key_part()?.range())
-    }
-
-    /// The text of a key's value, without blanks around it; what it stands for depends on the key.
-    pub fn value(&self) -> Option<&str> {
-        self.text.get(self.value_part()?.range())
-    }
-
-    /// The text of a comment, without its sign and the blank behind it.
-    pub fn comment(&self) -> Option<&str> {
-        if self.kind() != LineKind::Comment {
-            return None;
-        }
-        let text = self.text.trim_start_matches(scan::is_blank).get(1..)?;
-        Some(text.strip_prefix(' ').unwrap_or(text).trim_end_matches(scan::is_blank))
-    }
-
-    /// Where a part of the line stands in its file, in bytes of the line's text.
-    pub(super) const fn part(&self, file: FileId, part: Part) -> Span {
-        Span { file, start: self.start + part.start, end: self.start + part.end }
-    }
-
-    /// The name in a header.
-    pub(super) fn name_part(&self) -> Option<Part> {
-        match self.content {
-            Content::Header { end } => {
-                let start = self.text.find('[').map_or(0, |bracket| bracket + 1);
-                let start = u32::try_from(start).unwrap_or(end).min(end);
-                Some(scan::trimmed(&self.text, Part { start, end }))
-            }
-            Content::Blank | Content::Comment | Content::KeyValue { .. } | Content::Unreadable => None,
-        }
-    }
-
-    /// The key in front of the equals sign.
-    pub(super) fn key_part(&self) -> Option<Part> {
-        let equals = self.equals()?;
-        Some(scan::trimmed(&self.text, Part { start: 0, end: equals }))
-    }
-
-    /// The value behind the equals sign.
-    pub(super) fn value_part(&self) -> Option<Part> {
-        let equals = self.equals()?;
-        Some(scan::trimmed(&self.text, Part { start: equals + 1, end: length(&self.text) }))
-    }
-
-    const fn equals(&self) -> Option<u32> {
-        match self.content {
-            Content::KeyValue { equals } => Some(equals),
-            Content::Blank | Content::Comment | Content::Header { .. } | Content::Unreadable => None,
-        }
-    }
-}
-
-impl LineEnd {
-    /// The characters of the break.
-    pub const fn text(self) -> &'static str {
-        match self {
-            LineEnd::CrLf => "\r\n",
-            LineEnd::Lf => "\n",
-            LineEnd::Cr => "\r",
-            LineEnd::EndOfText => "",
-        }
-    }
-}
-
-/// The length of a text that is part of a file, or of a line that a program writes.
-fn length(text: &str) -> u32 {
-    u32::try_from(text.len()).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::eds::line::LineEnd;
     use crate::source::SourceMap;
 
     #[test]

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use super::document::{Document, Line};
+use super::document::Document;
+use super::line::Line;
 use super::names::{List, Topic, topic};
 use crate::diag::Language;
 use crate::model::Index;

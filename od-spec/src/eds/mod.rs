@@ -11,6 +11,7 @@ mod document;
 pub(crate) mod example;
 #[cfg(test)]
 mod findings;
+mod line;
 pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod owner;
@@ -46,7 +47,8 @@ fn ends_with(name: &str, extension: &str) -> bool {
     start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
 }
 
-pub use document::{Document, Line, LineEnd, LineKind, Section, SectionRef};
+pub use document::{Document, Section, SectionRef};
+pub use line::{Line, LineEnd, LineKind};
 pub use owner::{Owner, Remark};
 
 #[cfg(test)]

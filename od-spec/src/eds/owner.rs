@@ -1,6 +1,7 @@
 //! Which object or entry a place of a document belongs to, and which of its comments say nothing about one.
 
-use super::document::{Document, LineKind, SectionRef};
+use super::document::{Document, SectionRef};
+use super::line::LineKind;
 use super::names::{Topic, topic};
 use crate::model::{EntryId, Index, SubIndex};
 use crate::source::Span;

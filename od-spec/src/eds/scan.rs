@@ -1,11 +1,6 @@
 //! From a text to its lines: one pass, which accepts everything.
 
-use super::document::{Content, Line, LineEnd, Part};
-
-/// White space and control characters, such as the DOS end-of-file sign.
-pub(super) const fn is_blank(c: char) -> bool {
-    c <= ' ' || c == '\u{FEFF}'
-}
+use super::line::{Content, Line, LineEnd, is_blank};
 
 /// The lines of a text; their texts and breaks, one behind the other, are the text.
 pub(super) fn lines(text: &str) -> Vec<Line<'_>> {
@@ -69,19 +64,4 @@ fn position(line: &str) -> Option<usize> {
         byte if *byte > b' ' && *byte < 0x80 => Some(0),
         _ => line.find(|c| !is_blank(c)),
     }
-}
-
-/// What is left of `start..end` without the blanks around it.
-pub(super) fn trimmed(line: &str, Part { start, end }: Part) -> Part {
-    let (start, end) = (start as usize, end as usize);
-    let at = |position: usize| u32::try_from(position).unwrap_or(u32::MAX);
-    let bytes = &line.as_bytes()[start..end];
-    let is_plain = |byte: Option<&u8>| byte.is_some_and(|byte| *byte > b' ' && *byte < 0x80);
-    if is_plain(bytes.first()) && is_plain(bytes.last()) {
-        return Part { start: at(start), end: at(end) };
-    }
-    let text = &line[start..end];
-    let front = text.len() - text.trim_start_matches(is_blank).len();
-    let length = text.trim_matches(is_blank).len();
-    Part { start: at(start + front), end: at(start + front + length) }
 }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::document::{Document, Line, LineKind, SectionRef};
+use super::document::{Document, SectionRef};
+use super::line::{Line, LineKind};
 use super::names::{ElementList, List, ModuleTopic, Topic, topic};
 use crate::encoding::Encoding;
 use crate::model::Index;

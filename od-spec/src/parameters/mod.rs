@@ -12,6 +12,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::eds::read::NodeDecl;
 use crate::model::{Author, Dictionary, EntryId, Statement, System, Value};
 use crate::source::{Span, Spanned};
+use crate::standard;
 
 /// Values of single entries, by entry.
 pub type ParameterValues = BTreeMap<EntryId, Value>;
@@ -69,12 +70,19 @@ pub fn assign(
     settings: &[Assignment],
     diagnostics: &mut Diagnostics,
 ) -> ParameterValues {
-    assign_with(&check::RULES.iter().collect::<Vec<_>>(), system, device, node, settings, diagnostics)
+    assign_with(
+        standard::rules(&check::RULES.iter().collect::<Vec<_>>()),
+        system,
+        device,
+        node,
+        settings,
+        diagnostics,
+    )
 }
 
 /// Reads settings and checks them under some of the rules.
 pub(crate) fn assign_with(
-    rules: &[&check::Rule],
+    rules: check::Rules<'_>,
     system: &System,
     device: &Dictionary,
     node: u8,
@@ -102,7 +110,7 @@ pub(crate) fn assign_with(
 
 /// What the rules say about setting an entry at all, whatever the value; `None` if nothing.
 fn refused(
-    rules: &[&check::Rule],
+    rules: check::Rules<'_>,
     system: &System,
     device: &Dictionary,
     node: u8,
@@ -111,15 +119,16 @@ fn refused(
 ) -> Option<Diagnostics> {
     let marked = overlay::marked(device, unread.id?, assignment.span);
     let about_setting: Vec<&check::Rule> =
-        rules.iter().copied().filter(|rule| rule.is_about_setting()).collect();
+        rules.list.iter().copied().filter(|rule| rule.is_about_setting()).collect();
     let mut refusal = Diagnostics::new();
-    check::configuration(&about_setting, system, &marked, node, &mut refusal);
+    let rules = check::Rules { list: &about_setting, ..rules };
+    check::configuration(rules, system, &marked, node, &mut refusal);
     refusal.has_errors().then_some(refusal)
 }
 
 /// The node that a DCF configures, under some of the rules. Values that cannot be read are left out.
 pub(crate) fn of_node(
-    rules: &[&check::Rule],
+    rules: check::Rules<'_>,
     system: &System,
     device: &Dictionary,
     decl: NodeDecl,

@@ -6,9 +6,10 @@
 
 use std::sync::LazyLock;
 
+use crate::check::{Rule, Rules, Standard};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
-use crate::model::{Dictionary, Entry, Index, Object, ObjectKind, SubIndex};
+use crate::model::{Dictionary, Index, Object};
 use crate::resolve;
 use crate::source::SourceMap;
 use crate::yaml;
@@ -19,14 +20,11 @@ pub const LIBRARIES: &[(&str, &str)] = &[
     ("cia402", include_str!("../../profiles/cia402.od.yaml")),
 ];
 
-/// The library of CiA 301.
-pub(crate) const CIA301: &str = "cia301";
-
 /// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
 const RUNS: &str = include_str!("runs.od.yaml");
 
 static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| {
-    let library = LIBRARIES.iter().find(|(library, _)| *library == CIA301);
+    let library = LIBRARIES.iter().find(|(library, _)| *library == "cia301");
     library.and_then(|(_, text)| read(text))
 });
 /// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
@@ -41,7 +39,7 @@ fn read(text: &str) -> Option<Dictionary> {
 }
 
 /// The object that CiA 301 defines at an index; for one of a run, the first of the run.
-pub(crate) fn object(index: Index) -> Option<&'static Object> {
+fn object(index: Index) -> Option<&'static Object> {
     let first = match index.0 {
         0x1201..=0x127F => 0x1201,
         0x1280..=0x12FF => 0x1280,
@@ -58,19 +56,20 @@ pub(crate) fn object(index: Index) -> Option<&'static Object> {
 }
 
 /// Whether the library `cia301` has the object at an index.
-pub(crate) fn is_in_library(index: Index) -> bool {
+fn is_in_library(index: Index) -> bool {
     IN_LIBRARY.as_ref().is_some_and(|library| library.objects.contains_key(&index))
 }
 
-/// What CiA 301 says about the entry of an object at a sub-index: an array goes on as its last element that is described.
-pub(crate) fn entry(object: &'static Object, sub: SubIndex) -> Option<&'static Entry> {
-    let goes_on = object.kind == ObjectKind::Array && sub.0 > 0 && sub != SubIndex::STRUCTURE;
-    object.entry(sub).or_else(|| object.entries.last().filter(|_| goes_on))
+/// All rules or some of them, with this standard to hold objects against.
+pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
+    Rules { list, standard: Standard { object, is_in_library } }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::standard::continued;
+    use crate::model::SubIndex;
 
     #[test]
     fn the_standards_are_read_without_a_remark() {
@@ -103,7 +102,7 @@ mod tests {
     fn an_array_goes_on_as_it_ends_and_a_record_does_not() {
         let name = |index: u16, sub: u8| {
             let object = object(Index(index)).unwrap();
-            entry(object, SubIndex(sub)).map(|entry| entry.name.as_str())
+            continued(object, SubIndex(sub)).map(|entry| entry.name.as_str())
         };
         assert_eq!(name(0x1016, 90), Some("Consumer heartbeat time 1"));
         assert_eq!(name(0x1018, 4), Some("Serial number"));

@@ -1,7 +1,8 @@
 //! Changes of whole lines.
 
 use crate::diag::Edit;
-use crate::eds::document::{Line, LineEnd, LineKind, SectionRef};
+use crate::eds::document::SectionRef;
+use crate::eds::line::{Line, LineEnd, LineKind};
 use crate::eds::names::{self, List, Topic};
 use crate::eds::view::View;
 use crate::source::Span;

@@ -214,3 +214,11 @@ pub(super) fn made_up(name: &str, data_type: DataType, access: Access, place: Sp
         ..EntryDecl::empty(place)
     }
 }
+
+/// A sub-index 0 that no section describes.
+pub(super) fn count_of(name: &str, count: u8, access: Access, place: Span) -> EntryDecl {
+    EntryDecl {
+        default: Some(made(count.to_string(), place)),
+        ..made_up(name, DataType::Unsigned8, access, place)
+    }
+}

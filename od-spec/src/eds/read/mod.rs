@@ -8,13 +8,15 @@ mod comments;
 mod compact;
 mod device;
 mod entry;
+mod implicit_pdos;
 mod modules;
 mod node;
 mod objects;
+mod shape;
 mod value;
 
 use super::view::View;
-use crate::ast::Spec;
+use crate::ast::{ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{Span, Spanned};
 
@@ -32,7 +34,7 @@ pub(crate) struct Read {
 pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -> Read {
     let mut node = view.is_dcf.then(|| node::read(view));
     let mut meanings = comments::Meanings::default();
-    let objects = objects::read(view, node.as_mut(), &mut meanings, diagnostics);
+    let objects = objects(view, node.as_mut(), &mut meanings, diagnostics);
     let (units, types) = meanings.into_declarations();
     let device = device::device(view, name, &objects);
     let title = device.name.clone();
@@ -65,6 +67,23 @@ pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -
         front_end: crate::ast::FrontEnd::Eds,
     };
     Read { spec, node }
+}
+
+/// All objects of a file, by index.
+fn objects(
+    view: &View<'_>,
+    node: Option<&mut NodeDecl>,
+    meanings: &mut comments::Meanings,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ObjectDecl> {
+    let mut context = entry::Context { node, meanings, diagnostics };
+    let described = view.objects.iter().filter(|(_, part)| part.object.is_some() || !part.subs.is_empty());
+    let mut objects: Vec<ObjectDecl> =
+        described.filter_map(|(index, part)| objects::object(*index, part, &mut context)).collect();
+    implicit_pdos::add(view, &mut objects);
+    modules::add(view, &mut objects, &mut context);
+    objects.sort_by_key(|object| object.index.value);
+    objects
 }
 
 /// Something that is right, and that a dictionary has no place for.

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::entry::{self, Context};
 use super::made;
-use super::objects::{declaration, object, with_shape};
+use super::objects::object;
+use super::shape::{declaration, with_shape};
 use crate::ast::{EntryDecl, ObjectDecl};
 use crate::diag::Diagnostic;
 use crate::eds::codes;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::reader::Reader;
 use super::refusal::{Cause, Place, Refusals};
+use crate::diag::readers::Reader;
 use crate::source::FileId;
 
 /// Data types that it knows; entries of others are passed over.

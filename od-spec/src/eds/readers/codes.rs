@@ -1,7 +1,7 @@
 //! What is said where a reader refuses a text and no rule finds a fault at that place.
 
-use super::reader::Readers;
 use super::refusal::Cause;
+use crate::diag::readers::Readers;
 use crate::diag::{Code, Severity};
 
 macro_rules! codes {

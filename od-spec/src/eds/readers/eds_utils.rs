@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::python::int;
-use super::reader::Reader;
 use super::refusal::{Cause, Place, Refusals, Row, rows};
+use crate::diag::readers::Reader;
 use crate::source::FileId;
 
 /// Lines between two empty ones: what the reader takes for a section.

@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::reader::{Evidence, Readers};
 use super::refusal::{Cause, Refusal};
 use super::reported::both_ways;
 use super::table::stumbling;
 use super::{Reader, refusals};
+use crate::diag::readers::{Evidence, Readers};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, SourceFile, SourceMap, Span};
 
@@ -53,10 +53,21 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
         }
     }
     let untold = all.into_iter().filter(|one| !told.contains(&(one.reader, one.cause, one.what)));
-    for note in notes(untold, source).into_iter().chain(both_ways(source.text(), file)) {
+    diagnostics.as_mut_slice().iter_mut().for_each(tell);
+    let reported = both_ways(source.text(), file).map(|mut note| {
+        tell(&mut note);
+        note
+    });
+    // What is only about readers names them in its message.
+    for note in notes(untold, source).into_iter().chain(reported) {
         diagnostics.push(note);
     }
     diagnostics.sort();
+}
+
+/// Says in words who stumbles.
+fn tell(diagnostic: &mut Diagnostic) {
+    diagnostic.stumbling = diagnostic.minded_by.sentences().into();
 }
 
 /// One note for all places at which readers refuse the same.

@@ -14,24 +14,17 @@ mod mark;
 mod node_canopen;
 mod python;
 mod python_canopen;
-mod reader;
 mod refusal;
 mod reported;
 mod table;
 
+pub use crate::diag::readers::{Evidence, Reader, Readers};
 pub use mark::mark;
-pub use reader::{Evidence, Reader, Readers};
 pub use table::{Stumbling, stumbling};
 
 use self::refusal::{Cause, Place, Refusal, Refusals};
-use crate::diag::Code;
 use crate::encoding::Encoding;
 use crate::source::{FileId, SourceFile};
-
-/// Whether messages of a code name the readers that they are about.
-pub(crate) fn names_them(code: &Code) -> bool {
-    codes::ALL.contains(&code) && *code != *codes::BOTH_WAYS
-}
 
 /// What readers refuse in a file.
 fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {

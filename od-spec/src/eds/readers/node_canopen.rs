@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::javascript::{Keys, Value, big_int, number, parse_int, sections};
-use super::reader::Reader;
 use super::refusal::{Cause, Place, Refusals};
+use crate::diag::readers::Reader;
 use crate::source::FileId;
 
 pub(super) fn refusals(text: &str, file: FileId) -> Refusals {

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::python::{Capitals, Ini, Section, int};
-use super::reader::Reader;
 use super::refusal::{Cause, Place, Refusals};
+use crate::diag::readers::Reader;
 use crate::source::FileId;
 
 const BIT_RATES: [u32; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];

@@ -1,6 +1,6 @@
 //! What a reader refuses a file for.
 
-use super::reader::Reader;
+use crate::diag::readers::Reader;
 use crate::source::{FileId, Span};
 
 /// A place of a text at which a reader gives up.

@@ -2,9 +2,9 @@
 
 use super::codes::BOTH_WAYS;
 use super::python::{Capitals, Ini, int};
-use super::reader::{Reader, Readers};
 use super::refusal::Refusals;
 use crate::diag::Diagnostic;
+use crate::diag::readers::{Reader, Readers};
 use crate::source::{FileId, Span};
 
 /// The first index that is no object of communication.

@@ -1,9 +1,9 @@
 //! Which findings are about what which readers refuse.
 
-use super::reader::Reader::{
+use crate::diag::Code;
+use crate::diag::readers::Reader::{
     self, Caneds, CanopenEditor, CanopenHost, Codesys, Dcfchk, EdsUtils, NodeCanopen, PythonCanopen,
 };
-use crate::diag::Code;
 
 /// A reader that stumbles over what a code is about, and why.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::super::edits;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::document::LineKind;
+use crate::eds::line::LineKind;
 use crate::eds::names::{Topic, topic};
 use crate::eds::view::View;
 

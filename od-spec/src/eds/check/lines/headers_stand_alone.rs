@@ -4,7 +4,7 @@ use super::super::edits;
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::document::LineKind;
+use crate::eds::line::LineKind;
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

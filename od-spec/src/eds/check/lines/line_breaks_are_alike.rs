@@ -4,7 +4,7 @@ use super::super::edits;
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
-use crate::eds::document::LineEnd;
+use crate::eds::line::LineEnd;
 use crate::eds::view::View;
 use crate::source::Span;
 

@@ -5,7 +5,7 @@ use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use super::headers_are_closed::is_name_without_bracket;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
-use crate::eds::document::LineKind;
+use crate::eds::line::LineKind;
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

@@ -5,7 +5,7 @@ use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
-use crate::eds::document::{Line, LineKind};
+use crate::eds::line::{Line, LineKind};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

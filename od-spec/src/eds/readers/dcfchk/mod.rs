@@ -7,8 +7,8 @@ mod objects;
 mod values;
 
 use super::python::{Capitals, Ini};
-use super::reader::Reader;
 use super::refusal::Refusals;
+use crate::diag::readers::Reader;
 use crate::source::FileId;
 
 pub(super) fn refusals(text: &str, file: FileId) -> Refusals {

@@ -128,7 +128,7 @@ impl Readers {
     }
 
     /// The beginning of a sentence: `dcfchk refuses`, `dcfchk and python-canopen refuse`.
-    pub(super) fn with_verb(self, one: &str, several: &str) -> String {
+    pub(crate) fn with_verb(self, one: &str, several: &str) -> String {
         let names: Vec<&str> = self.iter().map(Reader::name).collect();
         format!("{} {}", listed(&names), if names.len() == 1 { one } else { several })
     }

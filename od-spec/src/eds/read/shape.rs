@@ -1,0 +1,99 @@
+//! Declarations of objects, and of their elements or members.
+
+use super::entry::{self, Context};
+use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
+use crate::diag::{Diagnostic, shorten};
+use crate::eds::codes;
+use crate::eds::number;
+use crate::eds::view::{ObjectPart, Part};
+use crate::model::{EntryId, Index, ObjectKind, SubIndex};
+use crate::source::{Span, Spanned};
+
+/// An object about which nothing but its entry is known.
+pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> ObjectDecl {
+    ObjectDecl {
+        index: Spanned::new(index, place),
+        on: None,
+        from: None,
+        alias: None,
+        outside: None,
+        rounding: None,
+        array: None,
+        record: None,
+        sub0: None,
+        omit: Vec::new(),
+        entry,
+    }
+}
+
+/// The object with its elements or members.
+pub(super) fn with_shape(
+    object: ObjectDecl,
+    kind: ObjectKind,
+    members: Vec<(Spanned<SubIndex>, EntryDecl)>,
+) -> ObjectDecl {
+    let span = object.index.span;
+    if kind != ObjectKind::Array {
+        return ObjectDecl { record: Some(RecordDecl { span, members }), ..object };
+    }
+    let has = |sub: &u8| members.iter().any(|(member, _)| member.value.0 == *sub);
+    let highest = members.last().map_or(0, |(sub, _)| sub.value.0);
+    let omit = (1..=highest).filter(|sub| !has(sub)).map(|sub| Spanned::new(i128::from(sub), span));
+    let array = ArrayDecl {
+        span,
+        count: Some(Spanned::new(i128::from(highest), span)),
+        entry: EntryDecl::empty(span),
+        elements: members.clone(),
+    };
+    ObjectDecl { omit: omit.collect(), array: Some(array), ..object }
+}
+
+/// The sub-indices from 1 on.
+pub(super) fn members(
+    index: Index,
+    part: &ObjectPart<'_>,
+    context: &mut Context<'_>,
+) -> Vec<(Spanned<SubIndex>, EntryDecl)> {
+    let mut members = Vec::new();
+    for (number, section) in part.subs.range(1..) {
+        let Some(number) = u8::try_from(*number).ok().filter(|number| *number < 0xFF) else {
+            let message = format!("{index} has no sub-index {number:X}h; it is left out");
+            context.push(
+                Diagnostic::new(codes::BAD_SUB_INDEX, section.place(), message)
+                    .help("sub-indices of entries are 1 to FE"),
+            );
+            continue;
+        };
+        let id = EntryId { index, sub: SubIndex(number) };
+        let member = sub(id, ObjectKind::Var, section, context);
+        members.push((Spanned::new(id.sub, section.place()), member));
+    }
+    members
+}
+
+/// One sub-index, in an object of a kind; from sub-index 1 on it stands for itself.
+pub(super) fn sub(
+    id: EntryId,
+    object: ObjectKind,
+    section: &Part<'_>,
+    context: &mut Context<'_>,
+) -> EntryDecl {
+    let text = section.value("ObjectType");
+    let code = text.map(|text| number::lenient_integer(text.value));
+    let kind = match code {
+        None | Some(Some(7)) => object,
+        Some(Some(2)) => ObjectKind::Domain,
+        Some(_) => {
+            let shown = text.map(|text| shorten(text.value)).unwrap_or_default();
+            let message = format!("{id}: a sub-index is a VAR, found `ObjectType={shown}`");
+            let place = text.map_or(section.place(), |text| text.span);
+            context.push(
+                Diagnostic::new(codes::BAD_OBJECT_TYPE, place, message)
+                    .help("write `0x7`")
+                    .edit(place, "0x7"),
+            );
+            object
+        }
+    };
+    entry::entry(section, id, kind, context)
+}
