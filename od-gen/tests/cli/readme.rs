@@ -3,21 +3,49 @@
 use std::fs;
 use std::path::Path;
 
-use crate::{FAN, Scratch, odgen, stderr};
+use crate::{FAN, Scratch, odgen, stderr, stdout};
+
+/// The README.
+fn readme() -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    fs::read_to_string(root.join("README.md")).unwrap()
+}
+
+/// Demands that the README shows `lines` between its marks `<!-- mark -->` and `<!-- /mark -->`.
+#[track_caller]
+fn shows<'t>(mark: &str, lines: impl IntoIterator<Item = &'t str>) {
+    let readme = readme();
+    let indented = |line: &str| if line.is_empty() { String::new() } else { format!("    {line}") };
+    let screen: Vec<String> = lines.into_iter().map(indented).collect();
+    let (_, rest) = readme.split_once(&format!("<!-- {mark} -->\n")).unwrap();
+    let (block, _) = rest.split_once(&format!("<!-- /{mark} -->")).unwrap();
+    assert_eq!(block.trim(), screen.join("\n").trim(), "{mark}");
+}
 
 #[test]
 fn the_screens_of_a_check_are_what_it_says() {
     let scratch = Scratch::new("readme");
     scratch.file("fan.eds", FAN);
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let readme = fs::read_to_string(root.join("README.md")).unwrap();
     for (mark, arguments) in [("check", "check fan.eds"), ("for", "check fan.eds --for python-canopen")] {
         let said = stderr(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
-        let indented = |line: &str| if line.is_empty() { String::new() } else { format!("    {line}") };
         let command = format!("$ odgen {arguments}");
-        let screen: Vec<String> = [command.as_str()].into_iter().chain(said.lines()).map(indented).collect();
-        let (_, rest) = readme.split_once(&format!("<!-- {mark} -->\n")).unwrap();
-        let (block, _) = rest.split_once(&format!("\n<!-- /{mark} -->")).unwrap();
-        assert_eq!(block.trim(), screen.join("\n").trim());
+        shows(mark, [command.as_str()].into_iter().chain(said.lines()));
     }
+}
+
+#[test]
+fn the_way_from_an_eds_to_a_specification_is_as_shown() {
+    let scratch = Scratch::new("readme-ways");
+    scratch.file("fan.eds", FAN);
+    let fixed = odgen(&scratch.0, &["fix", "fan.eds"]);
+    let (said, diff) = (stderr(&fixed), stdout(&fixed));
+    let (_, counts) = said.split_once("note: fan.eds").unwrap();
+    let counts = format!("note: fan.eds{counts}");
+    shows("fix", ["$ odgen fix fan.eds"].into_iter().chain(diff.lines()).chain([""]).chain(counts.lines()));
+    odgen(&scratch.0, &["fix", "fan.eds", "--write"]);
+    let imported = stdout(&odgen(&scratch.0, &["import", "fan.eds"]));
+    shows("import", ["$ odgen import fan.eds"].into_iter().chain(imported.lines()));
+    let specification = fs::read_to_string(scratch.0.join("fan.od.yaml")).unwrap();
+    let (_, objects) = specification.split_once("\nobjects:\n").unwrap();
+    shows("specification", ["objects:"].into_iter().chain(objects.lines()));
 }
