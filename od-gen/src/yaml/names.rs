@@ -92,7 +92,7 @@ fn renamed(place: Place, original: &str, now: &str) -> Repair {
     } else if fitting(original, String::new) == original {
         "each name stands for one thing".to_owned()
     } else {
-        "not every reader of an EDS takes the name as it is".to_owned()
+        "no line of an EDS holds the name as it is".to_owned()
     };
     Repair {
         place,
@@ -119,7 +119,7 @@ fn cut(name: &str, ending: &str) -> String {
     format!("{}{ending}", kept.trim_end())
 }
 
-/// The text of a name or of the header without what readers of an EDS misread; what another text gives where nothing is left.
+/// The text of a name or of the header as a line can hold it; what another text gives where nothing is left.
 fn fitting(text: &str, otherwise: impl Fn() -> String) -> String {
     let plain = readable(text);
     let ascii = transliterate(&plain);
@@ -127,20 +127,9 @@ fn fitting(text: &str, otherwise: impl Fn() -> String) -> String {
     if plain.is_empty() || !has_form { otherwise() } else { cut(&plain, "") }
 }
 
-/// A text in which nothing is left that readers of an EDS take for something else.
+/// A text on one line, without control characters.
 pub(super) fn readable(text: &str) -> String {
-    let plain: String = text.chars().map(replaced).collect();
-    plain.trim().to_owned()
-}
-
-const fn replaced(c: char) -> char {
-    match c {
-        ';' => ',',
-        '#' => '/',
-        '=' => ':',
-        '\0'..='\u{1F}' | '\u{7F}'..='\u{9F}' => ' ',
-        c => c,
-    }
+    text.replace(char::is_control, " ").trim().to_owned()
 }
 
 /// A name that nothing else has: with the index, or with the sub-index.

@@ -87,16 +87,17 @@ fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
     Some((artifact, line))
 }
 
-/// `drive.od.yaml: 412 objects, 3 facts mended, 2 without a place`.
+/// `drive.od.yaml: 412 objects; 1 rule broken (see allow:)`.
 fn describe(name: &str, objects: usize, imported: &Imported) -> String {
-    let mut line = format!("{name}: {objects} objects");
-    for (count, what) in [
-        (imported.allowed.len(), "rules that it breaks allowed, see `allow:`"),
-        (imported.repairs.len(), "changed because a specification refuses it, see the comments"),
-        (imported.without_place, "without a place in a specification, listed at the end"),
+    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut line = format!("{name}: {}", counted(objects, "object"));
+    for (count, what, how) in [
+        (imported.allowed.len(), "rule", "broken (see `allow:`)"),
+        (imported.repairs.len(), "fact", "changed, as a specification cannot have it (see the comments)"),
+        (imported.without_place, "fact", "without a place in a specification (see the end)"),
     ] {
         if count > 0 {
-            let _ = write!(line, "; {count} {what}");
+            let _ = write!(line, "; {} {how}", counted(count, what));
         }
     }
     line.push('\n');
