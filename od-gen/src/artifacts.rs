@@ -15,7 +15,7 @@ pub struct Selection<'a> {
     pub devices: &'a [String],
     /// Also a DCF of each device for this node-ID.
     pub node: Option<u8>,
-    /// Where no node-ID is given: the node of the DCF that the system was read from, with its values.
+    /// The node of the DCF that the system was read from, with its values; on the node-ID above, if there is one.
     pub configured: Option<&'a Commissioning>,
 }
 
@@ -31,8 +31,16 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
                 let path = format!("eds/{}.eds", device.key);
                 let bytes = eds::write_eds(system, device);
                 list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
-                let node = selection.node.map(|node| Cow::Owned(Commissioning::of_node(device, node)));
-                if let Some(commissioning) = node.or(selection.configured.map(Cow::Borrowed)) {
+                let commissioning = match (selection.node, selection.configured) {
+                    (Some(node), Some(configured)) => {
+                        let mut commissioning = configured.clone();
+                        commissioning.node = node;
+                        Some(Cow::Owned(commissioning))
+                    }
+                    (Some(node), None) => Some(Cow::Owned(Commissioning::of_node(device, node))),
+                    (None, configured) => configured.map(Cow::Borrowed),
+                };
+                if let Some(commissioning) = commissioning {
                     let node = commissioning.node;
                     let file = format!("{}.dcf", device.key);
                     let bytes = eds::write_dcf(system, device, &commissioning, &file);

@@ -28,8 +28,10 @@ pub struct Compiled {
     /// The model. A specification, and an EDS that is held to the standard, has one exactly when no error is among the
     /// diagnostics; an EDS that is only read has one whatever is wrong with it.
     pub system: Option<System>,
-    /// Of a DCF: the node that it configures.
+    /// Of a DCF: the node that it configures; of one that states no node-ID, as node 1 would be.
     pub node: Option<Commissioning>,
+    /// The node-ID that a DCF states.
+    pub stated_node_id: Option<u8>,
     /// Errors and warnings, sorted by place.
     pub diagnostics: Diagnostics,
 }
@@ -37,7 +39,7 @@ pub struct Compiled {
 impl Compiled {
     /// Nothing but messages.
     pub const fn refused(diagnostics: Diagnostics) -> Self {
-        Self { system: None, node: None, diagnostics }
+        Self { system: None, node: None, stated_node_id: None, diagnostics }
     }
 }
 
@@ -127,7 +129,12 @@ fn compile_eds(
     }
     diagnostics.sort();
     let refused = strictness == Strictness::Standard && diagnostics.has_errors();
-    Compiled { system: (!refused).then_some(system), node: node.filter(|_| !refused), diagnostics }
+    Compiled {
+        system: (!refused).then_some(system),
+        node: node.filter(|_| !refused),
+        stated_node_id: id.filter(|_| !refused),
+        diagnostics,
+    }
 }
 
 /// Compiles under some of the rules.
@@ -141,7 +148,7 @@ pub(crate) fn compile_with(
     let system = build(rules, sources, root, loader, &mut diagnostics);
     diagnostics.sort();
     let system = system.filter(|_| !diagnostics.has_errors());
-    Compiled { system, node: None, diagnostics }
+    Compiled { system, node: None, stated_node_id: None, diagnostics }
 }
 
 fn build(

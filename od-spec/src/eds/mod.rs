@@ -47,6 +47,7 @@ fn ends_with(name: &str, extension: &str) -> bool {
     start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
 }
 
+pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
 pub use line::{Line, LineEnd, LineKind};
 pub use owner::{Owner, Remark};

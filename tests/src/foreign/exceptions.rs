@@ -6,38 +6,16 @@ use od_spec::model::{DataType, Dictionary, EntryId, Fact, Object, SubIndex, Valu
 
 use super::{Checked, Difference, Stated, Step};
 
-/// What the second model of a comparison was made by.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Round<'a> {
-    /// By an import, with what it says it has changed.
-    Import(&'a [Repair]),
-    /// By putting the file right, with the codes of what was wrong.
-    Fix(&'a [&'a str]),
-}
-
-impl Round<'_> {
-    const fn step(self) -> Step {
-        match self {
-            Round::Import(_) => Step::Import,
-            Round::Fix(_) => Step::Fixing,
-        }
-    }
-}
-
 /// The longest text that an EDS of ours has in a line of `[FileInfo]` and `[DeviceInfo]`.
 const LONGEST_TEXT: usize = 243;
 /// The longest default.
 const LONGEST_DEFAULT: usize = 242;
 
-/// Takes away what is as it should be, and tells of the rest.
-pub(super) fn except(round: Round<'_>, before: &Dictionary, found: Vec<Difference>, checked: &mut Checked) {
+/// Takes away what is as it should be after an import that says what it has changed, and tells of the rest.
+pub(super) fn except(repairs: &[Repair], before: &Dictionary, found: Vec<Difference>, checked: &mut Checked) {
     for difference in found {
-        let reason = match round {
-            Round::Import(repairs) => imported(&difference, before, repairs),
-            Round::Fix(codes) => fixed(&difference, codes),
-        };
-        let Some(reason) = reason else {
-            checked.problem(round.step(), told(&difference, round));
+        let Some(reason) = imported(&difference, before, repairs) else {
+            checked.problem(Step::Import, told(&difference, repairs));
             continue;
         };
         match checked.excepted.iter_mut().find(|(known, _)| *known == reason) {
@@ -48,11 +26,8 @@ pub(super) fn except(round: Round<'_>, before: &Dictionary, found: Vec<Differenc
 }
 
 /// The difference, with why the import says that it has changed the place.
-fn told(difference: &Difference, round: Round<'_>) -> String {
-    let because = match round {
-        Round::Import(repairs) => repairs.iter().find(|repair| is_about(repair, difference.place)),
-        Round::Fix(_) => None,
-    };
+fn told(difference: &Difference, repairs: &[Repair]) -> String {
+    let because = repairs.iter().find(|repair| is_about(repair, difference.place));
     match because {
         Some(repair) => format!("{difference}; the import says: {}", repair.comment()),
         None => difference.to_string(),
@@ -119,12 +94,6 @@ fn fits(text: &str) -> bool {
     text.len() <= LONGEST_DEFAULT && text.bytes().all(|byte| matches!(byte, b' '..=b'~'))
 }
 
-/// Why a file that was put right has another fact than before.
-fn fixed(difference: &Difference, codes: &[&str]) -> Option<&'static str> {
-    let is_date = matches!(difference.fact, Stated::Device("created" | "modified"));
-    (is_date && codes.contains(&"EDS210")).then_some("a date or time that could not be read before")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,21 +101,11 @@ mod tests {
     use crate::foreign::tests::device;
 
     /// What is told of two files, as far as it is no exception.
-    fn told(round: Round<'_>, before: &str, after: &str) -> Vec<String> {
+    fn told(repairs: &[Repair], before: &str, after: &str) -> Vec<String> {
         let (before, after) = (device(before), device(after));
         let mut checked = Checked::default();
-        except(round, &before, differences(&before, &after), &mut checked);
-        assert!(checked.problems.iter().all(|problem| problem.step == round.step()));
+        except(repairs, &before, differences(&before, &after), &mut checked);
         checked.problems.into_iter().map(|problem| problem.what).collect()
-    }
-
-    #[test]
-    fn dates_may_change_only_where_one_could_not_be_read() {
-        let (one, other) = ("[FileInfo]\nCreationDate=01-31-2020\n", "[FileInfo]\nCreationDate=02-01-2020\n");
-        assert_eq!(told(Round::Fix(&["EDS210"]), one, other), [""; 0]);
-        // Without a date of its own, the file is as it was made.
-        assert_eq!(told(Round::Fix(&["EDS101"]), one, other).len(), 2);
-        assert_eq!(told(Round::Import(&[]), one, other).len(), 2);
     }
 
     #[test]
@@ -155,7 +114,7 @@ mod tests {
             format!("[2000]\nParameterName=a\nObjectType=7\nDataType=9\nAccessType=ro\n{value}PDOMapping=0\n")
         };
         let none = text("");
-        let lost = |value: &str| told(Round::Import(&[]), &text(&format!("DefaultValue={value}\n")), &none);
+        let lost = |value: &str| told(&[], &text(&format!("DefaultValue={value}\n")), &none);
         assert_eq!(lost("plain").len(), 1);
         assert_eq!(lost("ω"), [""; 0]);
         assert_eq!(lost(&"x".repeat(LONGEST_DEFAULT)).len(), 1);

@@ -1,5 +1,6 @@
 //! Takes an EDS or DCF that others wrote through everything that the project does with one, and tells what went wrong.
 
+mod comparing;
 mod exceptions;
 mod facts;
 mod steps;
@@ -23,11 +24,14 @@ pub enum Step {
     Again,
     /// Putting it right; the result has the same facts.
     Fixing,
+    /// Comparing it with copies of itself in which one key has another value.
+    Comparing,
 }
 
 impl Step {
     /// All steps in order.
-    pub const ALL: [Self; 5] = [Self::Bytes, Self::Reading, Self::Import, Self::Again, Self::Fixing];
+    pub const ALL: [Self; 6] =
+        [Self::Bytes, Self::Reading, Self::Import, Self::Again, Self::Fixing, Self::Comparing];
 }
 
 impl fmt::Display for Step {
@@ -38,6 +42,7 @@ impl fmt::Display for Step {
             Step::Import => "import",
             Step::Again => "import again",
             Step::Fixing => "fix",
+            Step::Comparing => "compare",
         })
     }
 }

@@ -9,7 +9,8 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::{FileId, SourceMap, Span};
 use od_spec::{Compiled, NoFiles, Strictness, add_source, compile, compile_as, fix};
 
-use super::exceptions::{Round, except};
+use super::comparing;
+use super::exceptions::except;
 use super::{Checked, Findings, Step, differences};
 
 pub(super) fn run(step: Step, name: &str, bytes: &[u8], checked: &mut Checked) {
@@ -19,6 +20,7 @@ pub(super) fn run(step: Step, name: &str, bytes: &[u8], checked: &mut Checked) {
         Step::Import => facts_stay(name, bytes, checked),
         Step::Again => import_again(name, bytes),
         Step::Fixing => fixing(name, bytes, checked),
+        Step::Comparing => comparing(name, bytes, checked),
     };
     if let Err(what) = outcome {
         checked.problem(step, what);
@@ -127,7 +129,7 @@ fn facts_stay(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), Str
     let again = compile(&mut sources, root, &mut NoFiles);
     let before = original.devices.first().ok_or("no device")?;
     let found = differences(before, device(&again)?);
-    except(Round::Import(&imported.repairs), before, found, checked);
+    except(&imported.repairs, before, found, checked);
     Ok(())
 }
 
@@ -174,10 +176,17 @@ fn fixing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String>
         checked.problem(Step::Fixing, format!("{had} errors before, {has} after"));
     }
     let (before, after) = (model(before), model(after));
-    let before = device(&before)?;
-    let found = differences(before, device(&after)?);
-    let codes: Vec<&str> = fixed.counts().into_keys().map(|code| code.id).collect();
-    except(Round::Fix(&codes), before, found, checked);
+    for difference in differences(device(&before)?, device(&after)?) {
+        checked.problem(Step::Fixing, difference.to_string());
+    }
+    Ok(())
+}
+
+fn comparing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String> {
+    let Source { sources, root } = source(name, bytes)?;
+    for what in comparing::run(name, sources.file(root).text())? {
+        checked.problem(Step::Comparing, what);
+    }
     Ok(())
 }
 

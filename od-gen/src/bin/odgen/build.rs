@@ -41,17 +41,22 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    for Built { stem, used: Used { system, node: configured }, rust } in &mut systems {
+    for Built { path, used: Used { system, node: configured, stated_node_id }, rust } in &mut systems {
         let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
             continue;
         }
+        let stem = &stem(path);
         summary.extend(devices.into_iter().map(describe));
-        set.extend(artifacts(
-            system,
-            stem,
-            &Selection { devices: &args.device, node, configured: configured.as_ref() },
-        ));
+        let node = node.or(*stated_node_id);
+        if node.is_none() && configured.is_some() {
+            report.note(&format!(
+                "{} states no node-ID, so no DCF is made; `--node ID` makes one with its values",
+                path.display()
+            ));
+        }
+        let configured = configured.as_ref().filter(|_| node.is_some());
+        set.extend(artifacts(system, stem, &Selection { devices: &args.device, node, configured }));
         set.append(rust);
         if !templates.is_empty() {
             let options = od_gen::docs::options(system, &args.device, None);
@@ -86,7 +91,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
 
 /// A specification that was compiled.
 struct Built {
-    stem: String,
+    path: PathBuf,
     used: Used,
     /// Its Rust modules, if they are wanted.
     rust: Vec<Artifact>,
@@ -97,7 +102,7 @@ fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<V
     let built = specs.iter().map(|path| {
         let (used, sources) = report.compile_with_sources(path)?;
         let rust = if args.rust { modules(args, &used.system, &sources, report)? } else { Vec::new() };
-        Some(Built { stem: stem(path), used, rust })
+        Some(Built { path: path.clone(), used, rust })
     });
     built.collect::<Vec<_>>().into_iter().collect()
 }

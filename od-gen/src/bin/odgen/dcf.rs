@@ -42,7 +42,8 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     report.show(&compiled.diagnostics, &sources);
     let system = compiled.system.ok_or(ERRORS)?;
     let device = report.device_or_only(&system, args.device.as_deref())?;
-    let mut commissioning = commissioning(args, device, node, compiled.node).map_err(refuse)?;
+    let mut commissioning =
+        commissioning(args, device, node.or(compiled.stated_node_id), compiled.node).map_err(refuse)?;
     let node = commissioning.node;
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
     let name = file_name(&path, &loader.read).map_err(refuse)?;
@@ -75,7 +76,8 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     Ok(format!("  {}  {size} kB  {} node {node}, {count} values set{kept}\n", path.display(), device.key))
 }
 
-/// What the command line says about the node, and else the DCF that it is made from, without the settings.
+/// What the command line says about the node, and else the DCF that it is made from, without the settings. The node-ID is the
+/// one that the command line or the DCF states.
 fn commissioning(
     args: &DcfArgs,
     device: &Dictionary,
@@ -84,13 +86,15 @@ fn commissioning(
 ) -> Result<Commissioning, Diagnostic> {
     let mut commissioning = match (node, configured) {
         (Some(node), None) => Commissioning::of_node(device, node),
-        (None, Some(configured)) => configured,
         (Some(node), Some(mut configured)) => {
             configured.node = node;
             configured
         }
-        (None, None) => {
-            let message = "no node-ID is given";
+        (None, configured) => {
+            let message = match configured {
+                Some(_) => "no node-ID is given, and the DCF states none",
+                None => "no node-ID is given",
+            };
             return Err(
                 Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`, 1 to 127")
             );

@@ -26,6 +26,8 @@ pub(crate) struct Used {
     pub(crate) system: System,
     /// Of a DCF: the node that it configures.
     pub(crate) node: Option<Commissioning>,
+    /// The node-ID that a DCF states.
+    pub(crate) stated_node_id: Option<u8>,
 }
 
 impl Report {
@@ -79,9 +81,9 @@ impl Report {
         if let Some(line) = condense(path, &mut compiled) {
             self.note(&line);
         }
-        let Compiled { system, node, diagnostics, .. } = compiled;
+        let Compiled { system, node, stated_node_id, diagnostics, .. } = compiled;
         self.show(&diagnostics, &sources);
-        Some((Used { system: system?, node }, sources))
+        Some((Used { system: system?, node, stated_node_id }, sources))
     }
 
     /// Shows one message that has no place in a source text.

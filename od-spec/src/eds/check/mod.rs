@@ -2,7 +2,6 @@
 //! keys and lines; what an object's keys mean is the reader's business, what the objects mean together that of the rules
 //! over the model.
 
-mod calendar;
 mod edits;
 mod enumeration;
 mod keys;

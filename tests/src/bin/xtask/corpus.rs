@@ -118,6 +118,7 @@ fn table(done: &[(String, Checked)]) -> String {
     row("fixed well", passed(Step::Fixing).to_string());
     row("same facts", passed(Step::Import).to_string());
     row("imported again", passed(Step::Again).to_string());
+    row("compared well", passed(Step::Comparing).to_string());
     let mut reasons: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for (reason, count) in all().flat_map(|checked| &checked.excepted) {
         let (files, differences) = reasons.entry(reason).or_default();
@@ -159,6 +160,7 @@ fixed             1 files, 3 edits
 fixed well        2
 same facts        1
 imported again    2
+compared well     2
 excepted          4 in 1 files: a reason
 ";
         assert_eq!(table(&done), expected);

@@ -1,8 +1,8 @@
 //! Dates and times are such, month first and with AM or PM.
 
-use super::super::calendar::{Date, Time};
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::eds::dates::{date, date_text, time, time_text};
 use crate::eds::names::Topic;
 use crate::eds::view::View;
 
@@ -27,24 +27,22 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(part) = view.section(Topic::FileInfo) else { return };
     for key in ["CreationDate", "ModificationDate"] {
         let Some(value) = part.value(key) else { continue };
-        let date = Date::read(value.value);
-        if date.is_some_and(|date| date.to_string() == value.value) {
+        let plain = date(value.value).map(date_text);
+        if plain.as_deref() == Some(value.value) {
             continue;
         }
         let message =
             format!("found `{}`, expected a date such as 01-31-2020 as `{key}`", shorten(value.value));
-        diagnostics
-            .push(mended(Diagnostic::new(CODE, value.span, message), date.map(|date| date.to_string())));
+        diagnostics.push(mended(Diagnostic::new(CODE, value.span, message), plain));
     }
     for key in ["CreationTime", "ModificationTime"] {
         let Some(value) = part.value(key) else { continue };
-        let time = Time::read(value.value);
-        if time.is_some_and(|time| time.to_string() == value.value) {
+        let plain = time(value.value).map(time_text);
+        if plain.as_deref() == Some(value.value) {
             continue;
         }
         let message = format!("found `{}`, expected a time such as 09:45AM as `{key}`", shorten(value.value));
-        diagnostics
-            .push(mended(Diagnostic::new(CODE, value.span, message), time.map(|time| time.to_string())));
+        diagnostics.push(mended(Diagnostic::new(CODE, value.span, message), plain));
     }
 }
 

@@ -1,8 +1,8 @@
 //! A file is changed after it was made.
 
-use super::super::calendar::Date;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::eds::dates::{date, date_text};
 use crate::eds::names::Topic;
 use crate::eds::view::View;
 
@@ -27,10 +27,14 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let (Some(created), Some(modified)) = (part.value("CreationDate"), part.value("ModificationDate")) else {
         return;
     };
-    if let (Some(first), Some(last)) = (Date::read(created.value), Date::read(modified.value))
+    if let (Some(first), Some(last)) = (date(created.value), date(modified.value))
         && last < first
     {
-        let message = format!("the file was changed on {last}, before it was made on {first}");
+        let message = format!(
+            "the file was changed on {}, before it was made on {}",
+            date_text(last),
+            date_text(first)
+        );
         diagnostics.push(
             Diagnostic::new(CODE, modified.span, message)
                 .label("changed")
