@@ -176,7 +176,7 @@ fn changes(spec: &str, old: &System) -> Result<String, Failure> {
     let root = sources.add("valve.od.yaml", text);
     let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
     let new = system.ok_or_else(|| render(&diagnostics, &sources, Format::Human, false))?;
-    let found = compare(&Question { old, new: &new, scope: Scope::Everything, device: None })?;
+    let found = compare(&Question { old, new: &new, scope: Scope::Everything, device: None, nodes: None })?;
     Ok(format!("$ odgen diff --git v1.0 valve.od.yaml\n{}", human(&found, false)))
 }
 

@@ -19,7 +19,7 @@
 //!     compile(&mut sources, root, &mut NoFiles).system.expect("no errors")
 //! };
 //! let (old, new) = (lamp(100), lamp(90));
-//! let found = compare(&Question { old: &old, new: &new, scope: Scope::Everything, device: None });
+//! let found = compare(&Question { old: &old, new: &new, scope: Scope::Everything, device: None, nodes: None });
 //! let found = found.expect("each has one device");
 //! assert_eq!(found.class(), Some(Class::Plc));
 //! let change = &found.devices[0].changes[0];
@@ -31,6 +31,7 @@ mod code;
 mod device;
 mod entries;
 mod manual;
+mod node;
 mod objects;
 mod pairs;
 mod print;
@@ -45,6 +46,7 @@ mod units;
 mod unused;
 mod words;
 
+use od_spec::Commissioning;
 use od_spec::model::{Dictionary, System};
 
 pub use self::change::{Change, Class, Consequence, Kind, Place};
@@ -70,6 +72,8 @@ pub struct Question<'a> {
     pub scope: Scope,
     /// Only the device with this key.
     pub device: Option<&'a str>,
+    /// The nodes before and after, where both are read from a DCF.
+    pub nodes: Option<(&'a Commissioning, &'a Commissioning)>,
 }
 
 /// What differs between two systems.
@@ -138,10 +142,15 @@ pub fn compare(question: &Question<'_>) -> Result<Difference, Unpaired> {
     let device = |(before, after): (&Dictionary, &Dictionary)| {
         let vendors = [old.vendor.number, new.vendor.number];
         let devices = Devices { old: before, new: after, vendors, scope, language };
-        let (changes, unknown) = device_changes(old, new, devices);
+        let (mut changes, unknown) = device_changes(old, new, devices);
         let shared = system.iter().filter(|change| change.place == Place::System);
         let all = changes.iter().chain(shared);
         let proposals = proposal::proposals((old, before), (new, after), scope, all);
+        // How a node is set up is no news about its type.
+        changes.extend(
+            question.nodes.into_iter().flat_map(|(old, new)| node::changes((before, old), (after, new))),
+        );
+        let changes = change::tidy(changes);
         DeviceDifference { key: after.key.clone(), name: after.name.clone(), changes, proposals, unknown }
     };
     let devices = pairs.pairs.into_iter().map(device).collect();

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use insta::assert_snapshot;
 
-use crate::{LAMP, PITCH, Scratch, code, odgen, stderr, stdout};
+use crate::{FAN, LAMP, PITCH, ROOF_FAN, Scratch, code, odgen, stderr, stdout};
 
 /// The lamp, one with another description, and one with a narrower limit.
 fn lamps(name: &str) -> Scratch {
@@ -35,6 +35,40 @@ fn differences_are_told_with_what_they_break() {
     assert!(stdout(&output).starts_with('{') && stdout(&output).contains("\"class\": \"plc\""));
     let output = odgen(&scratch.0, &["diff", "old.od.yaml", "old.od.yaml"]);
     assert_eq!((code(&output), stdout(&output).as_str()), (0, "0 changes\n"));
+}
+
+/// A DCF says more than its device: where the node is, and what is set in it.
+#[test]
+fn nodes_and_their_values_are_compared() {
+    let scratch = Scratch::new("diff-nodes");
+    scratch.file("old.dcf", ROOF_FAN);
+    let changed =
+        ROOF_FAN.replace("ParameterValue=-5", "ParameterValue=7").replace("NodeID=0x21", "NodeID=0x22");
+    scratch.file("new.dcf", changed.replace("Baudrate=250", "Baudrate=125"));
+    scratch.file("fan.eds", FAN);
+    let short = |old: &str, new: &str| {
+        let output = odgen(&scratch.0, &["diff", old, new, "--format", "short"]);
+        (stdout(&output), stderr(&output))
+    };
+    let (differs, _) = short("old.dcf", "new.dcf");
+    assert_eq!(
+        differs.lines().collect::<Vec<_>>(),
+        [
+            "new: ~ device, bit rate: node: 250 kbit/s -> 125 kbit/s [plc]",
+            "new: ~ device, node-ID: node: 33 -> 34 [plc]",
+            "new: ~ 2000h Speed, set by the DCF: default: -5 -> 7 [behaviour]",
+        ]
+    );
+    scratch.file("unset.dcf", ROOF_FAN.replace("ParameterValue=-5\n", ""));
+    let (differs, _) = short("old.dcf", "unset.dcf");
+    assert_eq!(differs, "unset: ~ 2000h Speed, set by the DCF: default: -5 -> none [behaviour]\n");
+    let (_, said) = short("old.dcf", "fan.eds");
+    assert!(
+        said.contains("the 1 value that the DCF sets is not compared, as the other side is no DCF"),
+        "{said}"
+    );
+    let human = stdout(&odgen(&scratch.0, &["diff", "old.dcf", "old.dcf"]));
+    assert!(human.starts_with("0 changes\n"), "{human}");
 }
 
 /// Nobody reads colours out of a file, unless somebody asks for them.

@@ -120,9 +120,33 @@ fn a_dcf_keeps_its_node_and_its_values() {
     assert!(section(&read("fan-7.dcf"), "DeviceComissioning").starts_with(changed));
     assert!(section(&read("fan-7.dcf"), "2000").contains("ParameterValue=20"));
 
-    // With --node, `build` makes the file of another node, which has the device's defaults.
+    // With --node, `build` makes the file of another node, with the same values.
     run(&["build", "fan.dcf", "--out", "other", "--node", "9"]);
-    assert!(!section(&read("other/eds/fan.dcf"), "2000").contains("ParameterValue"));
+    assert!(section(&read("other/eds/fan.dcf"), "DeviceComissioning").starts_with("NodeID=9\n"));
+    assert!(section(&read("other/eds/fan.dcf"), "2000").contains("ParameterValue=-5"));
+}
+
+/// Nobody guesses which node a DCF is for.
+#[test]
+fn a_dcf_that_states_no_node_is_for_none() {
+    let (head, rest) = ROOF_FAN.split_once("[DeviceComissioning]").unwrap();
+    let (_, tail) = rest.split_once("\n[").unwrap();
+    let scratch = Scratch::new("no-node");
+    scratch.file("fan.dcf", format!("{head}[{tail}"));
+    let refused = odgen(&scratch.0, &["dcf", "fan.dcf", "--format", "short"]);
+    assert_eq!(code(&refused), 2);
+    let said = stderr(&refused);
+    assert!(said.contains("error[OD0701]: no node-ID is given, and the DCF states none"), "{said}");
+    let built = odgen(&scratch.0, &["build", "fan.dcf", "--out", "out"]);
+    assert_eq!(code(&built), 0, "{}", stderr(&built));
+    assert!(
+        stderr(&built).contains("states no node-ID, so no DCF is made; `--node ID`"),
+        "{}",
+        stderr(&built)
+    );
+    assert!(!scratch.0.join("out/eds/fan.dcf").exists());
+    let given = odgen(&scratch.0, &["dcf", "fan.dcf", "--node", "7"]);
+    assert!(stdout(&given).contains("node 7, 0 values set, 1 kept"), "{}", stdout(&given));
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn strip(entry: &mut Entry) {
 }
 
 fn ask<'a>(old: &'a System, new: &'a System, scope: Scope) -> Question<'a> {
-    Question { old, new, scope, device: None }
+    Question { old, new, scope, device: None, nodes: None }
 }
 
 #[test]

@@ -55,5 +55,6 @@ fn system(text: &str) -> System {
 }
 
 fn difference(old: &System, new: &System, scope: Scope) -> Difference {
-    compare(&Question { old, new, scope, device: None }).unwrap_or_else(|error| panic!("{error}"))
+    compare(&Question { old, new, scope, device: None, nodes: None })
+        .unwrap_or_else(|error| panic!("{error}"))
 }

@@ -52,7 +52,13 @@ fn the_order_of_keys_and_objects_is_no_difference() {
 fn a_device_that_is_not_there_is_named() {
     let pitch = &*PITCH_SYSTEM;
     let ask = |device| {
-        compare(&Question { old: pitch, new: pitch, scope: Scope::Everything, device: Some(device) })
+        compare(&Question {
+            old: pitch,
+            new: pitch,
+            scope: Scope::Everything,
+            device: Some(device),
+            nodes: None,
+        })
     };
     assert_eq!(ask("pmm").unwrap().devices.len(), 1);
     let keys = vec!["pmc".to_owned(), "pmm".to_owned()];

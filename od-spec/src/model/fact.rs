@@ -109,6 +109,8 @@ facts! {
     Document = "document",
     /// What the printed manual says otherwise.
     Errata = "errata",
+    /// A node of a network, as a DCF has it: node-ID, bit rate, names, network.
+    Node = "node",
 }
 
 impl Fact {
@@ -139,7 +141,8 @@ impl Fact {
             | Self::GroupMessaging
             | Self::Lss
             | Self::Dummies
-            | Self::PdoCount => true,
+            | Self::PdoCount
+            | Self::Node => true,
             Self::Meaning
             | Self::Unit
             | Self::Special

@@ -152,6 +152,7 @@ impl Wording {
                 Fact::Languages => "Sprachen",
                 Fact::Document => "Dokument",
                 Fact::Errata => "Errata",
+                Fact::Node => "Knoten",
             },
         }
     }

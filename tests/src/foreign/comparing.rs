@@ -64,7 +64,7 @@ fn system(name: &str, text: &str) -> Result<System, String> {
 }
 
 fn changes(old: &System, new: &System) -> Result<Vec<Change>, String> {
-    let question = Question { old, new, scope: Scope::WhatAnEdsStates, device: None };
+    let question = Question { old, new, scope: Scope::WhatAnEdsStates, device: None, nodes: None };
     let found = compare(&question).map_err(|unpaired| unpaired.to_string())?;
     Ok(found.changes().cloned().collect())
 }

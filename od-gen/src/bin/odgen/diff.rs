@@ -4,10 +4,11 @@ use std::io::IsTerminal as _;
 use std::path::Path;
 
 use od_gen::diff::{Difference, Question, Scope, Unpaired, compare, human, json, markdown, short};
+use od_spec::Commissioning;
 use od_spec::diag::{Diagnostic, codes};
 
 use super::args::{Color, DiffArgs, DiffFormat};
-use super::report::{Report, print};
+use super::report::{Report, Used, print};
 use super::{DIFFERS, ERRORS, git};
 
 pub(crate) fn run(args: &DiffArgs, color: Color, report: &Report) -> u8 {
@@ -27,6 +28,7 @@ pub(crate) fn run(args: &DiffArgs, color: Color, report: &Report) -> u8 {
 }
 
 fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
+    let read = |path: &Path| report.compile_with_sources(path).map(|(used, _)| used).ok_or(ERRORS);
     let (old, new, scope) = match (&args.git, &args.new) {
         (Some(revision), _) => {
             if Source::of(&args.old) != Source::Specification {
@@ -35,18 +37,26 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
                         .help("write the old file down, `git show REV:FILE > old.eds`, and compare both"),
                 ));
             }
-            let old = git::compile(revision, &args.old, report)?;
-            (old, report.compile(&args.old).ok_or(ERRORS)?, Scope::Everything)
+            let old =
+                Used { system: git::compile(revision, &args.old, report)?, node: None, stated_node_id: None };
+            (old, read(&args.old)?, Scope::Everything)
         }
         (None, Some(new)) => {
             let scope = scope(Source::of(&args.old), Source::of(new));
-            let (before, after) = (report.compile(&args.old), report.compile(new));
-            (before.ok_or(ERRORS)?, after.ok_or(ERRORS)?, scope)
+            let (before, after) = (read(&args.old), read(new));
+            (before?, after?, scope)
         }
         // The parser of the command line asks for one of the two.
         (None, None) => return Err(super::USAGE),
     };
-    let question = Question { old: &old, new: &new, scope, device: args.device.as_deref() };
+    let nodes = nodes(&old, &new, report);
+    let question = Question {
+        old: &old.system,
+        new: &new.system,
+        scope,
+        device: args.device.as_deref(),
+        nodes: nodes.as_ref().map(|(old, new)| (old, new)),
+    };
     compare(&question).map_err(|unpaired| {
         let keys = |keys: &[String]| keys.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
         let help = match &unpaired {
@@ -55,6 +65,30 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
         };
         report.refuse(Diagnostic::without_place(codes::UNKNOWN_DEVICE, unpaired.to_string()).help(help))
     })
+}
+
+/// The nodes of two DCF files. Values of one alone cannot be compared, which is said.
+fn nodes(old: &Used, new: &Used, report: &Report) -> Option<(Commissioning, Commissioning)> {
+    match (&old.node, &new.node) {
+        (Some(before), Some(after)) => {
+            let (mut before, after) = (before.clone(), after.clone());
+            if old.stated_node_id.is_none() || new.stated_node_id.is_none() {
+                before.node = after.node;
+            }
+            Some((before, after))
+        }
+        (Some(one), None) | (None, Some(one)) => {
+            if !one.values.is_empty() {
+                let number = one.values.len();
+                let (values, are) = if number == 1 { ("value", "is") } else { ("values", "are") };
+                report.note(&format!(
+                    "the {number} {values} that the DCF sets {are} not compared, as the other side is no DCF"
+                ));
+            }
+            None
+        }
+        (None, None) => None,
+    }
 }
 
 /// What a file is, by its name.

@@ -1,0 +1,74 @@
+//! What two DCF files say of their nodes: where they are, and the values that they set.
+
+use std::collections::BTreeSet;
+
+use od_spec::Commissioning;
+use od_spec::model::{Dictionary, EntryId, Fact, Role};
+
+use super::change::{Change, Class, Place};
+use super::rules;
+use super::words;
+
+/// What differs in a node: its place in a network, and the values that its DCF sets.
+pub(super) fn changes(
+    (old_device, old): (&Dictionary, &Commissioning),
+    (new_device, new): (&Dictionary, &Commissioning),
+) -> Vec<Change> {
+    let fact = |part: &str, before: String, after: String, class, because| {
+        Some(Change::text(Place::Device, Fact::Node, &before, &after)?.part(part).so(class, because))
+    };
+    let number = |number: u32| number.to_string();
+    let rate = |rate: u16| format!("{rate} kbit/s");
+    let facts = [
+        fact(
+            "node-ID",
+            number(old.node.into()),
+            number(new.node.into()),
+            Class::Plc,
+            "its messages have other identifiers",
+        ),
+        fact(
+            "bit rate",
+            rate(old.bit_rate),
+            rate(new.bit_rate),
+            Class::Plc,
+            "nodes of different bit rates disturb each other",
+        ),
+        fact(
+            "network",
+            number(old.net_number),
+            number(new.net_number),
+            Class::Documents,
+            "a number for programs",
+        ),
+        fact("name", old.node_name.clone(), new.node_name.clone(), Class::Documents, "a name for people"),
+        fact(
+            "name of the network",
+            old.net_name.clone(),
+            new.net_name.clone(),
+            Class::Documents,
+            "a name for people",
+        ),
+    ];
+    let ids: BTreeSet<EntryId> = old.values.keys().chain(new.values.keys()).copied().collect();
+    let value = |device: &Dictionary, node: &Commissioning, id: EntryId| {
+        let (entry, value) = (device.entry(id)?, node.values.get(&id)?);
+        Some(words::value(id.index, entry, value))
+    };
+    let values = ids.into_iter().filter_map(|id| {
+        let object = new_device.objects.get(&id.index).or_else(|| old_device.objects.get(&id.index))?;
+        let entry = new_device.entry(id).or_else(|| old_device.entry(id))?;
+        let (place, name) = if object.is_structured() {
+            (Place::entry(id), format!("{}.{}", object.name, entry.name))
+        } else {
+            (Place::Object(id.index), object.name.clone())
+        };
+        let (before, after) = (value(old_device, old, id), value(new_device, new, id));
+        let change = Change::of(place, Fact::Default, before, after)?.named(name).part("set by the DCF");
+        Some(match Role::of(id.index) {
+            Role::PdoMapping => change.so(Class::Plc, "the bytes of the PDO mean something else"),
+            _ => change.with(rules::default(id, entry)),
+        })
+    });
+    facts.into_iter().flatten().chain(values).collect()
+}
