@@ -1,12 +1,14 @@
 //! An EDS or DCF as a specification: the model as text, with what was wrong beside the object that it was wrong at, and what
 //! has no place at the end.
 
-use od_spec::Compiled;
+use std::collections::BTreeMap;
+
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::eds::{Document, Owner};
-use od_spec::model::{Dictionary, ObjectKind};
-use od_spec::source::{FileId, SourceMap};
-use od_spec::wording::format_value;
+use od_spec::model::{Dictionary, ObjectKind, System};
+use od_spec::source::{FileId, SourceMap, Spanned};
+use od_spec::wording::{Notation, Wording};
+use od_spec::{Compiled, assign};
 
 use crate::yaml::{self, Options, Place, Repair};
 
@@ -42,14 +44,30 @@ pub fn import(
     let document = Document::scan(root, file.text());
     let mut options =
         Options { head: vec![format!("Made from {}.", base_name(file.name()))], ..Options::default() };
-    for remark in document.remarks() {
-        match place(device, remark.owner) {
-            Some(place) => options.comments.entry(place).or_default().push(remark.text.to_owned()),
-            None => options.head.push(remark.text.to_owned()),
+    let remarks = document.remarks().into_iter().map(|remark| (place(device, remark.owner), remark.text));
+    let mut without_place = Vec::new();
+    let mut remarks: Vec<_> = remarks.collect();
+    for extra in document.extras() {
+        match (place(device, extra.owner), extra.section) {
+            (Some(place), _) => remarks.push((Some(place), extra.text)),
+            (None, Some(section)) => without_place.push(format!("[{section}] {}", extra.text)),
+            // Of an object that is left out, which is said.
+            (None, None) => {}
         }
     }
+    let usual = usual(&remarks, device);
+    for (place, text) in remarks {
+        match place {
+            Some(_) if usual.contains_key(text) => {}
+            Some(place) => options.comments.entry(place).or_default().push(text.to_owned()),
+            None => options.head.push(text.to_owned()),
+        }
+    }
+    let entries = device.entries().count();
+    options
+        .head
+        .extend(usual.into_iter().map(|(text, count)| format!("{text}, at {count} of {entries} entries")));
     options.head.extend(comment_lines(&document));
-    let mut without_place = Vec::new();
     for finding in &compiled.diagnostics {
         let Some(label) = finding.labels.first() else { continue };
         let line = file.line_col(label.span.start).line;
@@ -61,9 +79,9 @@ pub fn import(
             options.comments.entry(place).or_default().push(text);
         }
     }
-    let values = node_values(compiled, device);
-    let count = without_place.len() + values.len();
-    options.foot = foot(without_place, values);
+    let values = node_values(compiled, system, device);
+    let count = without_place.len() + values.settings.len() + values.refused.len();
+    options.foot = foot(without_place, values, base_name(file.name()));
     let written = yaml::specification(system, device, &options);
     Some(written.map(|written| Imported {
         text: written.text,
@@ -71,6 +89,17 @@ pub fn import(
         allowed: written.allowed,
         without_place: count + written.left_out.len(),
     }))
+}
+
+/// What stands at most of the entries, such as a maker's key that always has the same value, and at how many: it is said once.
+fn usual<'t>(remarks: &[(Option<Place>, &'t str)], device: &Dictionary) -> BTreeMap<&'t str, usize> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for (_, text) in remarks.iter().filter(|(place, _)| place.is_some()) {
+        *counts.entry(text).or_default() += 1;
+    }
+    let most = (device.entries().count() / 2).max(3);
+    counts.retain(|_, count| *count > most);
+    counts
 }
 
 /// Whether a finding means that the specification says something else than the letters of the file.
@@ -105,26 +134,56 @@ fn comment_lines<'d>(document: &'d Document<'_>) -> impl Iterator<Item = String>
     texts.filter_map(|line| line.value()).filter(|text| !text.is_empty()).map(ToOwned::to_owned)
 }
 
-/// The parameter values of a DCF, as settings of `odgen dcf`.
-fn node_values(compiled: &Compiled, device: &Dictionary) -> Vec<String> {
-    let Some(node) = &compiled.node else { return Vec::new() };
-    let set = node.values.iter().filter_map(|(id, value)| {
-        let entry = device.entry(*id)?;
-        let sub = if id.sub.0 == 0 { String::new() } else { format!(".{}", id.sub) };
-        Some(format!("--set \"{:04X}{sub}={}\"", id.index.0, format_value(entry, value)))
-    });
-    set.collect()
+/// The parameter values of a DCF.
+#[derive(Default)]
+struct NodeValues {
+    /// As settings of `odgen dcf`.
+    settings: Vec<String>,
+    /// What cannot be set, each with the reason.
+    refused: Vec<String>,
 }
 
-fn foot(without_place: Vec<String>, values: Vec<String>) -> Vec<String> {
+fn node_values(compiled: &Compiled, system: &System, device: &Dictionary) -> NodeValues {
+    let mut values = NodeValues::default();
+    let Some(node) = &compiled.node else { return values };
+    let words = Wording::english(Notation::Diagnostic);
+    let mut sources = SourceMap::new();
+    let mut settings = Vec::new();
+    for (id, value) in &node.values {
+        let Some(entry) = device.entry(*id) else { continue };
+        let sub = if id.sub.0 == 0 { String::new() } else { format!(".{}", id.sub) };
+        let text = format!("{:04X}{sub}={}", id.index.0, words.value(Some(id.index), entry, value));
+        let file = sources.add("--set", text.as_str());
+        settings.push(Spanned::new(text, sources.whole(file)));
+    }
+    let mut diagnostics = Diagnostics::new();
+    assign(system, device, node.node, &settings, &mut diagnostics);
+    for Spanned { value: text, span } in settings {
+        let is_about_it = |one: &&Diagnostic| one.labels.iter().any(|label| label.span.file == span.file);
+        let mut errors = diagnostics.iter().filter(|one| one.severity() == Severity::Error);
+        match errors.find(is_about_it) {
+            Some(error) => values.refused.push(format!("- {text}: {}", error.message)),
+            None => values.settings.push(format!("--set \"{text}\"")),
+        }
+    }
+    values
+}
+
+fn foot(without_place: Vec<String>, NodeValues { settings, refused }: NodeValues, file: &str) -> Vec<String> {
     let mut foot = Vec::new();
     if !without_place.is_empty() {
         foot.push("What has no place in a specification:".to_owned());
         foot.extend(without_place.into_iter().map(|line| format!("- {line}")));
     }
-    if !values.is_empty() {
-        foot.push("The values of the node, for `odgen dcf`:".to_owned());
-        foot.extend(values);
+    if !settings.is_empty() {
+        foot.push(format!(
+            "The values of the node; `odgen dcf {file}` keeps them, with a specification they are:"
+        ));
+        foot.extend(settings);
+    }
+    if !refused.is_empty() {
+        foot.push("Values of the node that cannot be set:".to_owned());
+        foot.extend(refused);
     }
     foot
 }

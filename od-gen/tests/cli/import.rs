@@ -45,14 +45,36 @@ fn a_specification_that_is_there_is_not_overwritten() {
     assert!(fs::read_to_string(&path).unwrap().starts_with("# Made from fan.eds.\n"));
 }
 
+/// What the end says of a node's values can be given to `odgen dcf` as it is.
 #[test]
 fn values_of_a_node_stand_at_the_end() {
     let scratch = Scratch::new("import-node");
-    scratch.file("fan.dcf", ROOF_FAN);
+    let running = "ParameterName=Running\n";
+    scratch.file("fan.dcf", ROOF_FAN.replace(running, "ParameterName=Running\nParameterValue=1\n"));
     assert_eq!(code(&odgen(&scratch.0, &["import", "fan.dcf"])), 0);
     let text = fs::read_to_string(scratch.0.join("fan.od.yaml")).unwrap();
-    let (_, values) = text.split_once("# The values of the node, for `odgen dcf`:\n").unwrap();
-    assert!(values.lines().all(|line| line.starts_with("# --set \"")) && !values.is_empty(), "{values}");
+    let (_, values) = text.split_once("# The values of the node; `odgen dcf fan.dcf` keeps them").unwrap();
+    let (values, refused) = values.split_once("# Values of the node that cannot be set:\n").unwrap();
+    assert!(refused.starts_with("# - 2001=1: 2001h (Running) is `ro`"), "{refused}");
+    let settings: Vec<&str> = values.lines().filter_map(|line| line.strip_prefix("# --set ")).collect();
+    assert_eq!(settings, ["\"2000=-5\""]);
+    let settings = settings.iter().flat_map(|setting| ["--set", setting.trim_matches('"')]);
+    let arguments: Vec<&str> = ["dcf", "fan.od.yaml", "--node", "5"].into_iter().chain(settings).collect();
+    let made = odgen(&scratch.0, &arguments);
+    assert_eq!(code(&made), 0, "{}", stderr(&made));
+}
+
+/// A maker's key that says the same everywhere is no comment at each entry.
+#[test]
+fn what_all_entries_say_is_said_once() {
+    let scratch = Scratch::new("import-usual");
+    let marked = FAN.replace("PDOMapping=0\n", "PDOMapping=0\nStorageLocation=RAM\n");
+    scratch.file("fan.eds", marked.replacen("StorageLocation=RAM", "StorageLocation=ROM", 1));
+    assert_eq!(code(&odgen(&scratch.0, &["import", "fan.eds"])), 0);
+    let text = fs::read_to_string(scratch.0.join("fan.od.yaml")).unwrap();
+    assert_eq!(text.matches("StorageLocation=RAM").count(), 1, "{text}");
+    assert!(text.contains("# StorageLocation=RAM, at 9 of 10 entries\n"), "{text}");
+    assert_eq!(text.matches("# StorageLocation=ROM\n").count(), 1, "{text}");
 }
 
 #[test]

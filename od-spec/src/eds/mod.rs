@@ -9,6 +9,7 @@ pub(crate) mod codes;
 pub(crate) mod dates;
 mod document;
 pub(crate) mod example;
+mod extras;
 #[cfg(test)]
 mod findings;
 mod line;
@@ -49,6 +50,7 @@ fn ends_with(name: &str, extension: &str) -> bool {
 
 pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
+pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
 pub use owner::{Owner, Remark};
 

@@ -46,7 +46,7 @@ const DEVICE_INFO: &[&str] = &[
     "NrOfNG_MonitoredNodes",
 ];
 /// Keys of `[DeviceInfo]` that are reserved for EDS of version 3 (CiA 306 4.5).
-pub(super) const RESERVED: &[&str] = &[
+pub(in crate::eds) const RESERVED: &[&str] = &[
     "ProductVersion",
     "ProductRevision",
     "LMT_ManufacturerName",
@@ -89,7 +89,7 @@ const EXTENSION: &[&str] = &["Count", "ObjExtend"];
 const MODULE_INFO: &[&str] = &["ProductName", "ProductVersion", "ProductRevision", "OrderCode"];
 
 /// The keys of a section.
-pub(super) struct Keys {
+pub(in crate::eds) struct Keys {
     /// Those with a name.
     named: &'static [&'static str],
     /// Further ones with a name.
@@ -109,7 +109,7 @@ enum Numbered {
 }
 
 /// The keys of a section; `None` where any may stand.
-pub(super) fn of(topic: Topic) -> Option<Keys> {
+pub(in crate::eds) fn of(topic: Topic) -> Option<Keys> {
     const LINES: Keys = keys(&["Lines"], Numbered::Decimal("Line"));
     const ENTRIES: Keys = keys(&["NrOfEntries"], Numbered::Decimal(""));
     Some(match topic {
@@ -140,7 +140,7 @@ const fn keys(named: &'static [&'static str], numbered: Numbered) -> Keys {
 }
 
 /// Whether a section describes an object or entry.
-pub(super) const fn is_of_object(topic: Topic) -> bool {
+pub(in crate::eds) const fn is_of_object(topic: Topic) -> bool {
     matches!(
         topic,
         Topic::Object(_)
@@ -151,12 +151,12 @@ pub(super) const fn is_of_object(topic: Topic) -> bool {
 
 impl Keys {
     /// The keys with a name.
-    pub(super) fn names(&self) -> impl Iterator<Item = &'static str> {
+    pub(in crate::eds) fn names(&self) -> impl Iterator<Item = &'static str> {
         self.named.iter().chain(self.further).copied()
     }
 
     /// A key in the standard's capitals; `None` for one that the section does not have.
-    pub(super) fn spelling(&self, key: &str) -> Option<String> {
+    pub(in crate::eds) fn spelling(&self, key: &str) -> Option<String> {
         let prefix = match self.numbered {
             Numbered::None => {
                 return self.names().find(|name| name.eq_ignore_ascii_case(key)).map(str::to_owned);
@@ -179,7 +179,7 @@ impl Keys {
     }
 
     /// Whether a key is spelled as the standard does, without an allocation for the many that are.
-    pub(super) fn is_standard(&self, key: &str) -> bool {
+    pub(in crate::eds) fn is_standard(&self, key: &str) -> bool {
         match self.numbered {
             _ if self.names().any(|name| name == key) => true,
             Numbered::Decimal(prefix) => key

@@ -4,7 +4,7 @@
 
 mod edits;
 mod enumeration;
-mod keys;
+pub(in crate::eds) mod keys;
 mod numbered;
 mod object_form;
 mod repeated;
