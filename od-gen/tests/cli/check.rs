@@ -88,7 +88,7 @@ fn notes_are_counted_and_listed_on_demand() {
     let scratch = Scratch::new("eds-notes");
     scratch.file("fan.eds", FAN);
     let said = stderr(&odgen(&scratch.0, &["check", "fan.eds"]));
-    assert!(said.contains("; 1 note, `--notes` shows it; "), "{said}");
+    assert!(said.contains("; 1 note, `--notes` shows it and `odgen fix` repairs it; "), "{said}");
     assert!(!said.contains("EDS503"), "{said}");
     let said = stderr(&odgen(&scratch.0, &["check", "fan.eds", "--notes"]));
     assert!(said.contains("fan.eds:137:10: note[EDS503]: `0xFC18` as INTEGER16 is -1000"), "{said}");

@@ -161,7 +161,7 @@ const LISTS: &[Fault] = &[
         "[1000]\r\n",
         "[1000]\r\nObjFlags=0\r\n",
         "ObjFlags=0\r\nParameterName=Device type",
-        Restored,
+        Left,
     ),
     fault(
         "EDS427",

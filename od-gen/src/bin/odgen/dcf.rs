@@ -72,8 +72,13 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let directory = path.parent().unwrap_or(Path::new(""));
     let artifact = Artifact { path: name, bytes, purpose: String::new() };
     save(directory, std::slice::from_ref(&artifact)).map_err(refuse)?;
+    let plural = if count == 1 { "" } else { "s" };
     let size = artifact.bytes.len().div_ceil(1024);
-    Ok(format!("  {}  {size} kB  {} node {node}, {count} values set{kept}\n", path.display(), device.key))
+    Ok(format!(
+        "  {}  {size} kB  {} node {node}, {count} value{plural} set{kept}\n",
+        path.display(),
+        device.key
+    ))
 }
 
 /// What the command line says about the node, and else the DCF that it is made from, without the settings. The node-ID is the

@@ -37,16 +37,13 @@ pub(crate) fn run(args: &FixArgs, report: &Report) -> u8 {
     {
         return report.refuse(diagnostic);
     }
-    let mut code = SUCCESS;
     for file in &files {
         if (args.diff || !args.write) && print(&file.diff()) != SUCCESS {
             return ERRORS;
         }
-        if file.tell(args.write, report) {
-            code = ERRORS;
-        }
+        file.tell(args.write, report);
     }
-    code
+    SUCCESS
 }
 
 /// A file with what becomes of it.
@@ -116,8 +113,8 @@ impl File {
         self.fixed.changes.iter().map(|change| (line(change.place.start), change.code)).collect()
     }
 
-    /// Tells people what was put right, and what they have to decide; whether errors are left.
-    fn tell(&self, written: bool, report: &Report) -> bool {
+    /// Tells people what was put right, and what they have to decide.
+    fn tell(&self, written: bool, report: &Report) {
         let mut left = self.fixed.left.clone();
         left.soften();
         let mut decisions = Diagnostics::new();
@@ -128,10 +125,12 @@ impl File {
         report.note(&self.summary(written));
         let notes = left.iter().count() - decisions.iter().count();
         if notes > 0 {
-            let plural = if notes == 1 { "" } else { "s" };
-            report.note(&format!("{}: {notes} note{plural} about matters of form are not shown", self.name));
+            let (plural, them) = if notes == 1 { ("", "it") } else { ("s", "them") };
+            report.note(&format!(
+                "{0}: {notes} note{plural}, `odgen check {0} --notes` shows {them}",
+                self.name
+            ));
         }
-        left.has_errors()
     }
 
     fn summary(&self, written: bool) -> String {

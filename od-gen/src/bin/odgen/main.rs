@@ -11,6 +11,7 @@ mod fix;
 mod git;
 mod import;
 mod line_diff;
+mod listing;
 mod new;
 mod output;
 mod report;

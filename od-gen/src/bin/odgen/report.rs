@@ -7,12 +7,14 @@ use std::path::Path;
 use od_gen::condense;
 use od_gen::source::{FileLoader, compile_file};
 use od_spec::diag::render::{self, Format};
-use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
+use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::{Commissioning, Compiled};
 
 use super::args::Color;
+use super::listing::{Most, for_people};
 use super::{ERRORS, SUCCESS, USAGE};
 
 /// Writes diagnostics the way the user asked for.
@@ -28,6 +30,17 @@ pub(crate) struct Used {
     pub(crate) node: Option<Commissioning>,
     /// The node-ID that a DCF states.
     pub(crate) stated_node_id: Option<u8>,
+}
+
+/// What people have not decided yet: without what `allow:` lets pass.
+fn asked(diagnostics: &Diagnostics) -> Diagnostics {
+    let mut asked = Diagnostics::new();
+    for diagnostic in diagnostics {
+        if diagnostic.severity != Severity::Note || diagnostic.code.severity == Severity::Note {
+            asked.push(diagnostic.clone());
+        }
+    }
+    asked
 }
 
 impl Report {
@@ -52,7 +65,21 @@ impl Report {
 
     /// Writes diagnostics and, for people, their number.
     pub(crate) fn show(&self, diagnostics: &Diagnostics, sources: &SourceMap) {
-        let mut text = render::render(diagnostics, sources, self.format, self.colour);
+        let mut text = match self.format {
+            Format::Human => {
+                let source = sources.files().next().map(|(_, file)| file);
+                let most = match source {
+                    Some(file) if is_eds(file.name(), file.text()) => Most::OfEds,
+                    Some(_) | None => Most::OfSpecification,
+                };
+                let shows = match source {
+                    Some(file) => format!("`odgen check {} --all`", file.name()),
+                    None => "`odgen check --all`".to_owned(),
+                };
+                for_people(&asked(diagnostics), sources, most, &shows, self.colour)
+            }
+            format => render::render(diagnostics, sources, format, self.colour),
+        };
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {
             // An error before a warning, wherever it stands.

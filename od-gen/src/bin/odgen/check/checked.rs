@@ -26,6 +26,8 @@ pub(super) struct Checked {
     pub shown: Diagnostics,
     /// Notes that are not wanted.
     pub hidden_notes: usize,
+    /// How many of those can be put right without anybody's decision.
+    pub hidden_repairs: usize,
     /// The texts that were read.
     pub sources: SourceMap,
 }
@@ -70,16 +72,17 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked
         Kind::Eds => Errors::CanBeAllowed,
         Kind::Specification | Kind::Unknown => Errors::Stay,
     };
-    let (mut shown, mut hidden_notes) = (Diagnostics::new(), 0);
+    let (mut shown, mut hidden_notes, mut hidden_repairs) = (Diagnostics::new(), 0, 0);
     for diagnostic in &policy.apply(&diagnostics, errors) {
         if diagnostic.severity == Severity::Note && !args.notes {
             hidden_notes += 1;
+            hidden_repairs += usize::from(!diagnostic.edits.is_empty());
         } else {
             shown.push(diagnostic.clone());
         }
     }
     let objects = system.map(|system| system.devices.iter().map(|device| device.objects.len()).sum());
-    Checked { name: input.name(), kind, objects, shown, hidden_notes, sources }
+    Checked { name: input.name(), kind, objects, shown, hidden_notes, hidden_repairs, sources }
 }
 
 fn compile(input: &Input, strictness: Strictness, sources: &mut SourceMap) -> Compiled {

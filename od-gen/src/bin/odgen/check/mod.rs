@@ -1,8 +1,8 @@
 //! `odgen check`: specifications, EDS and DCF files, as many as there are.
 
 mod checked;
+mod format;
 mod inputs;
-mod listing;
 mod parallel;
 mod policy;
 mod progress;
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
     // Printing frames takes longer than finding what they show: that is work for all cores, too.
     let work = |input: &Input| {
         let checked = check(input, args, &policy);
-        let text = listing::of_file(&checked, format, args, report.colour());
+        let text = format::of_file(&checked, format, args, report.colour());
         (checked, text)
     };
     parallel::in_order(&inputs, work, |finished, results| {

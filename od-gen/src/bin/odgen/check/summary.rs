@@ -35,6 +35,14 @@ pub(super) fn of_file(checked: &Checked, files: usize) -> Option<String> {
     if let Some(notes) = plural(checked.hidden_notes, "note") {
         let shows = if checked.hidden_notes == 1 { "shows it" } else { "shows them" };
         let _ = write!(line, "; {notes}, `--notes` {shows}");
+        if checked.hidden_repairs > 0 {
+            let them = match (checked.hidden_notes, checked.hidden_repairs) {
+                (1, _) => "it".to_owned(),
+                (all, repairs) if all == repairs => "them".to_owned(),
+                (_, repairs) => format!("{repairs} of them"),
+            };
+            let _ = write!(line, " and `odgen fix` repairs {them}");
+        }
     }
     if let (1, Some(first)) = (files, explained(&checked.shown)) {
         let _ = write!(line, "; `odgen explain {first}` tells more");

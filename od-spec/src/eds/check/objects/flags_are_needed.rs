@@ -1,6 +1,5 @@
 //! `ObjFlags` is written only where it says something.
 
-use super::super::edits;
 use super::super::keys;
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
@@ -31,9 +30,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         if lenient_integer(entry.value.value) != Some(0) {
             continue;
         }
-        found.add(entry.value.span, Some(edits::remove(view, entry.line)), || {
+        found.add(entry.value.span, [], || {
             Diagnostic::new(CODE, entry.value.span, "`ObjFlags` is 0, which it is without the key, too")
-                .help("remove the key; `odgen fix` does")
+                .help("nothing to do; whoever writes the file could leave the key out")
         });
     }
     found.finish("entries", diagnostics);
