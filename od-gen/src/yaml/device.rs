@@ -5,7 +5,8 @@ use od_spec::model::{Date, DateTime};
 use super::context::Context;
 use super::eds::EdsDefaults;
 use super::node::{Item, Node, Spot};
-use super::texts::words;
+use super::remarks::Broken;
+use super::texts::{one_or_more, words};
 
 /// The keys before `units:`.
 pub(super) fn header(context: &Context<'_>, uses: &[String]) -> Vec<Item> {
@@ -29,7 +30,7 @@ pub(super) fn header(context: &Context<'_>, uses: &[String]) -> Vec<Item> {
     }
     let allowed = &context.remarks.allowed;
     if !allowed.is_empty() {
-        let reasons = allowed.iter().map(|(code, reason)| Item::new(*code, Node::text(reason.clone())));
+        let reasons = allowed.iter().map(|(code, broken)| Item::new(*code, allowed_rule(broken)));
         items.push(Item::new("allow", Node::Block(reasons.collect())));
     }
     items
@@ -94,4 +95,17 @@ fn eds(context: &Context<'_>) -> Vec<Item> {
 fn date_time(at: DateTime) -> String {
     let Date { year, month, day } = at.date;
     format!("{year:04}-{month:02}-{day:02} {:02}:{:02}", at.hour, at.minute)
+}
+
+/// What an allowed rule says: which objects break it, and what one of them says.
+fn allowed_rule(broken: &Broken) -> Node {
+    let Some(at) = &broken.at else {
+        return Node::text(format!("as in the original: {}", broken.first));
+    };
+    let reason = match at.len() {
+        1 => format!("as in the original: {}", broken.first),
+        _ => "as in the original".to_owned(),
+    };
+    let at = at.iter().map(|index| Node::Plain(format!("0x{:04X}", index.0))).collect();
+    Node::Map(vec![Item::new("at", one_or_more(at)), Item::new("about", Node::text(reason))])
 }

@@ -213,7 +213,7 @@ fn mended(
         let allowed: BTreeSet<&'static str> = remarks.allowed.keys().copied().collect();
         let mut mended: BTreeSet<usize> = BTreeSet::new();
         for error in &errors {
-            if remarks.allow(error, &allowed) {
+            if remarks.allow(error, blamed(draft, &written, error), &allowed) {
                 continue;
             }
             // Of several messages about one place, the first may take the others with it.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::diag::Diagnostic;
-use od_spec::model::Fact;
+use od_spec::model::{Fact, Index};
 
 use super::options::Place;
 
@@ -38,20 +38,34 @@ impl Repair {
     }
 }
 
+/// A rule that the model breaks.
+#[derive(Debug, Clone)]
+pub(super) struct Broken {
+    /// What was found first.
+    pub first: String,
+    /// The objects that break it; `None` where it is not only objects that do.
+    pub at: Option<BTreeSet<Index>>,
+}
+
 /// What the language would refuse of a model: what is allowed all the same, and what is changed.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Remarks {
     pub repairs: Vec<Repair>,
-    /// Rules that the model breaks, by code, with the first thing that each found.
-    pub allowed: BTreeMap<&'static str, String>,
+    /// Rules that the model breaks, by code.
+    pub allowed: BTreeMap<&'static str, Broken>,
     /// Codes that reading says as well: what cannot be read cannot be allowed.
     of_reading: BTreeSet<&'static str>,
 }
 
 impl Remarks {
-    /// Allows a rule to be broken; `false` where it is no rule's finding, where names have to differ, and where it was
+    /// Allows a rule to be broken, at an object if the finding is about one; `false` where it is no rule's finding, where names have to differ, and where it was
     /// allowed before and that was not enough.
-    pub(super) fn allow(&mut self, error: &Diagnostic, before: &BTreeSet<&'static str>) -> bool {
+    pub(super) fn allow(
+        &mut self,
+        error: &Diagnostic,
+        index: Option<Index>,
+        before: &BTreeSet<&'static str>,
+    ) -> bool {
         let is_name = error.code == od_spec::rule_codes::DUPLICATE_NAME;
         if before.contains(error.code.id) {
             self.allowed.remove(error.code.id);
@@ -60,8 +74,14 @@ impl Remarks {
         if is_name || !od_spec::can_be_allowed(error.code) || self.of_reading.contains(error.code.id) {
             return false;
         }
-        let reason = || format!("as in the original: {}", error.message);
-        self.allowed.entry(error.code.id).or_insert_with(reason);
+        let broken = self
+            .allowed
+            .entry(error.code.id)
+            .or_insert_with(|| Broken { first: error.message.clone(), at: Some(BTreeSet::new()) });
+        match index {
+            Some(index) => broken.at.iter_mut().for_each(|at| at.extend([index])),
+            None => broken.at = None,
+        }
         true
     }
 

@@ -49,7 +49,7 @@ pub(crate) struct Spec {
     pub history: Vec<IssueDecl>,
     pub vendor: Option<VendorDecl>,
     pub uses: Vec<Name>,
-    pub allow: Vec<(Name, Text)>,
+    pub allow: Vec<AllowDecl>,
     pub glossary: Vec<(Name, Text)>,
     pub devices: Vec<DeviceDecl>,
     pub units: Vec<UnitDecl>,
@@ -64,6 +64,23 @@ pub(crate) struct Spec {
     pub errata: Vec<ErratumDecl>,
     pub sections: Vec<SectionDecl>,
     pub front_end: FrontEnd,
+}
+
+/// A rule that may be broken.
+#[derive(Debug)]
+pub(crate) struct AllowDecl {
+    pub code: Name,
+    pub reason: Text,
+    /// The objects that may break it; `None` where all may.
+    pub at: Option<Vec<AllowedObject>>,
+}
+
+/// An object that may break a rule.
+#[derive(Debug)]
+pub(crate) struct AllowedObject {
+    pub index: Spanned<Index>,
+    /// What the file says of it: under `objects:`, and of a PDO's parameters under `pdos:`.
+    pub places: Vec<Span>,
 }
 
 /// In which form a device was written.

@@ -1,18 +1,28 @@
 //! Findings that a specification allows: what a rule refuses and the device has all the same.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::RULES;
-use crate::ast::{Name, Spec};
+use crate::ast::{AllowDecl, Spec};
 use crate::decode::nearest;
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity, codes, shorten};
-use crate::model::Text;
+use crate::model::Index;
+use crate::source::{Span, Spanned};
 
 /// The codes that a specification allows, each with the reason.
 pub(crate) struct Allowed<'a> {
-    by_code: BTreeMap<&'a str, (&'a Name, &'a Text)>,
+    by_code: BTreeMap<&'a str, &'a AllowDecl>,
     /// Those that a rule has found something for.
-    used: Vec<&'a str>,
+    used: BTreeSet<(&'a str, Covered)>,
+}
+
+/// Where a rule may be broken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Covered {
+    /// Anywhere in the file.
+    Everywhere,
+    /// At an object that is named.
+    At(Index),
 }
 
 /// Whether a specification can allow what a code says: that of a rule, and none of reading.
@@ -24,15 +34,24 @@ impl<'a> Allowed<'a> {
     /// Nothing is allowed.
     #[cfg(test)]
     pub(crate) const fn none() -> Self {
-        Self { by_code: BTreeMap::new(), used: Vec::new() }
+        Self { by_code: BTreeMap::new(), used: BTreeSet::new() }
     }
 
     /// The codes under `allow:`; one that no rule has is reported.
     pub(crate) fn of(spec: &'a Spec, diagnostics: &mut Diagnostics) -> Self {
         let mut by_code = BTreeMap::new();
-        for (code, reason) in &spec.allow {
+        for allow in &spec.allow {
+            let code = &allow.code;
             if RULES.iter().any(|rule| rule.code.id == code.value) {
-                by_code.insert(code.value.as_str(), (code, reason));
+                by_code.insert(code.value.as_str(), allow);
+                for object in allow.at.iter().flatten().filter(|object| object.places.is_empty()) {
+                    let message =
+                        format!("{} stands neither under `objects:` nor under `pdos:`", object.index.value);
+                    diagnostics.push(
+                        Diagnostic::new(codes::UNKNOWN_ENTRY, object.index.span, message)
+                            .help("name objects of this file"),
+                    );
+                }
                 continue;
             }
             let message = format!("found `{}`, expected the code of a rule", shorten(&code.value));
@@ -45,7 +64,7 @@ impl<'a> Allowed<'a> {
             };
             diagnostics.push(Diagnostic::new(codes::UNKNOWN_WORD, code.span, message).help(help));
         }
-        Self { by_code, used: Vec::new() }
+        Self { by_code, used: BTreeSet::new() }
     }
 
     /// Takes the findings that are allowed for notes, which give the reason.
@@ -55,10 +74,11 @@ impl<'a> Allowed<'a> {
         }
         let mut softened = Diagnostics::new();
         for finding in found.iter().cloned() {
-            softened.push(match self.by_code.get_key_value(finding.code.id) {
-                Some((code, (_, reason))) => {
-                    self.used.push(code);
-                    let reason = reason.get("en").unwrap_or_default();
+            let allow = self.by_code.get(finding.code.id).copied();
+            softened.push(match allow.and_then(|allow| Some((allow, covers(allow, &finding)?))) {
+                Some((allow, covered)) => {
+                    self.used.insert((allow.code.value.as_str(), covered));
+                    let reason = allow.reason.get("en").unwrap_or_default();
                     Diagnostic {
                         severity: Severity::Note,
                         ..finding.note(format!("`allow:` says: {reason}"))
@@ -70,16 +90,35 @@ impl<'a> Allowed<'a> {
         softened
     }
 
-    /// Reports the codes that nothing was found for.
+    /// Reports the codes and objects that nothing was found for.
     pub(crate) fn report_unused(&self, diagnostics: &mut Diagnostics) {
-        for (code, (name, _)) in &self.by_code {
-            if !self.used.contains(code) {
-                let message = format!("nothing has the error {code} that is allowed here");
+        for (code, allow) in &self.by_code {
+            let mut report = |span, what: String| {
                 diagnostics.push(
-                    Diagnostic::new(super::definitions_are_used::CODE, name.span, message)
-                        .help("remove the line; it would hide the next such mistake"),
+                    Diagnostic::new(super::definitions_are_used::CODE, span, what)
+                        .help("remove it; it would hide the next such mistake"),
                 );
+            };
+            let Some(objects) = &allow.at else {
+                if !self.used.contains(&(*code, Covered::Everywhere)) {
+                    report(allow.code.span, format!("nothing has the error {code} that is allowed here"));
+                }
+                continue;
+            };
+            for Spanned { value: index, span } in objects.iter().map(|object| object.index) {
+                if !self.used.contains(&(*code, Covered::At(index))) {
+                    report(span, format!("{index} does not have the error {code} that is allowed here"));
+                }
             }
         }
     }
+}
+
+/// Whether a finding is allowed, and by what.
+fn covers(allow: &AllowDecl, finding: &Diagnostic) -> Option<Covered> {
+    let Some(objects) = &allow.at else { return Some(Covered::Everywhere) };
+    let place = finding.labels.first()?.span;
+    let holds = |span: &Span| span.file == place.file && (span.start..span.end).contains(&place.start);
+    let object = objects.iter().find(|object| object.places.iter().any(holds))?;
+    Some(Covered::At(object.index.value))
 }

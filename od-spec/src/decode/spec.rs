@@ -8,9 +8,14 @@ use super::objects::objects;
 use super::pdos::pdos;
 use super::read::{Field, Reader, owned, reader};
 use super::types::{named_type, unit};
-use crate::ast::{Axes, CodeRange, ConstraintDecl, ErrorDecl, FeatureDecl, FrontEnd, Name, Spec, VendorDecl};
+use crate::ast::{
+    AllowDecl, AllowedObject, Axes, CodeRange, ConstraintDecl, ErrorDecl, FeatureDecl, FrontEnd, Name, Spec,
+    VendorDecl,
+};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys::{self, constraint_keys, error_keys, vendor_keys};
+use crate::model::{Direction, Index};
+use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
@@ -36,7 +41,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         history: top.items("history").map(|r| issue(r, diagnostics)).collect(),
         vendor: top.child("vendor").map(|r| vendor(r, diagnostics)),
         uses: top.texts("uses"),
-        allow: top.entries("allow").filter_map(|(code, r)| Some((owned(code), r.translated()?))).collect(),
+        allow: top.entries("allow").filter_map(|(code, r)| allowed(owned(code), r, top)).collect(),
         glossary: top
             .entries("glossary")
             .filter_map(|(name, r)| Some((owned(name), r.translated()?)))
@@ -59,6 +64,34 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         front_end: FrontEnd::Specification,
         languages,
     }
+}
+
+fn allowed(code: Name, r: Reader<'_>, top: Reader<'_>) -> Option<AllowDecl> {
+    let is_map = matches!(r.node.kind, NodeKind::Map(_));
+    let reason = if is_map { r.child("about")?.translated()? } else { r.translated()? };
+    let object = |index: Spanned<Index>| AllowedObject { places: places(index.value, top), index };
+    let at = r.child("at").map(|_| r.indices("at").into_iter().map(object).collect());
+    Some(AllowDecl { code, reason, at })
+}
+
+/// What a file says of an object, each with its key.
+fn places(index: Index, top: Reader<'_>) -> Vec<Span> {
+    let objects = top.entries("objects").filter(|(key, _)| {
+        lexical::indices(key.value).is_some_and(|range| (range.first..=range.last).contains(&index))
+    });
+    let pdos = top.entries("pdos").flat_map(|(_, r)| {
+        [Direction::Receive, Direction::Transmit].into_iter().flat_map(move |direction| {
+            r.entries(direction.word()).filter(move |(key, _)| {
+                let number = scalar::integer(key.value).ok().and_then(|number| u16::try_from(number).ok());
+                number.and_then(|number| number.checked_sub(1)).is_some_and(|offset| {
+                    let communication = direction.first_communication_index().checked_add(offset);
+                    let mapping = communication.and_then(|index| index.checked_add(0x200));
+                    [communication, mapping].contains(&Some(index.0))
+                })
+            })
+        })
+    });
+    objects.chain(pdos).map(|(key, r)| key.span.to(r.node.span)).collect()
 }
 
 fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes> {

@@ -24,7 +24,7 @@ keys! {
         "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
         "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
         "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia402`, or the path of a library file", "[cia301, cia402]";
-        "allow": Shape::MapOf(KeyKind::Name, &Shape::Words), "rules that the device breaks all the same, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";
+        "allow": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &ALLOWED)), "rules that the device breaks all the same, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";
         "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
         "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
         "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
@@ -38,6 +38,14 @@ keys! {
         "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
         "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
         "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
+    }
+}
+
+keys! {
+    /// A code under `allow:`.
+    ALLOWED = "an allowed rule" {
+        "at": Shape::OneOrMore(&Shape::Index), "the objects that may break the rule; without it, all", "[0x2000, 0x2101]";
+        "about" required: Shape::Words, "the reason", "as the first series has it";
     }
 }
 

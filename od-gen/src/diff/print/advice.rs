@@ -22,7 +22,7 @@ fn file(proposal: Proposal) -> Option<String> {
         Advice::Raised => format!("{}; the new file has it", raise(proposal.new)),
         Advice::Raise(to) => raise(to),
         Advice::RaiseFirst(to) => format!("{}, as FileRevision {} is the largest", raise(to), from.1),
-        Advice::UsedUp => format!("nothing: FileVersion {} is the largest and cannot be raised", from.0),
+        Advice::UsedUp => format!("FileVersion stays, as {} is the largest", from.0),
     })
 }
 
@@ -37,10 +37,7 @@ fn revision(proposal: Proposal) -> Option<String> {
         Advice::Raise(to) => raise(to),
         Advice::RaiseFirst(to) => format!("{}, as the minor part {} is the largest", raise(to), from.1),
         Advice::UsedUp => {
-            format!(
-                "nothing: the major part {} of RevisionNumber is the largest and cannot be raised",
-                from.0
-            )
+            format!("RevisionNumber stays, as its major part {} is the largest", from.0)
         }
     })
 }
