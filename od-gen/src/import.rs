@@ -24,8 +24,9 @@ pub struct Imported {
     pub without_place: usize,
 }
 
-/// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, values without a place.
-const WITHOUT_PLACE: [&str; 3] = ["EDS401", "EDS415", "EDS512"];
+/// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
+/// place.
+const WITHOUT_PLACE: [&str; 4] = ["EDS401", "EDS415", "EDS427", "EDS512"];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -55,7 +56,7 @@ pub fn import(
         let line = file.line_col(label.span.start).line;
         if WITHOUT_PLACE.contains(&finding.code.id) {
             without_place.push(format!("line {line}: {}", finding.message));
-        } else if changes_what_is_read(finding) {
+        } else if changes_what_is_read(finding) || loses_a_link(&document, finding) {
             let text = format!("line {line}: {} ({})", finding.message, finding.code.id);
             let place = place(device, document.owner(label.span)).unwrap_or(Place::Device);
             options.comments.entry(place).or_default().push(text);
@@ -79,6 +80,13 @@ fn changes_what_is_read(finding: &Diagnostic) -> bool {
         ["EDS40", "EDS41", "EDS5", "OD"].iter().any(|prefix| finding.code.id.starts_with(prefix));
     let is_about_name = ["OD0303", "OD0318"].contains(&finding.code.id);
     about_facts && !is_about_name && finding.code.severity == Severity::Error && finding.edits.is_empty()
+}
+
+/// Whether a finding is about an entry of object links that is no index. In a list of objects it says nothing that the
+/// objects do not.
+fn loses_a_link(document: &Document<'_>, finding: &Diagnostic) -> bool {
+    let place = finding.labels.first().map(|label| label.span);
+    finding.code.id == "EDS304" && place.is_some_and(|place| document.owner(place) != Owner::File)
 }
 
 /// Where a specification speaks of what a section is about; `None` for the file as a whole, and for what is left out.

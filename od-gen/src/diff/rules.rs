@@ -52,7 +52,7 @@
 //! | | another event or action | behaviour | |
 //! | command | other transitions | behaviour | |
 //! | condition between entries | added or another, removed | plc, addition | a configuration that was accepted is refused |
-//! | descriptions, category, issue, error codes of bits, manual, errata | any | documents | |
+//! | descriptions, links between objects, category, issue, error codes of bits, manual, errata | any | documents | |
 //!
 //! Whether firmware breaks is asked of the plan of the generated code ([`super::code`]), whether stored parameters are lost of its
 //! layout ([`super::stored`]); each adds its consequence to the change that causes it.

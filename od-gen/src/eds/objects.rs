@@ -76,6 +76,7 @@ fn write_object(
             entry::write(&mut section, object, var, &object.name, node);
             section.finish(document);
         }
+        write_links(document, object);
         return;
     }
     let mut section = SectionWriter::new(format!("{index:X}"), &comments::object(object, language));
@@ -89,4 +90,18 @@ fn write_object(
         entry::write(&mut section, object, member, &member.name, node);
         section.finish(document);
     }
+    write_links(document, object);
+}
+
+/// The objects that belong together with an object (CiA 306 4.6.4).
+fn write_links(document: &mut Document<'_>, object: &Object) {
+    if object.links.is_empty() {
+        return;
+    }
+    let mut section = SectionWriter::new(format!("{:X}ObjectLinks", object.index.0), &[]);
+    section.key("ObjectLinks", object.links.len());
+    for (number, index) in (1..).zip(object.linked()) {
+        section.key(&number.to_string(), format_args!("0x{:04X}", index.0));
+    }
+    section.finish(document);
 }

@@ -85,6 +85,8 @@ struct ObjectView<'a> {
     category: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     since: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    links: Vec<String>,
     about: Words<'a>,
     entries: Vec<EntryView<'a>>,
 }
@@ -101,6 +103,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         differs: object.departures.iter().map(|departure| WORDING.departure(*departure)).collect(),
         category: object.category.map(model::Category::word),
         since: object.since.as_deref(),
+        links: object.linked().map(index).collect(),
         about: words(&object.about),
         entries: object.entries.iter().map(|entry| entry_view(object.index, entry)).collect(),
     }

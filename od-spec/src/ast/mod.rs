@@ -218,6 +218,7 @@ pub(crate) struct ObjectDecl {
     pub record: Option<RecordDecl>,
     pub sub0: Option<EntryDecl>,
     pub omit: Vec<Spanned<i128>>,
+    pub links: Option<Vec<Spanned<Index>>>,
     pub entry: EntryDecl,
 }
 

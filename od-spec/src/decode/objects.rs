@@ -86,6 +86,7 @@ fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -
             .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
         sub0: r.keyed("sub0").map(|(key, child)| entry(child, &keys::SUB0, key, diagnostics)),
         omit: r.integers("omit"),
+        links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     }
 }

@@ -91,6 +91,11 @@ impl<'a> Reader<'a> {
         self.items(key).filter_map(|item| item.scalar(|text| scalar::integer(text).ok())).collect()
     }
 
+    /// Indices, or `None` when the key is not there.
+    pub(super) fn optional_indices(self, key: &str) -> Option<Vec<Spanned<Index>>> {
+        self.node.get(key).map(|_| self.indices(key))
+    }
+
     pub(super) fn indices(self, key: &str) -> Vec<Spanned<Index>> {
         self.items(key).filter_map(|item| item.scalar(lexical::index)).collect()
     }

@@ -67,6 +67,8 @@ facts! {
     Identifier = "identifier",
     /// What the EDS shows of an entry, or says about itself.
     Eds = "eds",
+    /// Objects that belong together with an object.
+    Links = "links",
     /// Description.
     About = "about",
     /// The entry that an alias shows.
@@ -127,6 +129,7 @@ impl Fact {
             | Self::LowLimit
             | Self::HighLimit
             | Self::Eds
+            | Self::Links
             | Self::RemoteFrames
             | Self::BitRates
             | Self::Granularity

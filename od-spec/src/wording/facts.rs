@@ -131,6 +131,7 @@ impl Wording {
                 Fact::Capacity => "Kapazität",
                 Fact::Identifier => "Bezeichner",
                 Fact::Eds => "EDS",
+                Fact::Links => "verknüpfte Objekte",
                 Fact::About => "Beschreibung",
                 Fact::Alias => "Abbild",
                 Fact::RemoteFrames => "Remote-Frames",

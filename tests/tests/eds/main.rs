@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod links;
 mod own_files;
 mod random;
 mod reading;

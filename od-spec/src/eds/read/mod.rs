@@ -9,6 +9,7 @@ mod compact;
 mod device;
 mod entry;
 mod implicit_pdos;
+mod links;
 mod modules;
 mod node;
 mod objects;

@@ -22,6 +22,7 @@ pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> Object
         record: None,
         sub0: None,
         omit: Vec::new(),
+        links: None,
         entry,
     }
 }
