@@ -63,8 +63,9 @@ pub fn import(
         }
     }
     let values = node_values(compiled, device);
-    let count = without_place.len() + values.len();
-    options.foot = foot(without_place, values);
+    let texts = node_texts(compiled);
+    let count = without_place.len() + values.len() + texts.len();
+    options.foot = foot(without_place, values, texts);
     let written = yaml::specification(system, device, &options);
     Some(written.map(|written| Imported {
         text: written.text,
@@ -124,7 +125,21 @@ fn node_values(compiled: &Compiled, device: &Dictionary) -> Vec<String> {
     set.collect()
 }
 
-fn foot(without_place: Vec<String>, values: Vec<String>) -> Vec<String> {
+/// What else belongs to the node of a DCF, in the keys of one.
+fn node_texts(compiled: &Compiled) -> Vec<String> {
+    let Some(node) = &compiled.node else { return Vec::new() };
+    let names = node.denotations.iter().map(|(of, name)| format!("{of}: Denotation={name}"));
+    let mut texts: Vec<String> = names.collect();
+    for (id, files) in &node.files {
+        let keys = [("UploadFile", &files.upload), ("DownloadFile", &files.download)];
+        let paths =
+            keys.into_iter().filter_map(|(key, path)| Some(format!("{id}: {key}={}", path.as_ref()?)));
+        texts.extend(paths);
+    }
+    texts
+}
+
+fn foot(without_place: Vec<String>, values: Vec<String>, texts: Vec<String>) -> Vec<String> {
     let mut foot = Vec::new();
     if !without_place.is_empty() {
         foot.push("What has no place in a specification:".to_owned());
@@ -133,6 +148,10 @@ fn foot(without_place: Vec<String>, values: Vec<String>) -> Vec<String> {
     if !values.is_empty() {
         foot.push("The values of the node, for `odgen dcf`:".to_owned());
         foot.extend(values);
+    }
+    if !texts.is_empty() {
+        foot.push("Names in the application and files of the node, which a DCF keeps:".to_owned());
+        foot.extend(texts.into_iter().map(|line| format!("- {line}")));
     }
     foot
 }

@@ -1,8 +1,8 @@
 //! The lists of objects (CiA 306 4.6.3.1), each followed by the sections of its objects.
 
-use od_spec::Commissioning;
 use od_spec::eds::Document;
 use od_spec::model::{Dictionary, Object, System};
+use od_spec::{Commissioning, Denoted};
 
 use super::comments;
 use super::entry;
@@ -83,6 +83,9 @@ fn write_object(
     section.key("SubNumber", object.entries.len());
     section.key("ParameterName", &object.name);
     section.key("ObjectType", format_args!("0x{:X}", object.kind.code()));
+    if let Some(node) = node {
+        entry::denotation(&mut section, node, Denoted::object(object.index));
+    }
     section.finish(document);
     for member in &object.entries {
         let name = format!("{index:X}sub{:X}", member.sub.0);

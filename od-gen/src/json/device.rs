@@ -215,7 +215,7 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
 }
 
 /// A value: `raw` for numbers, `formula` for node-ID formulas, `text` for people.
-fn value(place: Index, entry: &Entry, value: &Value) -> Json {
+pub(super) fn value(place: Index, entry: &Entry, value: &Value) -> Json {
     let text = WORDING.value(Some(place), entry, value);
     match value {
         Value::Integer(raw) => json!({"raw": integer(*raw), "text": text}),

@@ -12,6 +12,7 @@ mod implicit_pdos;
 mod links;
 mod modules;
 mod node;
+mod node_texts;
 mod objects;
 mod shape;
 mod value;
@@ -22,6 +23,7 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{Span, Spanned};
 
 pub(crate) use node::NodeDecl;
+pub(crate) use node_texts::FileUse;
 
 /// What an EDS or DCF says.
 pub(crate) struct Read {

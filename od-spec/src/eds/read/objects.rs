@@ -3,9 +3,11 @@
 use super::compact;
 use super::entry::{self, Context};
 use super::links;
+use super::node_texts;
 use super::shape::{declaration, members, sub, with_shape};
 use super::without_place;
 use crate::ast::{EntryDecl, ObjectDecl};
+use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
 use crate::eds::codes;
 use crate::eds::number;
@@ -52,12 +54,14 @@ fn described(
     match kind {
         ObjectKind::Var | ObjectKind::Domain => {
             let entry = entry::entry(main, id, kind, context);
+            node_texts::read(main, Denoted::object(index), entry::type_of(&entry), context);
             Some(declaration(index, place, entry))
         }
         ObjectKind::Array | ObjectKind::Record => {
             let name = entry::name(main, id, context);
             let common = EntryDecl { name: Some(name.clone()), ..EntryDecl::empty(place) };
             let common = context.meanings.add_to(common, main, &name.value);
+            node_texts::read(main, Denoted::object(index), None, context);
             Some(structured(index, kind, part, common, place, context))
         }
     }
