@@ -32,6 +32,7 @@ impl Source<'_> {
             name: device.name.clone(),
             about: self.text(&device.about),
             facts: self.facts(device),
+            dynamic_channels: self.dynamic_channels(device),
             overview,
             objects,
             pdos: device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect(),
@@ -107,6 +108,42 @@ impl Source<'_> {
             Cell::plain(self.word(Word::Facts)),
             vec![grid],
         )
+    }
+
+    fn dynamic_channels(&self, device: &Dictionary) -> Option<Table> {
+        let channels = &device.info.dynamic_channels;
+        if channels.is_empty() {
+            return None;
+        }
+        let rows = channels.iter().map(|channel| {
+            let range = if channel.first == channel.last {
+                channel.first.to_string()
+            } else {
+                format!("{}–{}", channel.first, channel.last)
+            };
+            let difference = channel.difference.map_or(String::new(), |difference| difference.to_string());
+            let cells = [
+                range,
+                channel.data_type.name().to_owned(),
+                channel.access.word().to_owned(),
+                channel.offset.to_string(),
+                difference,
+            ];
+            Row::of(cells.map(Cell::plain).into())
+        });
+        let grid = Columns::new()
+            .left(self, "index", Word::Index)
+            .left(self, "type", Word::Type)
+            .left(self, "access", Word::Access)
+            .right(self, "offset", Word::Offset)
+            .right(self, "difference", Word::AddressDifference)
+            .grid(rows.collect(), &["index", "type", "access", "offset"]);
+        Some(Table::unnumbered(
+            format!("dynamic-channels-{}", device.key),
+            "dynamic-channels",
+            Cell::plain(self.word(Word::DynamicChannels)),
+            vec![grid],
+        ))
     }
 
     fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {

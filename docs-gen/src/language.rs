@@ -46,6 +46,7 @@ words! {
     Action "action": "Action", "Aktion";
     Active "active": "Active", "Aktiv";
     AlarmCode "alarm_code": "Error code", "Fehlercode";
+    AddressDifference "address_difference": "Address difference", "Adressabstand";
     Alias "alias": "View", "Abbild";
     AliasOf "alias_of": "View of", "Abbild von";
     Aliases "aliases": "Aliases", "Abbilder";
@@ -80,6 +81,7 @@ words! {
     Default "default": "Default", "Vorgabe";
     Device "device": "Device", "Gerät";
     DeviceType "device_type": "Device type", "Gerätetyp";
+    DynamicChannels "dynamic_channels": "Dynamic channels", "Dynamische Kanäle";
     Differs "differs": "Differs from the standard in", "Weicht vom Standard ab in";
     ElementsOf "elements": "Entries", "Einträge";
     Enabled "enabled": "Active", "Aktiv";
@@ -124,6 +126,7 @@ words! {
         "Nichts passt. Esc leert die Suche.";
     NotSupported "not_supported": "not supported", "nicht unterstützt";
     Number "number": "No.", "Nr.";
+    Offset "offset": "Offset", "Offset";
     Object "object": "Object", "Objekt";
     Objects "objects": "Objects", "Objekte";
     Off "off": "off after start-up", "nach dem Einschalten aus";

@@ -13,9 +13,10 @@ use crate::rule_examples;
 use crate::source::SourceMap;
 
 /// Keys of the language. As a word alone, most are words of any language; a key is told by its colon.
-const CHAPTERS: [&Keys; 27] = [
+const CHAPTERS: [&Keys; 28] = [
     &keys::CONSTRAINT,
     &keys::DEVICE,
+    &keys::CHANNEL,
     &keys::FILE,
     &keys::ENTRY,
     &keys::SPECIAL,

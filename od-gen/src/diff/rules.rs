@@ -40,7 +40,7 @@
 //! | capacity | smaller, larger on a writable entry | plc, addition | longer strings are refused |
 //! | | any on a read-only entry | behaviour | |
 //! | what a PDO carries | any | plc | the bytes mean something else |
-//! | bit rate, placeholder, LSS, boot-up, multiplexing, PDOs | lost, gained | plc, addition | |
+//! | bit rate, placeholder, dynamic channel, LSS, boot-up, multiplexing, PDOs | lost, gained | plc, addition | |
 //! | granularity | coarser or none, finer | plc, addition | |
 //! | vendor number, product code | any | plc | a master refuses another device; tools do not find the EDS |
 //! | revision | any | addition | it says that something changed, and is raised for that |

@@ -6,12 +6,12 @@ use std::ops::RangeInclusive;
 
 use crate::expr::Expr;
 use crate::keys::{
-    command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys, machine_keys, pdo_keys,
-    revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
+    channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys,
+    machine_keys, pdo_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
 };
 use crate::model::{
-    BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio, Rounding,
-    SubIndex, Text,
+    Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio,
+    Rounding, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -123,6 +123,20 @@ device_keys! { declaration
     DeviceDecl {
         key: Name,
     }
+}
+
+channel_keys! { declaration
+    #[derive(Debug)]
+    ChannelDecl {
+        range: Spanned<IndexRange>,
+    }
+}
+
+/// Indices from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct IndexRange {
+    pub first: Index,
+    pub last: Index,
 }
 
 file_keys! { declaration

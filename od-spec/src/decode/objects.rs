@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::entry::entry;
-use super::lexical::{self, IndexRange};
+use super::lexical;
 use super::numbered::{numbered, twice};
 use super::read::Reader;
-use crate::ast::{ArrayDecl, EntryDecl, Name, ObjectDecl, RecordDecl};
+use crate::ast::{ArrayDecl, EntryDecl, IndexRange, Name, ObjectDecl, RecordDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys;
 use crate::model::{Index, Outside, Rounding, SubIndex};

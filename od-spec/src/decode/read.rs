@@ -5,7 +5,8 @@ use crate::diag::Diagnostics;
 use crate::expr::Expr;
 use crate::keys::Keys;
 use crate::model::{
-    AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio, Storage, Text,
+    Access, AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio,
+    Storage, Text,
 };
 use crate::scalar;
 use crate::source::{Span, Spanned};
@@ -153,6 +154,7 @@ scalars! {
     bool = scalar::yes_no,
     Date = lexical::date,
     DateTime = lexical::date_time,
+    Access = Access::from_word,
     AccessRight = lexical::access,
     PdoMapping = PdoMapping::from_word,
     Storage = Storage::from_word,

@@ -97,6 +97,8 @@ facts! {
     Lss = "lss",
     /// Data types that may stand in an RPDO as placeholders.
     Dummies = "dummies",
+    /// Indices at which a PLC may create network variables.
+    DynamicChannels = "dynamic-channels",
     /// How many PDOs a device has.
     PdoCount = "pdos",
     /// A condition between entries, and when it counts.
@@ -142,6 +144,7 @@ impl Fact {
             | Self::GroupMessaging
             | Self::Lss
             | Self::Dummies
+            | Self::DynamicChannels
             | Self::PdoCount => true,
             Self::Meaning
             | Self::Unit

@@ -146,6 +146,7 @@ impl Wording {
                 Fact::GroupMessaging => "Gruppennachrichten",
                 Fact::Lss => "LSS",
                 Fact::Dummies => "Platzhalter",
+                Fact::DynamicChannels => "dynamische Kanäle",
                 Fact::PdoCount => "PDOs",
                 Fact::Requirement => "Forderung",
                 Fact::Reaction => "Reaktion",

@@ -30,7 +30,7 @@ pub enum Stated {
     Name,
     /// `[xxxxObjectLinks]`.
     Links,
-    /// A fact of `[FileInfo]`, `[DeviceInfo]` or `[DummyUsage]`.
+    /// A fact of `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]` or `[DynamicChannels]`.
     Device(&'static str),
 }
 
@@ -106,6 +106,7 @@ fn device(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
         fact(None, Stated::Device("group messaging"), &one.group_messaging, &other.group_messaging),
         fact(None, Stated::Device("LSS"), &one.lss, &other.lss),
         fact(None, Stated::Device("placeholders"), &one.dummies, &other.dummies),
+        fact(None, Stated::Device("dynamic channels"), &one.dynamic_channels, &other.dynamic_channels),
         fact(
             None,
             Stated::Device("description"),
