@@ -10,7 +10,7 @@ use super::context::{Context, same_unit};
 use super::entry::{self, Keys};
 use super::fold::{self, Folded};
 use super::node::{Item, Node, Spot};
-use super::objects::{facts, key, links_of, single};
+use super::objects::{facts, key, links_of, single, with_links};
 
 /// `{from: NAME, …}` with what differs; `None` where no library has the object, or has more than the object could undo. What the
 /// model leaves open – units, meanings of bits, texts – may come from the library.
@@ -29,8 +29,8 @@ pub(super) fn from_library(context: &Context<'_>, object: &Object) -> Option<Ite
             let entry = object.entries.first()?;
             let id = EntryId { index: object.index, sub: entry.sub };
             above.extend(context.above_entry(id));
-            items.extend(facts(id, differences(context, object.index, entry, below)?));
-            items.extend(links(object, below_object));
+            let keys = facts(id, differences(context, object.index, entry, below)?);
+            items.extend(with_links(keys, links(object, below_object)));
         }
         ObjectKind::Array => {
             items.extend(whole(object, &below.object, context));

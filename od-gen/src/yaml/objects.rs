@@ -20,10 +20,9 @@ pub(super) fn in_full(context: &Context<'_>, object: &Object) -> Item {
         ObjectKind::Var | ObjectKind::Domain => {
             let entries = object.entries.iter();
             above.extend(entries.clone().flat_map(|entry| context.above_entry(id(object, entry))));
-            entries
-                .flat_map(|entry| facts(id(object, entry), entry::keys(context, object.index, entry)))
-                .chain(links(object))
-                .collect()
+            let keys =
+                entries.flat_map(|entry| facts(id(object, entry), entry::keys(context, object.index, entry)));
+            with_links(keys.collect(), links(object))
         }
         ObjectKind::Array => array(context, object, fold, &mut above),
         ObjectKind::Record => record(context, object, fold, &mut above),
@@ -59,6 +58,13 @@ fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
 /// `links:`, where there are any.
 fn links(object: &Object) -> Option<Item> {
     (!object.links.is_empty()).then(|| links_of(object))
+}
+
+/// The keys of a VAR with its links, which stand before the description.
+pub(super) fn with_links(mut items: Vec<Item>, links: Option<Item>) -> Vec<Item> {
+    let about = items.iter().position(|item| item.key == Fact::About.word()).unwrap_or(items.len());
+    items.splice(about..about, links);
+    items
 }
 
 /// `links:`.
