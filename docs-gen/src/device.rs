@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Dictionary, Direction, Entry, EntryId, Fact, Object, ObjectKind, PdoMapping, Storage, SystemSource,
-    TypeKind, Value,
+    Devices, Dictionary, Direction, Entry, EntryId, Fact, Object, ObjectKind, PdoMapping, Storage,
+    SystemSource, TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -32,6 +32,7 @@ impl Source<'_> {
             name: device.name.clone(),
             about: self.text(&device.about),
             facts: self.facts(device),
+            dynamic_channels: self.dynamic_channels(device),
             overview,
             objects,
             pdos: device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect(),
@@ -109,6 +110,42 @@ impl Source<'_> {
         )
     }
 
+    fn dynamic_channels(&self, device: &Dictionary) -> Option<Table> {
+        let channels = &device.info.dynamic_channels;
+        if channels.is_empty() {
+            return None;
+        }
+        let rows = channels.iter().map(|channel| {
+            let range = if channel.first == channel.last {
+                channel.first.to_string()
+            } else {
+                format!("{}–{}", channel.first, channel.last)
+            };
+            let difference = channel.difference.map_or(String::new(), |difference| difference.to_string());
+            let cells = [
+                range,
+                channel.data_type.name().to_owned(),
+                channel.access.word().to_owned(),
+                channel.offset.to_string(),
+                difference,
+            ];
+            Row::of(cells.map(Cell::plain).into())
+        });
+        let grid = Columns::new()
+            .left(self, "index", Word::Index)
+            .left(self, "type", Word::Type)
+            .left(self, "access", Word::Access)
+            .right(self, "offset", Word::Offset)
+            .right(self, "difference", Word::AddressDifference)
+            .grid(rows.collect(), &["index", "type", "access", "offset"]);
+        Some(Table::unnumbered(
+            format!("dynamic-channels-{}", device.key),
+            "dynamic-channels",
+            Cell::plain(self.word(Word::DynamicChannels)),
+            vec![grid],
+        ))
+    }
+
     fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {
         let types = types_of(object).into_iter().map(|named| {
             let (kind, word, grid) = match &named.kind {
@@ -135,7 +172,7 @@ impl Source<'_> {
             kind: object.kind.name(),
             origin: object.origin.word(),
             about: self.about(object),
-            notes: self.notes(object),
+            notes: self.notes(device, object),
             table,
             types,
             used: uses.of(object.index),
@@ -218,7 +255,7 @@ impl Source<'_> {
         }
     }
 
-    fn notes(&self, object: &Object) -> Vec<Cell> {
+    fn notes(&self, device: &Dictionary, object: &Object) -> Vec<Cell> {
         let mut notes = Vec::new();
         if let Some(profile) = &object.profile {
             let mut note = Cell::plain(format!("{} {profile}", self.word(Word::FromStandard)));
@@ -236,11 +273,26 @@ impl Source<'_> {
         if let Some(since) = &object.since {
             notes.push(Cell::plain(format!("{} {since}.", self.word(Word::Since))));
         }
+        notes.extend(self.links(device, object));
         let writable = || object.entries.iter().filter(|entry| entry.access.is_writable());
         if writable().next().is_some() && writable().all(|entry| entry.locked) {
             notes.push(Cell::plain(self.word(Word::LockedNote)));
         }
         notes
+    }
+
+    /// The objects that belong together with an object.
+    fn links(&self, device: &Dictionary, object: &Object) -> Option<Cell> {
+        let here = Devices::one(&device.key);
+        let links = object.linked().map(|index| {
+            let link = self.link_on(&here, index, index.to_string(), object_anchor(index));
+            match device.objects.get(&index) {
+                Some(linked) => link.text(format!(" {}", linked.name)),
+                None => link,
+            }
+        });
+        let list = links.reduce(|list, link| list.text(", ").and(link))?;
+        Some(Cell::plain(format!("{}: ", self.word(Word::Links))).and(list).text("."))
     }
 
     /// Accesses of an object's entries, each once; that of sub-index 0 where it can be written.

@@ -46,6 +46,7 @@ words! {
     Action "action": "Action", "Aktion";
     Active "active": "Active", "Aktiv";
     AlarmCode "alarm_code": "Error code", "Fehlercode";
+    AddressDifference "address_difference": "Address difference", "Adressabstand";
     Alias "alias": "View", "Abbild";
     AliasOf "alias_of": "View of", "Abbild von";
     Aliases "aliases": "Aliases", "Abbilder";
@@ -80,6 +81,7 @@ words! {
     Default "default": "Default", "Vorgabe";
     Device "device": "Device", "Gerät";
     DeviceType "device_type": "Device type", "Gerätetyp";
+    DynamicChannels "dynamic_channels": "Dynamic channels", "Dynamische Kanäle";
     Differs "differs": "Differs from the standard in", "Weicht vom Standard ab in";
     ElementsOf "elements": "Entries", "Einträge";
     Enabled "enabled": "Active", "Aktiv";
@@ -109,6 +111,7 @@ words! {
     LegendOfEds "legend_of_eds":
         "Attr: ro can be read, wo written, rw both; rwr and rww are rw for TPDOs and RPDOs alone; r(w) can be read, and written once the device is unlocked for service, (w) only the latter; const never changes. Map: N not mappable, Y (R) into RPDOs, Y (T) into TPDOs, Y (RT) into both. Mem.: Y can be stored; about the others the EDS says nothing, and where it says it of none, the column is missing. Behind a value in a unit stands the raw value where the two differ; special values are raw.",
         "Zugriff: ro ist lesbar, wo schreibbar, rw beides; rwr und rww sind rw nur für TPDOs und nur für RPDOs; r(w) ist lesbar und, wenn das Gerät für den Service entsperrt ist, schreibbar, (w) nur das Letztere; const ändert sich nie. Map: N nicht mappbar, Y (R) in RPDOs, Y (T) in TPDOs, Y (RT) in beide. Sp.: Y speicherbar; über die anderen sagt die EDS nichts, und wo sie es von keinem sagt, fehlt die Spalte. Hinter einem Wert mit Einheit steht der Rohwert, wo beide sich unterscheiden; besondere Werte sind Rohwerte.";
+    Links "links": "See also", "Siehe auch";
     LockedNote "locked": "Writable only when the device is unlocked for service.", "Nur schreibbar, wenn das Gerät für den Service entsperrt ist.";
     Machines "machines": "State machines", "Zustandsmaschinen";
     Manual "manual": "Manual", "Handbuch";
@@ -123,6 +126,7 @@ words! {
         "Nichts passt. Esc leert die Suche.";
     NotSupported "not_supported": "not supported", "nicht unterstützt";
     Number "number": "No.", "Nr.";
+    Offset "offset": "Offset", "Offset";
     Object "object": "Object", "Objekt";
     Objects "objects": "Objects", "Objekte";
     Off "off": "off after start-up", "nach dem Einschalten aus";

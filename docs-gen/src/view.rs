@@ -210,6 +210,8 @@ pub struct DeviceView {
     pub about: Cell,
     /// Facts of `[DeviceInfo]`.
     pub facts: Table,
+    /// Where a PLC may create network variables; `None` where it may nowhere.
+    pub dynamic_channels: Option<Table>,
     /// Overview of all objects.
     pub overview: Table,
     /// The objects.

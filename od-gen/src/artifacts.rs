@@ -50,7 +50,10 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
             }
             list
         });
-        let bytes = json::dump(system, selection.devices);
+        let bytes = match selection.configured.filter(|_| selection.node.is_none()) {
+            Some(node) => json::dump_node(system, selection.devices, node),
+            None => json::dump(system, selection.devices),
+        };
         let mut list = files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         list.push(Artifact {
             path: format!("{stem}.json"),

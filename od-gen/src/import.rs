@@ -8,7 +8,7 @@ use od_spec::eds::{Document, Owner};
 use od_spec::model::{Dictionary, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::wording::{Notation, Wording};
-use od_spec::{Compiled, assign};
+use od_spec::{Commissioning, Compiled, assign};
 
 use crate::yaml::{self, Options, Place, Repair};
 
@@ -26,8 +26,9 @@ pub struct Imported {
     pub without_place: usize,
 }
 
-/// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, values without a place.
-const WITHOUT_PLACE: [&str; 3] = ["EDS401", "EDS415", "EDS512"];
+/// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
+/// place.
+const WITHOUT_PLACE: [&str; 4] = ["EDS401", "EDS415", "EDS427", "EDS512"];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -73,14 +74,14 @@ pub fn import(
         let line = file.line_col(label.span.start).line;
         if WITHOUT_PLACE.contains(&finding.code.id) {
             without_place.push(format!("line {line}: {}", finding.message));
-        } else if changes_what_is_read(finding) {
+        } else if changes_what_is_read(finding) || loses_a_link(&document, finding) {
             let text = format!("line {line}: {} ({})", finding.message, finding.code.id);
             let place = place(device, document.owner(label.span)).unwrap_or(Place::Device);
             options.comments.entry(place).or_default().push(text);
         }
     }
     let values = node_values(compiled, system, device);
-    let count = without_place.len() + values.settings.len() + values.refused.len();
+    let count = without_place.len() + values.settings.len() + values.refused.len() + values.texts.len();
     options.foot = foot(without_place, values, base_name(file.name()));
     let written = yaml::specification(system, device, &options);
     Some(written.map(|written| Imported {
@@ -110,6 +111,13 @@ fn changes_what_is_read(finding: &Diagnostic) -> bool {
     about_facts && !is_about_name && finding.code.severity == Severity::Error && finding.edits.is_empty()
 }
 
+/// Whether a finding is about an entry of object links that is no index. In a list of objects it says nothing that the
+/// objects do not.
+fn loses_a_link(document: &Document<'_>, finding: &Diagnostic) -> bool {
+    let place = finding.labels.first().map(|label| label.span);
+    finding.code.id == "EDS304" && place.is_some_and(|place| document.owner(place) != Owner::File)
+}
+
 /// Where a specification speaks of what a section is about; `None` for the file as a whole, and for what is left out.
 fn place(device: &Dictionary, owner: Owner) -> Option<Place> {
     match owner {
@@ -134,13 +142,15 @@ fn comment_lines<'d>(document: &'d Document<'_>) -> impl Iterator<Item = String>
     texts.filter_map(|line| line.value()).filter(|text| !text.is_empty()).map(ToOwned::to_owned)
 }
 
-/// The parameter values of a DCF.
+/// What a DCF says of its node.
 #[derive(Default)]
 struct NodeValues {
     /// As settings of `odgen dcf`.
     settings: Vec<String>,
     /// What cannot be set, each with the reason.
     refused: Vec<String>,
+    /// Names and files.
+    texts: Vec<String>,
 }
 
 fn node_values(compiled: &Compiled, system: &System, device: &Dictionary) -> NodeValues {
@@ -166,10 +176,25 @@ fn node_values(compiled: &Compiled, system: &System, device: &Dictionary) -> Nod
             None => values.settings.push(format!("--set \"{text}\"")),
         }
     }
+    values.texts = node_texts(node);
     values
 }
 
-fn foot(without_place: Vec<String>, NodeValues { settings, refused }: NodeValues, file: &str) -> Vec<String> {
+/// What else belongs to the node of a DCF, in the keys of one.
+fn node_texts(node: &Commissioning) -> Vec<String> {
+    let names = node.denotations.iter().map(|(of, name)| format!("{of}: Denotation={name}"));
+    let mut texts: Vec<String> = names.collect();
+    for (id, files) in &node.files {
+        let keys = [("UploadFile", &files.upload), ("DownloadFile", &files.download)];
+        let paths =
+            keys.into_iter().filter_map(|(key, path)| Some(format!("{id}: {key}={}", path.as_ref()?)));
+        texts.extend(paths);
+    }
+    texts
+}
+
+fn foot(without_place: Vec<String>, values: NodeValues, file: &str) -> Vec<String> {
+    let NodeValues { settings, refused, texts } = values;
     let mut foot = Vec::new();
     if !without_place.is_empty() {
         foot.push("What has no place in a specification:".to_owned());
@@ -184,6 +209,10 @@ fn foot(without_place: Vec<String>, NodeValues { settings, refused }: NodeValues
     if !refused.is_empty() {
         foot.push("Values of the node that cannot be set:".to_owned());
         foot.extend(refused);
+    }
+    if !texts.is_empty() {
+        foot.push("Names in the application and files of the node, which a DCF keeps:".to_owned());
+        foot.extend(texts.into_iter().map(|line| format!("- {line}")));
     }
     foot
 }

@@ -1,6 +1,9 @@
 //! What is settled for one node of a network, beyond what its device is.
 
-use crate::model::{Dictionary, NoSuchValue, Write, download};
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, Write, download};
 use crate::parameters::ParameterValues;
 
 /// A node: its place in a network, and the values of its parameters. A DCF holds it, as a concise DCF and an XDC do.
@@ -19,6 +22,57 @@ pub struct Commissioning {
     pub net_name: String,
     /// Values of single entries; every other entry keeps its default.
     pub values: ParameterValues,
+    /// What objects and entries are called in the application; beside the names that the device gives them.
+    pub denotations: BTreeMap<Denoted, String>,
+    /// The files of DOMAINs.
+    pub files: BTreeMap<EntryId, DomainFiles>,
+}
+
+/// What has a name in the application: an object as a whole, or one of its entries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Denoted {
+    /// The object.
+    pub index: Index,
+    /// The entry of an ARRAY or RECORD; `None` for the object, which in a VAR or DOMAIN is its entry.
+    pub sub: Option<SubIndex>,
+}
+
+impl Denoted {
+    /// An object as a whole.
+    pub const fn object(index: Index) -> Self {
+        Self { index, sub: None }
+    }
+
+    /// An entry of an ARRAY or RECORD.
+    pub const fn entry(id: EntryId) -> Self {
+        Self { index: id.index, sub: Some(id.sub) }
+    }
+
+    /// Whether a device has it.
+    fn is_in(self, device: &Dictionary) -> bool {
+        let object = device.objects.get(&self.index);
+        object.is_some_and(|object| self.sub.is_none_or(|sub| object.entry(sub).is_some()))
+    }
+}
+
+/// `2000h`, `2001h.1`.
+impl fmt::Display for Denoted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.sub {
+            None => write!(f, "{}", self.index),
+            Some(sub) => write!(f, "{}.{sub}", self.index),
+        }
+    }
+}
+
+/// The files between which and a node a DOMAIN goes, as paths.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DomainFiles {
+    /// Receives what is read from the node.
+    pub upload: Option<String>,
+    /// Holds what is written to the node.
+    pub download: Option<String>,
 }
 
 impl Commissioning {
@@ -33,6 +87,15 @@ impl Commissioning {
             net_number: 1,
             net_name: String::new(),
             values: ParameterValues::new(),
+            denotations: BTreeMap::new(),
+            files: BTreeMap::new(),
+        }
+    }
+
+    /// Gives an object or entry a name in the application, if the device has it.
+    pub(crate) fn denote(&mut self, device: &Dictionary, of: Denoted, name: String) {
+        if of.is_in(device) {
+            self.denotations.insert(of, name);
         }
     }
 

@@ -59,7 +59,7 @@ pub mod yaml;
 pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
-pub use commissioning::Commissioning;
+pub use commissioning::{Commissioning, Denoted, DomainFiles};
 pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
 pub use decode::{is_device_key, nearest};
 pub use departures::departures;

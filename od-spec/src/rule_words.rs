@@ -13,10 +13,11 @@ use crate::rule_examples;
 use crate::source::SourceMap;
 
 /// Keys of the language. As a word alone, most are words of any language; a key is told by its colon.
-const CHAPTERS: [&Keys; 28] = [
+const CHAPTERS: [&Keys; 29] = [
     &keys::ALLOWED,
     &keys::CONSTRAINT,
     &keys::DEVICE,
+    &keys::CHANNEL,
     &keys::FILE,
     &keys::ENTRY,
     &keys::SPECIAL,
@@ -214,6 +215,7 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0321", structured(0x1016, 8, ("const", "DefaultValue=0"), &[])),
         ("OD0321", structured(0x1018, 9, ("const", "DefaultValue=5"), &[(7, "ro", "DefaultValue=1"); 5])),
         ("OD0322", var(0x1021, "store EDS", 15, "ro", "")),
+        ("OD0323", level("") + "[2000ObjectLinks]\nObjectLinks=1\n1=0x2001\n\n"),
         ("OD0404", level(&default("300"))),
         ("OD0404", level(&default("$NODEID+0x180"))),
         ("OD0406", level("DefaultValue=120\nHighLimit=100")),

@@ -118,6 +118,20 @@ fn a_mapping_of_what_is_not_there_stays() {
 }
 
 #[test]
+fn links_and_dynamic_channels_stay() {
+    let channels = "DynamicChannelsSupported=1\n[DynamicChannels]\nNrOfSeg=1\nType1=5\nDir1=ro\nRange1=0xA080-0xA0BF\nPPOffset1=4\n";
+    comes_back(
+        &[
+            channels.to_owned(),
+            entry("2000", "DataType=5\nAccessType=ro"),
+            "[2000ObjectLinks]\nObjectLinks=2\n1=0x2001\n2=0x2FFF\n".to_owned(),
+            entry("2001", "DataType=5\nAccessType=ro"),
+        ]
+        .concat(),
+    );
+}
+
+#[test]
 fn what_is_excepted_is_counted() {
     let checked = lamp(
         &[

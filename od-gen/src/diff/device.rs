@@ -1,6 +1,6 @@
 //! What is said about a device as a whole.
 
-use od_spec::model::{DataType, Date, DateTime, Direction, Fact, FileInfo};
+use od_spec::model::{DataType, Date, DateTime, Direction, DynamicChannel, Fact, FileInfo};
 use od_spec::wording::Language;
 
 use super::change::{Change, Class, Consequence, Place};
@@ -102,9 +102,11 @@ impl Devices<'_> {
             list.dedup();
             list.into_iter().map(|one| one.name().to_owned()).collect::<Vec<_>>()
         };
+        let channels = |list: &[DynamicChannel]| list.iter().map(channel).collect::<Vec<_>>();
         let lists = [
             (Fact::BitRates, " kbit/s", rates(&old.bit_rates), rates(&new.bit_rates)),
             (Fact::Dummies, "", dummies(&old.dummies), dummies(&new.dummies)),
+            (Fact::DynamicChannels, "", channels(&old.dynamic_channels), channels(&new.dynamic_channels)),
         ];
         let changes = lists.into_iter().filter_map(|(fact, of, before, after)| {
             let is_lost = before.iter().any(|one| !after.contains(one));
@@ -136,6 +138,13 @@ impl Devices<'_> {
         });
         changes.collect()
     }
+}
+
+/// `A080h to A0BFh unsigned8 ro at 64`.
+fn channel(channel: &DynamicChannel) -> String {
+    let DynamicChannel { first, last, data_type, access, offset, difference, .. } = channel;
+    let difference = difference.map_or(String::new(), |difference| format!(" by {difference}"));
+    format!("{first} to {last} {} {} at {offset}{difference}", data_type.name(), access.word())
 }
 
 fn moment(at: DateTime) -> String {

@@ -120,12 +120,18 @@ impl Devices<'_> {
         let since = Change::of(place.clone(), Fact::Since, old.since.clone(), new.since.clone());
         let identifiers = (old.identifier.clone(), new.identifier.clone());
         let identifier = Change::of(place.clone(), Fact::Identifier, identifiers.0, identifiers.1);
+        let links = |object: &Object| {
+            let links: Vec<String> = object.linked().map(|index| index.to_string()).collect();
+            (!links.is_empty()).then(|| links.join(", "))
+        };
+        let links = Change::of(place.clone(), Fact::Links, links(old), links(new));
         let facts = [
             name.map(|change| change.with(rules::parameter_name(&before, &after))),
             kind.map(|change| change.with(rules::object_kind(old.kind, new.kind))),
             category.map(|change| change.so(Class::Documents, "the device has it either way")),
             since.map(|change| change.so(Class::Documents, "a remark about the manual")),
             identifier.map(|change| change.so(Class::Documents, "generated code has the same names")),
+            links.map(|change| change.so(Class::Documents, "a hint where to look; access is the same")),
         ];
         let about = texts(&place, Fact::About, &old.about, &new.about, self.language);
         facts.into_iter().flatten().chain(about).collect()

@@ -40,7 +40,7 @@
 //! | capacity | smaller, larger on a writable entry | plc, addition | longer strings are refused |
 //! | | any on a read-only entry | behaviour | |
 //! | what a PDO carries | any | plc | the bytes mean something else |
-//! | bit rate, placeholder, LSS, boot-up, multiplexing, PDOs | lost, gained | plc, addition | |
+//! | bit rate, placeholder, dynamic channel, LSS, boot-up, multiplexing, PDOs | lost, gained | plc, addition | |
 //! | granularity | coarser or none, finer | plc, addition | |
 //! | vendor number, product code | any | plc | a master refuses another device; tools do not find the EDS |
 //! | revision | any | addition | it says that something changed, and is raised for that |
@@ -52,7 +52,7 @@
 //! | | another event or action | behaviour | |
 //! | command | other transitions | behaviour | |
 //! | condition between entries | added or another, removed | plc, addition | a configuration that was accepted is refused |
-//! | descriptions, category, issue, error codes of bits, manual, errata | any | documents | |
+//! | descriptions, links between objects, category, issue, error codes of bits, manual, errata | any | documents | |
 //!
 //! Whether firmware breaks is asked of the plan of the generated code ([`super::code`]), whether stored parameters are lost of its
 //! layout ([`super::stored`]); each adds its consequence to the change that causes it.

@@ -1,4 +1,4 @@
-//! `[DeviceInfo]` and `[DummyUsage]` (CiA 306 4.5 and 4.6.2): what the device is and what it supports.
+//! `[DeviceInfo]`, `[DummyUsage]` (CiA 306 4.5 and 4.6.2) and `[DynamicChannels]`: what the device is and what it supports.
 
 use od_spec::eds::Document;
 use od_spec::model::{DataType, Dictionary, Direction, System};
@@ -24,11 +24,31 @@ pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dicti
     section.flag("SimpleBootUpMaster", info.boot_up_master);
     section.flag("SimpleBootUpSlave", info.boot_up_slave);
     section.key("Granularity", info.granularity);
-    section.key("DynamicChannelsSupported", 0);
+    section.flag("DynamicChannelsSupported", !info.dynamic_channels.is_empty());
     section.flag("GroupMessaging", info.group_messaging);
     section.key("NrOfRXPDO", device.pdos_of(Direction::Receive).count());
     section.key("NrOfTXPDO", device.pdos_of(Direction::Transmit).count());
     section.flag("LSS_Supported", info.lss);
+    section.finish(document);
+}
+
+/// `[DynamicChannels]` (CiA 306-3), where there are any.
+pub(super) fn write_channels(document: &mut Document<'_>, device: &Dictionary) {
+    let channels = &device.info.dynamic_channels;
+    if channels.is_empty() {
+        return;
+    }
+    let mut section = SectionWriter::new("DynamicChannels", &[]);
+    section.key("NrOfSeg", channels.len());
+    for (number, channel) in (1..).zip(channels) {
+        section.key(&format!("Type{number}"), format_args!("0x{:04X}", channel.data_type.code()));
+        section.key(&format!("Dir{number}"), channel.access.word());
+        let (first, last) = (channel.first.0, channel.last.0);
+        section.key(&format!("Range{number}"), format_args!("0x{first:04X}-0x{last:04X}"));
+        let difference =
+            channel.difference.map_or(String::new(), |difference| format!(",0x{difference:08X}"));
+        section.key(&format!("PPOffset{number}"), format_args!("0x{:08X}{difference}", channel.offset));
+    }
     section.finish(document);
 }
 

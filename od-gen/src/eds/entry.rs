@@ -1,12 +1,12 @@
 //! The keys of an entry's section (CiA 306 4.6.3.2).
 
-use od_spec::Commissioning;
 use od_spec::model::{DataType, Entry, EntryId, Object, ObjectKind, PdoMapping};
+use od_spec::{Commissioning, Denoted};
 
 use super::value;
 use super::writer::SectionWriter;
 
-/// The keys of an entry under a name; with its value on a node in a DCF.
+/// The keys of an entry under a name; in a DCF with its value on a node, and what else belongs to the node.
 pub(super) fn write(
     section: &mut SectionWriter,
     object: &Object,
@@ -37,8 +37,28 @@ pub(super) fn write(
     if entry.eds.flags() != 0 {
         section.key("ObjFlags", entry.eds.flags());
     }
+    let Some(node) = node else { return };
     let id = EntryId { index: object.index, sub: entry.sub };
-    if let Some(value) = node.and_then(|commissioning| commissioning.values.get(&id)) {
+    if let Some(value) = node.values.get(&id) {
         section.value("ParameterValue", &notation.text(value));
+    }
+    denotation(
+        section,
+        node,
+        if object.is_structured() { Denoted::entry(id) } else { Denoted::object(id.index) },
+    );
+    if let Some(files) = node.files.get(&id) {
+        for (key, path) in [("UploadFile", &files.upload), ("DownloadFile", &files.download)] {
+            if let Some(path) = path {
+                section.value(key, path);
+            }
+        }
+    }
+}
+
+/// What an object or entry of a node is called in the application.
+pub(super) fn denotation(section: &mut SectionWriter, node: &Commissioning, of: Denoted) {
+    if let Some(name) = node.denotations.get(&of) {
+        section.key("Denotation", name);
     }
 }

@@ -91,5 +91,6 @@ fn head(
     file_info::write(document, device, file, last_eds);
     device_info::write(document, system, device);
     device_info::write_dummies(document, device);
+    device_info::write_channels(document, device);
     about::write(document, system, device);
 }

@@ -1,8 +1,8 @@
 //! The lists of objects (CiA 306 4.6.3.1), each followed by the sections of its objects.
 
-use od_spec::Commissioning;
 use od_spec::eds::Document;
 use od_spec::model::{Dictionary, Object, System};
+use od_spec::{Commissioning, Denoted};
 
 use super::comments;
 use super::entry;
@@ -76,12 +76,16 @@ fn write_object(
             entry::write(&mut section, object, var, &object.name, node);
             section.finish(document);
         }
+        write_links(document, object);
         return;
     }
     let mut section = SectionWriter::new(format!("{index:X}"), &comments::object(object, language));
     section.key("SubNumber", object.entries.len());
     section.key("ParameterName", &object.name);
     section.key("ObjectType", format_args!("0x{:X}", object.kind.code()));
+    if let Some(node) = node {
+        entry::denotation(&mut section, node, Denoted::object(object.index));
+    }
     section.finish(document);
     for member in &object.entries {
         let name = format!("{index:X}sub{:X}", member.sub.0);
@@ -89,4 +93,18 @@ fn write_object(
         entry::write(&mut section, object, member, &member.name, node);
         section.finish(document);
     }
+    write_links(document, object);
+}
+
+/// The objects that belong together with an object (CiA 306 4.6.4).
+fn write_links(document: &mut Document<'_>, object: &Object) {
+    if object.links.is_empty() {
+        return;
+    }
+    let mut section = SectionWriter::new(format!("{:X}ObjectLinks", object.index.0), &[]);
+    section.key("ObjectLinks", object.links.len());
+    for (number, index) in (1..).zip(object.linked()) {
+        section.key(&number.to_string(), format_args!("0x{:04X}", index.0));
+    }
+    section.finish(document);
 }

@@ -1,6 +1,8 @@
 //! Devices: objects, entries, PDOs.
 
-use od_spec::model::{self, Author, Dictionary, Entry, Index, Mapped, Object, Pdo, PdoTarget, Value};
+use od_spec::model::{
+    self, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Value,
+};
 use od_spec::wording::{Notation, Wording};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -27,6 +29,8 @@ pub(super) struct DeviceView<'a> {
     group_messaging: bool,
     lss: bool,
     dummies: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    dynamic_channels: Vec<ChannelView>,
     file: Json,
     objects: Vec<ObjectView<'a>>,
     pdos: Vec<Json>,
@@ -51,6 +55,7 @@ impl<'a> DeviceView<'a> {
             group_messaging: info.group_messaging,
             lss: info.lss,
             dummies: info.dummies.iter().map(|data_type| data_type.name()).collect(),
+            dynamic_channels: info.dynamic_channels.iter().map(ChannelView::new).collect(),
             file: json!({
                 "description": file.description,
                 "created": date_time(file.created),
@@ -62,6 +67,31 @@ impl<'a> DeviceView<'a> {
             }),
             objects: device.objects.values().map(object_view).collect(),
             pdos: device.pdos.iter().map(pdo_view).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct ChannelView {
+    first: String,
+    last: String,
+    #[serde(rename = "type")]
+    data_type: &'static str,
+    access: &'static str,
+    offset: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    difference: Option<u32>,
+}
+
+impl ChannelView {
+    fn new(channel: &DynamicChannel) -> Self {
+        Self {
+            first: index(channel.first),
+            last: index(channel.last),
+            data_type: channel.data_type.name(),
+            access: channel.access.word(),
+            offset: channel.offset,
+            difference: channel.difference,
         }
     }
 }
@@ -85,6 +115,8 @@ struct ObjectView<'a> {
     category: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     since: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    links: Vec<String>,
     about: Words<'a>,
     entries: Vec<EntryView<'a>>,
 }
@@ -101,6 +133,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         differs: object.departures.iter().map(|departure| WORDING.departure(*departure)).collect(),
         category: object.category.map(model::Category::word),
         since: object.since.as_deref(),
+        links: object.linked().map(index).collect(),
         about: words(&object.about),
         entries: object.entries.iter().map(|entry| entry_view(object.index, entry)).collect(),
     }
@@ -212,7 +245,7 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
 }
 
 /// A value: `raw` for numbers, `formula` for node-ID formulas, `text` for people.
-fn value(place: Index, entry: &Entry, value: &Value) -> Json {
+pub(super) fn value(place: Index, entry: &Entry, value: &Value) -> Json {
     let text = WORDING.value(Some(place), entry, value);
     match value {
         Value::Integer(raw) => json!({"raw": integer(*raw), "text": text}),

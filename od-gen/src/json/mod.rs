@@ -2,15 +2,18 @@
 
 mod device;
 mod document;
+mod node;
 mod rules;
 mod types;
 
+use od_spec::Commissioning;
 use od_spec::model::{self, Date, DateTime, Devices, Dictionary, EntryId, System, Text};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
 use device::DeviceView;
 use document::DocumentView;
+use node::NodeView;
 use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
 use types::{TypeView, UnitView};
 
@@ -19,6 +22,16 @@ const FORMAT: u32 = 1;
 
 /// The dump of a system, or of the devices with these keys (none means all); ends with a line break.
 pub fn dump(system: &System, devices: &[String]) -> Vec<u8> {
+    print(system, devices, None)
+}
+
+/// The dump of a system that was read from a DCF, with the node that this configures.
+pub fn dump_node(system: &System, devices: &[String], node: &Commissioning) -> Vec<u8> {
+    let view = system.devices.first().map(|device| NodeView::new(device, node));
+    print(system, devices, view)
+}
+
+fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec<u8> {
     let devices = Devices::listed(devices);
     let wanted = |device: &&Dictionary| devices.includes(&device.key);
     let dump = SystemView {
@@ -30,6 +43,7 @@ pub fn dump(system: &System, devices: &[String]) -> Vec<u8> {
         units: system.units.values().map(|unit| types::unit_view(unit)).collect(),
         types: system.types.values().map(|named| types::type_view(named)).collect(),
         devices: system.devices.iter().filter(wanted).map(DeviceView::new).collect(),
+        node,
         errors: system.errors.iter().map(rules::error).collect(),
         state_machines: system.machines.values().map(rules::machine).collect(),
         constraints: system.constraints.iter().map(rules::constraint).collect(),
@@ -54,6 +68,8 @@ struct SystemView<'a> {
     units: Vec<UnitView<'a>>,
     types: Vec<TypeView<'a>>,
     devices: Vec<DeviceView<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    node: Option<NodeView<'a>>,
     errors: Vec<ErrorView<'a>>,
     state_machines: Vec<MachineView<'a>>,
     constraints: Vec<ConstraintView<'a>>,

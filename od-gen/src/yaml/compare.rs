@@ -54,6 +54,7 @@ fn same_object(wanted: &Object, found: &Object, likeness: Likeness) -> bool {
         Likeness::Parameters => wanted.identifier.is_none(),
     };
     whole
+        && wanted.linked().eq(found.linked())
         && wanted.kind == found.kind
         && wanted.entries.len() == found.entries.len()
         && wanted

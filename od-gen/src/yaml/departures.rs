@@ -10,7 +10,7 @@ use super::context::{Context, same_unit};
 use super::entry::{self, Keys};
 use super::fold::{self, Folded};
 use super::node::{Item, Node, Spot};
-use super::objects::{facts, key, single};
+use super::objects::{facts, key, links_of, single, with_links};
 
 /// `{from: NAME, …}` with what differs; `None` where no library has the object, or has more than the object could undo. What the
 /// model leaves open – units, meanings of bits, texts – may come from the library.
@@ -25,10 +25,12 @@ pub(super) fn from_library(context: &Context<'_>, object: &Object) -> Option<Ite
     let mut items = vec![Item::new("from", Node::plain(&library.name))];
     match object.kind {
         ObjectKind::Var | ObjectKind::Domain => {
-            let (entry, below) = (object.entries.first()?, below.object.entries.first()?);
+            let (below_object, below) = (&below.object, below.object.entries.first()?);
+            let entry = object.entries.first()?;
             let id = EntryId { index: object.index, sub: entry.sub };
             above.extend(context.above_entry(id));
-            items.extend(facts(id, differences(context, object.index, entry, below)?));
+            let keys = facts(id, differences(context, object.index, entry, below)?);
+            items.extend(with_links(keys, links(object, below_object)));
         }
         ObjectKind::Array => {
             items.extend(whole(object, &below.object, context));
@@ -57,9 +59,15 @@ fn whole(object: &Object, below: &Object, context: &Context<'_>) -> Vec<Item> {
         object.identifier.clone().map(|name| item(Fact::Identifier, Node::Plain(name))),
         category.map(|category| item(Fact::Category, Node::plain(category.word()))),
         since.map(|since| item(Fact::Since, Node::Text(since))),
+        links(object, below),
         about.map(|about| item(Fact::About, about)),
     ];
     items.into_iter().flatten().collect()
+}
+
+/// The links, where the library has others.
+fn links(object: &Object, below: &Object) -> Option<Item> {
+    (!object.linked().eq(below.linked())).then(|| links_of(object))
 }
 
 /// What is different about sub-index 0.

@@ -1,6 +1,6 @@
 //! What stands before the objects: the file's header, the maker and the device.
 
-use od_spec::model::{Date, DateTime};
+use od_spec::model::{Date, DateTime, DynamicChannel};
 
 use super::context::Context;
 use super::eds::EdsDefaults;
@@ -60,6 +60,7 @@ pub(super) fn device(context: &Context<'_>, features: &[String]) -> Item {
     add("group-messaging", flag(info.group_messaging, false));
     add("lss", flag(info.lss, false));
     add("dummies", list(info.dummies.iter().map(|data_type| Node::plain(data_type.name())).collect()));
+    add("dynamic-channels", channels(context));
     add("features", list(features.iter().map(|feature| Node::text(feature.clone())).collect()));
     let eds = eds(context);
     add("eds", (!eds.is_empty()).then_some(Node::Map(eds)));
@@ -70,6 +71,24 @@ pub(super) fn device(context: &Context<'_>, features: &[String]) -> Item {
     let above = context.above_device();
     let item = Item::new(device.key.clone(), Node::Block(items)).about(Spot::Device);
     Item::new("devices", Node::Block(vec![Item { above, ..item }]))
+}
+
+/// `dynamic-channels:`, where there are any.
+fn channels(context: &Context<'_>) -> Option<Node> {
+    let channels = &context.device.info.dynamic_channels;
+    let item = |channel: &DynamicChannel| {
+        let (first, last) = (super::objects::key(channel.first), super::objects::key(channel.last));
+        let range = if first == last { first } else { format!("{first}..{last}") };
+        let mut items = vec![
+            Item::new("type", Node::plain(channel.data_type.name())),
+            Item::new("access", Node::plain(channel.access.word())),
+            Item::new("offset", Node::plain(channel.offset)),
+        ];
+        let difference = channel.difference.map(Node::plain);
+        items.extend(difference.map(|difference| Item::new("difference", difference)));
+        Item::new(range, Node::Map(items))
+    };
+    (!channels.is_empty()).then(|| Node::Block(channels.iter().map(item).collect()))
 }
 
 /// `eds:` of the device.

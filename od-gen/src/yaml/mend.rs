@@ -213,6 +213,11 @@ impl Draft {
             Fact::Identifier => object.identifier.take()?,
             Fact::Category => object.category.take()?.word().to_owned(),
             Fact::Since => object.since.take()?,
+            Fact::Links => {
+                let links: Vec<String> = object.linked().map(|index| index.to_string()).collect();
+                object.links.clear();
+                (!links.is_empty()).then(|| links.join(", "))?
+            }
             Fact::About => {
                 object.about = Text::default();
                 "a description".to_owned()

@@ -20,9 +20,9 @@ pub(super) fn in_full(context: &Context<'_>, object: &Object) -> Item {
         ObjectKind::Var | ObjectKind::Domain => {
             let entries = object.entries.iter();
             above.extend(entries.clone().flat_map(|entry| context.above_entry(id(object, entry))));
-            entries
-                .flat_map(|entry| facts(id(object, entry), entry::keys(context, object.index, entry)))
-                .collect()
+            let keys =
+                entries.flat_map(|entry| facts(id(object, entry), entry::keys(context, object.index, entry)));
+            with_links(keys.collect(), links(object))
         }
         ObjectKind::Array => array(context, object, fold, &mut above),
         ObjectKind::Record => record(context, object, fold, &mut above),
@@ -49,9 +49,28 @@ fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
         object.identifier.clone().map(|name| item(Fact::Identifier, Node::Plain(name))),
         object.category.map(|category| item(Fact::Category, Node::plain(category.word()))),
         object.since.clone().map(|since| item(Fact::Since, Node::Text(since))),
+        links(object),
     ];
     let after = super::texts::words(&object.about, context.language()).map(|about| item(Fact::About, about));
     (before.into_iter().flatten().collect(), after.into_iter().collect())
+}
+
+/// `links:`, where there are any.
+fn links(object: &Object) -> Option<Item> {
+    (!object.links.is_empty()).then(|| links_of(object))
+}
+
+/// The keys of a VAR with its links, which stand before the description.
+pub(super) fn with_links(mut items: Vec<Item>, links: Option<Item>) -> Vec<Item> {
+    let about = items.iter().position(|item| item.key == Fact::About.word()).unwrap_or(items.len());
+    items.splice(about..about, links);
+    items
+}
+
+/// `links:`.
+pub(super) fn links_of(object: &Object) -> Item {
+    let links = object.linked().map(|index| Node::Plain(key(index))).collect();
+    Item::new(Fact::Links.word(), Node::List(links)).about(Spot::ObjectFact(object.index, Fact::Links))
 }
 
 /// `sub0:`, where it is not the usual one.

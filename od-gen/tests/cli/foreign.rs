@@ -98,7 +98,10 @@ fn section(text: &str, name: &str) -> String {
 #[test]
 fn a_dcf_keeps_its_node_and_its_values() {
     let scratch = Scratch::new("kept");
-    scratch.file("fan.dcf", ROOF_FAN);
+    scratch.file(
+        "fan.dcf",
+        ROOF_FAN.replace("ParameterValue=-5", "ParameterValue=-5\nDenotation=Speed in summer"),
+    );
     let read = |name: &str| fs::read_to_string(scratch.0.join(name)).unwrap();
     let run = |arguments: &[&str]| {
         let output = odgen(&scratch.0, arguments);
@@ -108,8 +111,13 @@ fn a_dcf_keeps_its_node_and_its_values() {
     let node = "NodeID=33\nNodeName=Fan in the roof\nBaudrate=250\nNetNumber=3\nNetworkName=House\n";
     run(&["build", "fan.dcf", "--out", "out"]);
     assert!(section(&read("out/eds/fan.dcf"), "DeviceComissioning").starts_with(node));
-    assert!(section(&read("out/eds/fan.dcf"), "2000").contains("ParameterValue=-5"));
+    assert!(
+        section(&read("out/eds/fan.dcf"), "2000").contains("ParameterValue=-5\nDenotation=Speed in summer")
+    );
     assert!(!read("out/eds/fan.eds").contains("ParameterValue"));
+    assert!(
+        read("out/fan.json").contains("Speed in summer") && run(&["dump", "fan.dcf"]) == read("out/fan.json")
+    );
 
     let said = run(&["dcf", "fan.dcf"]);
     assert!(said.contains("fan-33.dcf") && said.contains("node 33, 0 values set, 1 kept"), "{said}");
@@ -118,7 +126,7 @@ fn a_dcf_keeps_its_node_and_its_values() {
     run(&["dcf", "fan.dcf", "--node", "7", "--bit-rate", "125", "--net-name", "Barn", "--set", "Speed=20"]);
     let changed = "NodeID=7\nNodeName=Fan in the roof\nBaudrate=125\nNetNumber=3\nNetworkName=Barn\n";
     assert!(section(&read("fan-7.dcf"), "DeviceComissioning").starts_with(changed));
-    assert!(section(&read("fan-7.dcf"), "2000").contains("ParameterValue=20"));
+    assert!(section(&read("fan-7.dcf"), "2000").contains("ParameterValue=20\nDenotation=Speed in summer"));
 
     // With --node, `build` makes the file of another node, with the same values.
     run(&["build", "fan.dcf", "--out", "other", "--node", "9"]);

@@ -83,13 +83,14 @@ objects:
     array: {count: 4, name: "Output {n}", type: unsigned8, access: rww, pdo: receive, default: 0, elements: {3: {access: rw, pdo: none}}}
   0x2200:
     name: Limits
+    links: [0x2000, 0x60FF]
     record:
       1: {name: Lower limit, type: integer32, access: rw, default: -1000, min: -5000, max: 0}
       2: {name: Upper limit, type: integer32, access: rw, default: 1000, min: 0, max: 5000}
       3: {name: Mode, type: unsigned8, access: rw}
   0x2201: {name: "yes", type: boolean, access: rw, default: no, eds: {flags: [no-write]}}
   0x6040: {name: Controlword, type: unsigned16, access: rww, pdo: receive}
-  0x6041: {name: Statusword, type: unsigned16, access: ro}
+  0x6041: {name: Statusword, type: unsigned16, access: ro, links: [0x6040]}
   0x6502: {name: Supported drive modes, type: unsigned32, access: ro, default: 0x3AD}
   0x60FF: {name: Target velocity, type: integer32, access: rww, pdo: receive, default: 0}
 "#;

@@ -46,6 +46,7 @@ fn object(one: &Object, other: &Object) -> Option<String> {
         fact("category", &one.category, &other.category).filter(|_| one.category.is_some()),
         fact("since", &one.since, &other.since),
         fact("about", &one.about, &other.about).filter(|_| !one.about.is_empty()),
+        fact("links", &one.linked().collect::<Vec<_>>(), &other.linked().collect()),
         fact("sub-indices", &subs(one), &subs(other)),
     ]);
     let entries = || first(one.entries.iter().zip(&other.entries).map(|(one, other)| entry(one, other)));

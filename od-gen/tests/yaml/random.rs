@@ -3,8 +3,9 @@
 use std::sync::LazyLock;
 
 use od_spec::model::{
-    Access, DataType, Entry, EntryId, ObjectKind, PdoMapping, Storage, SubIndex, System, Value,
+    Access, DataType, Entry, EntryId, Fact, Index, ObjectKind, PdoMapping, Storage, SubIndex, System, Value,
 };
+use od_spec::source::Spanned;
 use proptest::prelude::*;
 
 use super::{model, written};
@@ -58,6 +59,10 @@ fn change(system: &mut System, (which, what, number): Change) {
             object.entries.retain(|entry| entry.sub != id.sub);
         }
         8 => object.identifier = Some(NAMES[pick(NAMES.len())].to_owned()),
+        23 => {
+            let links = [0, 0x0005, 0x1000, id.index.0, 0xFFFF].into_iter().take(pick(6));
+            object.links = links.map(|index| Spanned::new(Index(index), object.span)).collect();
+        }
         _ => {}
     }
     let Some(entry) = object.entries.iter_mut().find(|entry| entry.sub == id.sub) else { return };
@@ -119,7 +124,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: cases(), max_shrink_iters: 100, ..ProptestConfig::default() })]
 
     #[test]
-    fn it_compiles(changes in prop::collection::vec((any::<usize>(), 0u8..23, any::<i64>().prop_map(|n| n >> (n & 63))), 1..40)) {
+    fn it_compiles(changes in prop::collection::vec((any::<usize>(), 0u8..24, any::<i64>().prop_map(|n| n >> (n & 63))), 1..40)) {
         let mut system = EVERYTHING.clone();
         for change in changes {
             super::random::change(&mut system, change);
@@ -129,6 +134,11 @@ proptest! {
         }
         let specification = written(&system);
         let again = model(&specification.text);
+        for (index, object) in &again.devices[0].objects {
+            let told = specification.repairs.iter().any(|repair| repair.fact == Some(Fact::Links));
+            let linked: Vec<Index> = object.linked().collect();
+            prop_assert!(told || system.devices[0].objects[index].linked().eq(linked), "links of {index}: {}", specification.text);
+        }
         let lost = system.devices[0].objects.keys().filter(|index| !again.devices[0].objects.contains_key(index));
         for index in lost {
             let told = specification.repairs.iter().any(|repair| repair.fact.is_none() && repair.original.starts_with(&index.to_string()));

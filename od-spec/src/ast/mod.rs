@@ -6,12 +6,12 @@ use std::ops::RangeInclusive;
 
 use crate::expr::Expr;
 use crate::keys::{
-    command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys, machine_keys, pdo_keys,
-    revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
+    channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys,
+    machine_keys, pdo_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
 };
 use crate::model::{
-    BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio, Rounding,
-    SubIndex, Text,
+    Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio,
+    Rounding, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -142,6 +142,20 @@ device_keys! { declaration
     }
 }
 
+channel_keys! { declaration
+    #[derive(Debug)]
+    ChannelDecl {
+        range: Spanned<IndexRange>,
+    }
+}
+
+/// Indices from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct IndexRange {
+    pub first: Index,
+    pub last: Index,
+}
+
 file_keys! { declaration
     #[derive(Debug)]
     FileDecl {}
@@ -235,6 +249,7 @@ pub(crate) struct ObjectDecl {
     pub record: Option<RecordDecl>,
     pub sub0: Option<EntryDecl>,
     pub omit: Vec<Spanned<i128>>,
+    pub links: Option<Vec<Spanned<Index>>>,
     pub entry: EntryDecl,
 }
 

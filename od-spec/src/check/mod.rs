@@ -35,6 +35,7 @@ mod granularity_fits_mapping;
 mod identity_agrees;
 mod indices_in_object_areas;
 mod limits_in_order;
+mod links_lead_somewhere;
 mod locked_entries_are_not_set;
 mod locks_guard_writing;
 mod lss_has_serial_number;
@@ -105,6 +106,7 @@ pub(crate) static RULES: &[Rule] = &[
     standard_objects_keep_their_type::RULE,
     standard_objects_are_complete::RULE,
     objects_need_each_other::RULE,
+    links_lead_somewhere::RULE,
     value_in_enum::RULE,
     value_fits_type::RULE,
     value_within_limits::RULE,

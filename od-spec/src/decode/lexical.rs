@@ -1,17 +1,10 @@
 //! Notations inside scalars: indices, entries, bits, dates, access, patterns.
 
-use crate::ast::{BaseDecl, BitRange, CodeRange};
+use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange};
 use crate::model::{
     Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
 };
 use crate::scalar;
-
-/// Indices from the first to the last.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct IndexRange {
-    pub first: Index,
-    pub last: Index,
-}
 
 /// An entry by index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

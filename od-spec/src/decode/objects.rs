@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::entry::entry;
-use super::lexical::{self, IndexRange};
+use super::lexical;
 use super::numbered::{numbered, twice};
 use super::read::Reader;
-use crate::ast::{ArrayDecl, EntryDecl, Name, ObjectDecl, RecordDecl};
+use crate::ast::{ArrayDecl, EntryDecl, IndexRange, Name, ObjectDecl, RecordDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys;
 use crate::model::{Index, Outside, Rounding, SubIndex};
@@ -86,6 +86,7 @@ fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -
             .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
         sub0: r.keyed("sub0").map(|(key, child)| entry(child, &keys::SUB0, key, diagnostics)),
         omit: r.integers("omit"),
+        links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     }
 }

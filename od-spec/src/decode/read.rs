@@ -5,7 +5,8 @@ use crate::diag::Diagnostics;
 use crate::expr::Expr;
 use crate::keys::Keys;
 use crate::model::{
-    AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio, Storage, Text,
+    Access, AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio,
+    Storage, Text,
 };
 use crate::scalar;
 use crate::source::{Span, Spanned};
@@ -91,6 +92,11 @@ impl<'a> Reader<'a> {
         self.items(key).filter_map(|item| item.scalar(|text| scalar::integer(text).ok())).collect()
     }
 
+    /// Indices, or `None` when the key is not there.
+    pub(super) fn optional_indices(self, key: &str) -> Option<Vec<Spanned<Index>>> {
+        self.node.get(key).map(|_| self.indices(key))
+    }
+
     pub(super) fn indices(self, key: &str) -> Vec<Spanned<Index>> {
         self.items(key).filter_map(|item| item.scalar(lexical::index)).collect()
     }
@@ -148,6 +154,7 @@ scalars! {
     bool = scalar::yes_no,
     Date = lexical::date,
     DateTime = lexical::date_time,
+    Access = Access::from_word,
     AccessRight = lexical::access,
     PdoMapping = PdoMapping::from_word,
     Storage = Storage::from_word,

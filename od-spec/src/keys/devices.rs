@@ -1,6 +1,6 @@
 //! Devices.
 
-use super::shape::{Key, Keys, Shape, U8, U32};
+use super::shape::{Key, KeyKind, Keys, Shape, U8, U32};
 use super::table::keys;
 
 macro_rules! device_keys {
@@ -20,6 +20,7 @@ macro_rules! device_keys {
             "group-messaging": Shape::YesNo => group_messaging: Option<Spanned<bool>>, "multiplexed PDOs; no unless given";
             "lss": Shape::YesNo => lss: Option<Spanned<bool>>, "LSS slave; no unless given";
             "dummies": Shape::List(&Shape::Text) => dummies: Vec<Name>, "data types that may stand in an RPDO as placeholders", "[unsigned8, unsigned16]";
+            "dynamic-channels": Shape::MapOf(KeyKind::Indices, &Shape::Map(&CHANNEL)) => dynamic_channels: Vec<ChannelDecl>, "indices at which a PLC may create network variables", "{0xA080..0xA0BF: {type: unsigned8, access: ro, offset: 0}}";
             "features": Shape::List(&Shape::Text) => features: Vec<Name>, "features of the used libraries that the device has", "[heartbeat producer, emergency]";
             "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself";
             "eds-defaults": Shape::Choice(&["safe", "own", "all"]) => eds_defaults: Option<Name>, "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `own` withholds also those that only a library states; `all` writes every default; safe unless given";
@@ -31,6 +32,23 @@ pub(crate) use device_keys;
 device_keys! { keys
     /// A device.
     DEVICE = "a device"
+}
+
+macro_rules! channel_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "type" required: Shape::Text => type_name: Option<Name>, "data type of the variables", "unsigned8";
+            "access" required: Shape::Choice(&["ro", "wo", "rw", "rwr", "rww"]) => access: Option<Spanned<Access>>, "access over the bus";
+            "offset" required: U32 => offset: Option<Spanned<i128>>, "where the variables begin in the process picture", "0x0040";
+            "difference": U32 => difference: Option<Spanned<i128>>, "difference of the addresses of two variables, where these are boolean";
+        } }
+    };
+}
+pub(crate) use channel_keys;
+
+channel_keys! { keys
+    /// A segment of `dynamic-channels:`.
+    CHANNEL = "a dynamic channel"
 }
 
 macro_rules! file_keys {

@@ -16,7 +16,7 @@ mod table;
 mod types;
 
 pub use constraints::CONSTRAINT;
-pub use devices::{DEVICE, FILE};
+pub use devices::{CHANNEL, DEVICE, FILE};
 pub use entry::{ENTRY, ENTRY_EDS_KEYS, SPECIAL};
 pub use errors::ERROR;
 pub use file::{ALLOWED, REVISION, SOURCE, SPEC, VENDOR};
@@ -29,7 +29,7 @@ pub use shape::{Key, KeyKind, Keys, Shape};
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 
 pub(crate) use constraints::constraint_keys;
-pub(crate) use devices::{device_keys, file_keys};
+pub(crate) use devices::{channel_keys, device_keys, file_keys};
 pub(crate) use entry::entry_keys;
 pub(crate) use errors::error_keys;
 pub(crate) use file::{revision_keys, source_keys, vendor_keys};

@@ -1,7 +1,7 @@
 //! Objects and their shapes.
 
 use super::entry::{ENTRY, NAME_KEYS, SUB0_KEYS, VALUE_KEYS};
-use super::shape::{Key, KeyKind, Keys, NAMES, Shape};
+use super::shape::{INDICES, Key, KeyKind, Keys, NAMES, Shape};
 use super::table::{joined, key_list};
 use crate::model::{Outside, Rounding};
 
@@ -16,6 +16,7 @@ const OBJECT_KEYS: &[Key] = key_list! {
     "record": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "makes it a RECORD: members by sub-index", "{1: {name: type, type: unsigned8, access: ro}}";
     "sub0": Shape::Map(&SUB0), "name and access of sub-index 0, where they are not the usual ones", "{access: rw}";
     "omit": Shape::List(&Shape::Integer(1, 254)), "with `from:` or `array:`: sub-indices that the device does not have", "[4]";
+    "links": INDICES, "objects that belong together with this one, by index", "[0x2001, 0x2002]";
 };
 
 /// An object.

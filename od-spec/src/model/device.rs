@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{DataType, Direction, Entry, EntryId, Fact, Facts, Index, Object, ObjectKind, Pdo, Text};
+use super::{
+    DataType, Direction, DynamicChannel, Entry, EntryId, Fact, Facts, Index, Object, ObjectKind, Pdo, Text,
+};
 use crate::source::Span;
 
 /// The object dictionary of one device, with what an EDS says about the device.
@@ -94,6 +96,8 @@ pub struct DeviceInfo {
     pub lss: bool,
     /// Data types that may stand in an RPDO as placeholders.
     pub dummies: Vec<DataType>,
+    /// Where a PLC may create network variables; segments that do not overlap.
+    pub dynamic_channels: Vec<DynamicChannel>,
 }
 
 /// What `[FileInfo]` says about the EDS.

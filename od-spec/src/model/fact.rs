@@ -67,6 +67,8 @@ facts! {
     Identifier = "identifier",
     /// What the EDS shows of an entry, or says about itself.
     Eds = "eds",
+    /// Objects that belong together with an object.
+    Links = "links",
     /// Description.
     About = "about",
     /// The entry that an alias shows.
@@ -95,6 +97,8 @@ facts! {
     Lss = "lss",
     /// Data types that may stand in an RPDO as placeholders.
     Dummies = "dummies",
+    /// Indices at which a PLC may create network variables.
+    DynamicChannels = "dynamic-channels",
     /// How many PDOs a device has.
     PdoCount = "pdos",
     /// A condition between entries, and when it counts.
@@ -129,6 +133,7 @@ impl Fact {
             | Self::LowLimit
             | Self::HighLimit
             | Self::Eds
+            | Self::Links
             | Self::RemoteFrames
             | Self::BitRates
             | Self::Granularity
@@ -141,6 +146,7 @@ impl Fact {
             | Self::GroupMessaging
             | Self::Lss
             | Self::Dummies
+            | Self::DynamicChannels
             | Self::PdoCount
             | Self::Node => true,
             Self::Meaning

@@ -7,6 +7,7 @@ mod condition;
 mod device;
 mod document;
 mod download;
+mod dynamic_channel;
 mod fact;
 mod machine;
 mod named_type;
@@ -29,6 +30,7 @@ pub use document::{
     Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
 };
 pub use download::{NoSuchValue, Write, download};
+pub use dynamic_channel::DynamicChannel;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};

@@ -7,7 +7,7 @@ use super::{
     NamedType, Outside, PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text, TypeKind, Unit,
     Value,
 };
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 
 /// Shape of an object (CiA 301 table 37).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -88,6 +88,8 @@ pub struct Object {
     pub category: Option<Category>,
     /// Manual revision that introduced it.
     pub since: Option<String>,
+    /// Objects that belong together with it, as they are written.
+    pub links: Vec<Spanned<Index>>,
     /// Meaning.
     pub about: Text,
     /// Entries by ascending sub-index; a VAR or DOMAIN has exactly one, at 0.
@@ -110,6 +112,11 @@ impl Object {
     /// The highest sub-index that counts; 0 for a VAR.
     pub fn highest(&self) -> SubIndex {
         self.counted().next_back().map_or(SubIndex(0), |entry| entry.sub)
+    }
+
+    /// The objects that belong together with it.
+    pub fn linked(&self) -> impl ExactSizeIterator<Item = Index> + Clone {
+        self.links.iter().map(|link| link.value)
     }
 
     /// Whether the object has sub-indices.

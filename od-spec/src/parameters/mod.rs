@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use crate::Commissioning;
 use crate::check;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::eds::read::NodeDecl;
+use crate::eds::read::{FileUse, NodeDecl};
 use crate::model::{Author, Dictionary, EntryId, Statement, System, Value};
 use crate::source::{Span, Spanned};
 use crate::standard;
@@ -157,14 +157,25 @@ pub(crate) fn of_node(
         pdo.follow(objects);
     }
     check::foreign_node(rules, system, &configured, node, diagnostics);
-    Commissioning {
+    let mut read = Commissioning {
         node_name: decl.node_name.unwrap_or_default(),
         bit_rate: decl.bit_rate.unwrap_or(usual.bit_rate),
         net_number: decl.net_number.unwrap_or(0),
         net_name: decl.net_name.unwrap_or_default(),
         values,
         ..usual
+    };
+    for (of, name) in decl.denotations {
+        read.denote(device, of, name.value);
     }
+    for (id, file, path) in decl.files.into_iter().filter(|(id, ..)| device.entry(*id).is_some()) {
+        let files = read.files.entry(id).or_default();
+        match file {
+            FileUse::Upload => files.upload = Some(path.value),
+            FileUse::Download => files.download = Some(path.value),
+        }
+    }
+    read
 }
 
 fn set_twice(again: &Setting, before: &Setting) -> Diagnostic {

@@ -132,6 +132,7 @@ fn alias(
         departures: one.departures.clone(),
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
+        links: decl.links.clone().unwrap_or_default(),
         about: words(&decl.entry.about),
         entries: vec![entry],
         span: decl.index.span,

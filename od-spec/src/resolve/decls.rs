@@ -299,6 +299,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
         record,
         sub0,
         omit: over.omit.clone(),
+        links: over.links.clone().or_else(|| below.links.clone()),
         entry: over.entry.over(&below.entry),
     };
     (merged, departures)

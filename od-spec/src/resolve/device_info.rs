@@ -2,9 +2,11 @@
 
 use super::numbers::{to_u8, to_u16, to_u32};
 use super::scope::unknown;
-use crate::ast::{DeviceDecl, Name};
+use crate::ast::{ChannelDecl, DeviceDecl, Name};
 use crate::diag::{Diagnostics, codes};
-use crate::model::{DataType, Date, DateTime, DeviceInfo, Fact, Facts, FileInfo, Statement, Vendor};
+use crate::model::{
+    DataType, Date, DateTime, DeviceInfo, DynamicChannel, Fact, Facts, FileInfo, Statement, Vendor,
+};
 use crate::source::{Span, Spanned};
 
 /// An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
@@ -21,6 +23,7 @@ pub(super) fn facts(device: &DeviceDecl) -> Facts {
         (Fact::Product, number(&device.product)),
         (Fact::ProductRevision, number(&device.product_revision)),
         (Fact::DeviceType, number(&device.device_type)),
+        (Fact::DynamicChannels, device.dynamic_channels.iter().map(|one| one.range.span).reduce(Span::to)),
     ];
     let written =
         |(fact, span): (Fact, Option<Span>)| Some((fact, Statement::written(span?, device.key.span.file)));
@@ -64,7 +67,32 @@ pub(super) fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> Device
         group_messaging: flag(&device.group_messaging, false),
         lss: flag(&device.lss, false),
         dummies,
+        dynamic_channels: channels(&device.dynamic_channels, diagnostics),
     }
+}
+
+/// The segments at which a PLC may create network variables. What is missing or no number was refused where it was read.
+fn channels(list: &[ChannelDecl], diagnostics: &mut Diagnostics) -> Vec<DynamicChannel> {
+    let mut channels = Vec::new();
+    for decl in list {
+        let Some(name) = &decl.type_name else { continue };
+        let Some(data_type) = DataType::from_name(&name.value) else {
+            let known = DataType::ALL.into_iter().map(DataType::name);
+            let otherwise = "write a data type of CiA 301, such as `unsigned8`";
+            diagnostics.push(unknown(codes::UNKNOWN_TYPE, name, "data type", known, otherwise));
+            continue;
+        };
+        let (Some(access), Some(offset)) = (&decl.access, &decl.offset) else { continue };
+        channels.push(DynamicChannel {
+            first: decl.range.value.first,
+            last: decl.range.value.last,
+            data_type,
+            access: access.value,
+            offset: to_u32(offset.value),
+            difference: decl.difference.map(|difference| to_u32(difference.value)),
+        });
+    }
+    channels
 }
 
 /// Facts for `[FileInfo]`.
@@ -101,6 +129,7 @@ pub(super) const fn none() -> DeviceInfo {
         group_messaging: false,
         lss: false,
         dummies: Vec::new(),
+        dynamic_channels: Vec::new(),
     }
 }
 

@@ -50,8 +50,11 @@ pub(super) fn on_axis(decl: &ObjectDecl, axes: Axes, axis: u16) -> Option<Object
     }
     let name = decl.entry.name.as_ref();
     let name = name.map(|name| Spanned::new(format!("{} axis {axis}", name.value), name.span));
+    let shifted = |link: &Spanned<Index>| Some(Spanned::new(axes.shift(link.value, axis)?, link.span));
+    let links = decl.links.as_ref().map(|links| links.iter().filter_map(shifted).collect());
     Some(ObjectDecl {
         index: Spanned::new(index, decl.index.span),
+        links,
         entry: EntryDecl { name, ..decl.entry.clone() },
         ..decl.clone()
     })

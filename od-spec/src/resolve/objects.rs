@@ -64,6 +64,7 @@ pub(super) fn resolve(
         departures: declared.departures.clone(),
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
+        links: decl.links.clone().unwrap_or_default(),
         about: words(&decl.entry.about),
         entries,
         span: decl.index.span,

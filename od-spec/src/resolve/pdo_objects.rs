@@ -43,6 +43,7 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
         departures: Vec::new(),
         category: None,
         since: None,
+        links: Vec::new(),
         about: Text::default(),
         entries: parameters.into_iter().map(|parameter| parameter.into_entry(span)).collect(),
         span,

@@ -85,6 +85,7 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
         | Stated::LowLimit
         | Stated::HighLimit
         | Stated::Flags
+        | Stated::Links
         | Stated::Device(_) => None,
     }
 }

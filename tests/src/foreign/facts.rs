@@ -28,7 +28,9 @@ pub enum Stated {
     Flags,
     /// `ParameterName`.
     Name,
-    /// A fact of `[FileInfo]`, `[DeviceInfo]` or `[DummyUsage]`.
+    /// `[xxxxObjectLinks]`.
+    Links,
+    /// A fact of `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]` or `[DynamicChannels]`.
     Device(&'static str),
 }
 
@@ -45,6 +47,7 @@ impl fmt::Display for Stated {
             Stated::HighLimit => "high limit",
             Stated::Flags => "flags",
             Stated::Name => "name",
+            Stated::Links => "links",
             Stated::Device(fact) => fact,
         })
     }
@@ -103,6 +106,7 @@ fn device(before: &Dictionary, after: &Dictionary) -> Vec<Difference> {
         fact(None, Stated::Device("group messaging"), &one.group_messaging, &other.group_messaging),
         fact(None, Stated::Device("LSS"), &one.lss, &other.lss),
         fact(None, Stated::Device("placeholders"), &one.dummies, &other.dummies),
+        fact(None, Stated::Device("dynamic channels"), &one.dynamic_channels, &other.dynamic_channels),
         fact(
             None,
             Stated::Device("description"),
@@ -155,6 +159,8 @@ fn object(before: &Object, after: &Object, found: &mut Vec<Difference>) {
     let index = before.index;
     let whole = Some(EntryId { index, sub: SubIndex(0) });
     found.extend(fact(whole, Stated::Kind, &before.kind, &after.kind));
+    let links = |object: &Object| object.linked().collect::<Vec<_>>();
+    found.extend(fact(whole, Stated::Links, &links(before), &links(after)));
     // A parameter object that `pdos:` makes has the name that every such object has.
     let named = |id, one: &str, other: &str| {
         let is_kept = Role::of(index).is_pdo_parameter();

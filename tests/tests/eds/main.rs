@@ -2,6 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod channels;
+mod links;
+mod node;
 mod own_files;
 mod random;
 mod reading;

@@ -166,8 +166,8 @@ const LISTS: &[Fault] = &[
     fault(
         "EDS427",
         "[1018]\r\n",
-        "[1000ObjectLinks]\r\nObjectLinks=1\r\n1=0x1FFF\r\n[1018]\r\n",
-        "1=0x1FFF",
+        "[1FFFObjectLinks]\r\nObjectLinks=1\r\n1=0x1000\r\n[1018]\r\n",
+        "[1FFFObjectLinks]",
         Left,
     ),
     fault("EDS708", "[1000]\r\n", "[1000]\r\nUploadFile=a.bin\r\n", "UploadFile=a.bin", Left),

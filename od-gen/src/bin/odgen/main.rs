@@ -72,11 +72,17 @@ fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 
         Ok(spec) => spec,
         Err(code) => return code,
     };
-    let Some(system) = report.compile(&spec) else { return ERRORS };
-    match args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
-        Ok(()) => report::print_bytes(&od_gen::json::dump(&system, &args.device)),
-        Err(code) => code,
+    let Some((used, _)) = report.compile_with_sources(&spec) else { return ERRORS };
+    let node = used.stated_node();
+    let system = used.system;
+    if let Err(code) = args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
+        return code;
     }
+    let dump = match node {
+        Some(node) => od_gen::json::dump_node(&system, &args.device, &node),
+        None => od_gen::json::dump(&system, &args.device),
+    };
+    report::print_bytes(&dump)
 }
 
 fn library(name: Option<&str>, report: &report::Report) -> u8 {

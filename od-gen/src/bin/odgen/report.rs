@@ -43,6 +43,13 @@ fn asked(diagnostics: &Diagnostics) -> Diagnostics {
     asked
 }
 
+impl Used {
+    /// The node of a DCF that states which one it is.
+    pub(crate) fn stated_node(&self) -> Option<Commissioning> {
+        self.node.clone().filter(|_| self.stated_node_id.is_some())
+    }
+}
+
 impl Report {
     pub(crate) fn new(format: Format, color: Color) -> Self {
         let colour = match color {

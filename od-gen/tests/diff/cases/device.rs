@@ -42,6 +42,15 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "network variables",
+        at: "  pmm:",
+        find: "    order-code: PMM\n",
+        replace: "    order-code: PMM\n    dynamic-channels: {0xA080..0xA0BF: {type: boolean, access: ro, offset: 64, difference: 1}}\n",
+        expected: &[
+            "pmm: ~ device: dynamic-channels: none -> A080h to A0BFh boolean ro at 64 by 1 [addition]",
+        ],
+    },
+    Case {
         name: "the product code",
         at: "  pmm:",
         find: "product: 0\n",

@@ -180,6 +180,13 @@ pub(crate) const CASES: &[Case] = &[
         expected: &["pmm: ~ 3005h test status: since: 1.08 -> 1.09 [documents]"],
     },
     Case {
+        name: "objects that belong together",
+        at: "  0x3005:",
+        find: "    on: pmm\n",
+        replace: "    on: pmm\n    links: [0x3001, 0x3006]\n",
+        expected: &["pmm: ~ 3005h test status: links: none -> 3001h, 3006h [documents]"],
+    },
+    Case {
         name: "a description",
         at: "  0x3000:",
         find: "poll it cyclically",

@@ -85,7 +85,7 @@ pub(crate) static RULES: &[FormatRule] = &[
     objects::sub_number_agrees::RULE,
     objects::flags_are_defined::RULE,
     objects::flags_are_needed::RULE,
-    objects::links_lead_somewhere::RULE,
+    objects::links_have_an_object::RULE,
     modules::modules_are_described::RULE,
     modules::modules_bring_something::RULE,
     modules::objects_of_modules_are_one_thing::RULE,

@@ -1,9 +1,11 @@
 //! Compact storage: arrays described by one section (CiA 306 4.6.3.4.2).
 
 use super::entry::{self, Context};
-use super::shape::{declaration, members, with_shape};
-use super::{made, value, without_place};
+use super::node_texts;
+use super::shape::{declaration, members, sub, with_shape};
+use super::{made, value};
 use crate::ast::{EntryDecl, ObjectDecl};
+use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
 use crate::eds::codes;
 use crate::eds::names::ElementList;
@@ -46,13 +48,14 @@ pub(super) fn object(
     let node = context.node.take();
     let common = entry::entry(main, id, ObjectKind::Var, context);
     context.node = node;
-    let data_type = common.type_name.as_ref().and_then(|name| DataType::from_name(&name.value));
+    node_texts::read(main, Denoted::object(index), None, context);
+    let data_type = entry::type_of(&common);
     let name = common.name.clone().map_or(String::new(), |name| name.value);
     let names = listed(part, ElementList::Name, count, context);
     let values = listed(part, ElementList::Value, count, context);
-    if let Some(denoted) = part.elements.get(&ElementList::Denotation) {
-        let message = format!("the application names of {index} are left out");
-        context.push(without_place(codes::NO_PLACE, denoted.place(), message));
+    for (sub, name) in listed(part, ElementList::Denotation, count, context) {
+        let of = Denoted::entry(EntryId { index, sub: SubIndex(sub) });
+        node_texts::element_name(name.value, of, context);
     }
     let mut explicit: BTreeMap<u8, (Spanned<SubIndex>, EntryDecl)> =
         members(index, part, context).into_iter().map(|member| (member.0.value.0, member)).collect();
@@ -79,7 +82,7 @@ pub(super) fn object(
         entry::count_of("NrOfObjects", count, Access::Ro, place)
     };
     let sub0 = match part.subs.get(&0) {
-        Some(section) => entry::entry(section, id, kind, context),
+        Some(section) => sub(id, kind, section, context),
         None => sub0,
     };
     let head = EntryDecl { name: common.name, eds: common.eds, ..EntryDecl::empty(place) };

@@ -42,6 +42,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
         group_messaging: info.yes_no("GroupMessaging"),
         lss: info.yes_no("LSS_Supported"),
         dummies: dummy_types.map(|data_type| made(data_type.name(), dummies.place)).collect(),
+        dynamic_channels: Vec::new(),
         features: Vec::new(),
         eds: Some(file(view)),
         eds_defaults: Some(made("all", start)),

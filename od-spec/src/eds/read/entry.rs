@@ -2,7 +2,7 @@
 
 use super::comments::Meanings;
 use super::node::NodeDecl;
-use super::{made, owned, value, without_place};
+use super::{made, owned, value};
 use crate::ast::{EdsDecl, EntryDecl};
 use crate::diag::{Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
@@ -49,12 +49,6 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
             context.push(Diagnostic::new(codes::NO_PLACE, value.span, message).help(help));
         }
     }
-    for key in ["Denotation", "UploadFile", "DownloadFile", "ParamRefd"] {
-        if let Some(text) = part.value(key) {
-            let message = format!("`{key}` of {id} is left out");
-            context.push(without_place(codes::NO_PLACE, text.span, message));
-        }
-    }
     let name = name(part, id, context);
     let entry = EntryDecl {
         name: Some(name.clone()),
@@ -68,6 +62,11 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
         ..EntryDecl::empty(place)
     };
     context.meanings.add_to(entry, part, &name.value)
+}
+
+/// The data type of an entry that was read.
+pub(super) fn type_of(entry: &EntryDecl) -> Option<DataType> {
+    entry.type_name.as_ref().and_then(|name| DataType::from_name(&name.value))
 }
 
 /// The name of an object or an entry; its index where it has none.

@@ -4,23 +4,27 @@
 //! A fault never stops the reader. What it cannot read it leaves out, and where something has to stand it takes what does
 //! the least harm; in both cases it says so. What it gives is accepted by everything that follows.
 
+mod channels;
 mod comments;
 mod compact;
 mod device;
 mod entry;
 mod implicit_pdos;
+mod links;
 mod modules;
 mod node;
+mod node_texts;
 mod objects;
 mod shape;
 mod value;
 
 use super::view::View;
-use crate::ast::{ObjectDecl, Spec};
+use crate::ast::{DeviceDecl, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{Span, Spanned};
 
 pub(crate) use node::NodeDecl;
+pub(crate) use node_texts::FileUse;
 
 /// What an EDS or DCF says.
 pub(crate) struct Read {
@@ -36,7 +40,10 @@ pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -
     let mut meanings = comments::Meanings::default();
     let objects = objects(view, node.as_mut(), &mut meanings, diagnostics);
     let (units, types) = meanings.into_declarations();
-    let device = device::device(view, name, &objects);
+    let device = DeviceDecl {
+        dynamic_channels: channels::read(view, diagnostics),
+        ..device::device(view, name, &objects)
+    };
     let title = device.name.clone();
     let spec = Spec {
         file: view.file,

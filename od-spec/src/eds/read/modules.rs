@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::entry::{self, Context};
 use super::made;
+use super::node_texts;
 use super::objects::object;
 use super::shape::{declaration, with_shape};
 use crate::ast::{EntryDecl, ObjectDecl};
@@ -101,8 +102,8 @@ impl Extension {
     fn extend(&mut self, section: &Part<'_>, objects: &mut Vec<ObjectDecl>, context: &mut Context<'_>) {
         let id = EntryId { index: self.index, sub: SubIndex(0) };
         let entry = entry::entry(section, id, ObjectKind::Var, context);
-        let data_type = entry.type_name.as_ref().and_then(|name| DataType::from_name(&name.value));
-        let width = data_type.and_then(DataType::bits).unwrap_or(8);
+        node_texts::leave_out(section, id, context);
+        let width = entry::type_of(&entry).and_then(DataType::bits).unwrap_or(8);
         let highest = section.value("ObjExtend").and_then(|text| lenient_integer(text.value));
         let highest = highest.and_then(|sub| u8::try_from(sub).ok()).filter(|sub| *sub > 0).unwrap_or(254);
         match count(section) {

@@ -1,6 +1,8 @@
 //! `[DeviceComissioning]` and the values of a DCF (CiA 306 5): one node of a network.
 
+use super::node_texts::FileUse;
 use crate::ast::Name;
+use crate::commissioning::Denoted;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -21,6 +23,10 @@ pub(crate) struct NodeDecl {
     pub net_name: Option<String>,
     /// Parameter values, as a specification would write them.
     pub values: Vec<(EntryId, Name)>,
+    /// Names of objects and entries in the application.
+    pub denotations: Vec<(Denoted, Name)>,
+    /// Files of DOMAINs.
+    pub files: Vec<(EntryId, FileUse, Name)>,
 }
 
 /// What stands about the node itself. What cannot be read counts as not said; the rules about the text tell.
@@ -35,5 +41,7 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
         net_number: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
         net_name: text("NetworkName"),
         values: Vec::new(),
+        denotations: Vec::new(),
+        files: Vec::new(),
     }
 }

@@ -2,9 +2,12 @@
 
 use super::compact;
 use super::entry::{self, Context};
+use super::links;
+use super::node_texts;
 use super::shape::{declaration, members, sub, with_shape};
 use super::without_place;
 use crate::ast::{EntryDecl, ObjectDecl};
+use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
 use crate::eds::codes;
 use crate::eds::number;
@@ -22,10 +25,18 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
         context.push(without_place(codes::OBJECT_LEFT_OUT, place, message));
         return None;
     }
-    if let Some(links) = &part.links {
-        let message = format!("the object links of {index} are left out");
-        context.push(without_place(codes::NO_PLACE, links.place(), message));
-    }
+    let links = part.links.as_ref().map(links::links);
+    Some(ObjectDecl { links, ..described(id, part, place, context)? })
+}
+
+/// An object as its own section and those of its sub-indices describe it.
+fn described(
+    id: EntryId,
+    part: &ObjectPart<'_>,
+    place: Span,
+    context: &mut Context<'_>,
+) -> Option<ObjectDecl> {
+    let index = id.index;
     let Some(main) = &part.object else {
         let message = format!("there is no section `[{:X}]` for this sub-index", index.0);
         context.push(
@@ -43,12 +54,14 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
     match kind {
         ObjectKind::Var | ObjectKind::Domain => {
             let entry = entry::entry(main, id, kind, context);
+            node_texts::read(main, Denoted::object(index), entry::type_of(&entry), context);
             Some(declaration(index, place, entry))
         }
         ObjectKind::Array | ObjectKind::Record => {
             let name = entry::name(main, id, context);
             let common = EntryDecl { name: Some(name.clone()), ..EntryDecl::empty(place) };
             let common = context.meanings.add_to(common, main, &name.value);
+            node_texts::read(main, Denoted::object(index), None, context);
             Some(structured(index, kind, part, common, place, context))
         }
     }

@@ -1,7 +1,9 @@
 //! Declarations of objects, and of their elements or members.
 
 use super::entry::{self, Context};
+use super::node_texts;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
+use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
 use crate::eds::codes;
 use crate::eds::number;
@@ -22,6 +24,7 @@ pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> Object
         record: None,
         sub0: None,
         omit: Vec::new(),
+        links: None,
         entry,
     }
 }
@@ -95,5 +98,7 @@ pub(super) fn sub(
             object
         }
     };
-    entry::entry(section, id, kind, context)
+    let entry = entry::entry(section, id, kind, context);
+    node_texts::read(section, Denoted::entry(id), entry::type_of(&entry), context);
+    entry
 }

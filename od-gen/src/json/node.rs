@@ -1,0 +1,76 @@
+//! The node of a DCF: its place in a network, its values, and what else belongs to it.
+
+use od_spec::model::Dictionary;
+use od_spec::{Commissioning, Denoted, DomainFiles};
+use serde::Serialize;
+use serde_json::Value as Json;
+
+use super::{device, entry_id, index};
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) struct NodeView<'a> {
+    node_id: u8,
+    node_name: &'a str,
+    bit_rate: u16,
+    net_number: u32,
+    net_name: &'a str,
+    values: Vec<ValueView>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    denotations: Vec<DenotationView<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    files: Vec<FilesView<'a>>,
+}
+
+#[derive(Serialize)]
+struct ValueView {
+    entry: String,
+    value: Json,
+}
+
+#[derive(Serialize)]
+struct DenotationView<'a> {
+    index: String,
+    /// Of an entry of an ARRAY or RECORD.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sub: Option<u8>,
+    name: &'a str,
+}
+
+#[derive(Serialize)]
+struct FilesView<'a> {
+    entry: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    upload: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    download: Option<&'a str>,
+}
+
+impl<'a> NodeView<'a> {
+    pub(super) fn new(device: &Dictionary, node: &'a Commissioning) -> Self {
+        let values = node.values.iter().filter_map(|(id, value)| {
+            let entry = device.entry(*id)?;
+            Some(ValueView { entry: entry_id(*id), value: device::value(id.index, entry, value) })
+        });
+        let denotations = node.denotations.iter().map(|(Denoted { index: at, sub }, name)| DenotationView {
+            index: index(*at),
+            sub: sub.map(|sub| sub.0),
+            name,
+        });
+        let files = node.files.iter().map(|(id, DomainFiles { upload, download, .. })| FilesView {
+            entry: entry_id(*id),
+            upload: upload.as_deref(),
+            download: download.as_deref(),
+        });
+        Self {
+            node_id: node.node,
+            node_name: &node.node_name,
+            bit_rate: node.bit_rate,
+            net_number: node.net_number,
+            net_name: &node.net_name,
+            values: values.collect(),
+            denotations: denotations.collect(),
+            files: files.collect(),
+        }
+    }
+}
