@@ -7,6 +7,7 @@ use crate::keys::Keys;
 use crate::model::{
     AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio, Storage, Text,
 };
+use crate::name_pattern::NamePattern;
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{MERGE, Node, NodeKind};
@@ -159,6 +160,7 @@ scalars! {
     Expr = |text| Expr::parse(text).ok(),
     Formula = |text| Expr::parse_term(text).ok().map(Formula),
     BitPattern = lexical::pattern,
+    NamePattern = |text| NamePattern::parse(text).ok(),
 }
 
 impl FromNode for Text {
