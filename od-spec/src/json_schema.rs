@@ -352,7 +352,9 @@ fn numbered_name(of: NumberedName) -> String {
         NumberedName::Parameter => "pdo",
         NumberedName::MappedEntry => "(pdo|n)",
     };
-    format!("^\\s*([^{{}}\\s]|\\{{\\{{|\\}}\\}}|\\{{(index|{counted}(-1)?(:[xX])?)\\}})([^{{}}]|\\{{\\{{|\\}}\\}}|\\{{(index|{counted}(-1)?(:[xX])?)\\}})*$")
+    format!(
+        "^\\s*([^{{}}\\s]|\\{{\\{{|\\}}\\}}|\\{{(index|{counted}(-1)?(:[xX])?)\\}})([^{{}}]|\\{{\\{{|\\}}\\}}|\\{{(index|{counted}(-1)?(:[xX])?)\\}})*$"
+    )
 }
 
 fn yes_no() -> Json {

@@ -17,7 +17,9 @@ use crate::model::{
 use crate::source::{FileId, Span, Spanned};
 
 pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
-pub(crate) use pdos::{MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl};
+pub(crate) use pdos::{
+    MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
+};
 
 pub(crate) type Words = Option<Spanned<Text>>;
 pub(crate) type Name = Spanned<String>;

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use super::numbered::numbered;
 use super::read::{Field, Reader, reader};
-use crate::ast::{PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl};
+use crate::ast::{
+    PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
+};
 use crate::diag::{Diagnostics, codes};
 use crate::keys::{pdo_communication_keys, pdo_keys, pdo_mapping_keys, pdo_parameters_keys};
 use crate::model::{Access, Direction, Storage};

@@ -328,7 +328,8 @@ fn check_numbered(text: Spanned<&str>, of: NumberedName, diagnostics: &mut Diagn
             }
         },
     };
-    let plain = Placeholder::all().filter(has_number).filter(|placeholder| !placeholder.text().contains([':', '-']));
+    let plain =
+        Placeholder::all().filter(has_number).filter(|placeholder| !placeholder.text().contains([':', '-']));
     let words: Vec<String> = plain.map(|placeholder| format!("`{{{}}}`", placeholder.text())).collect();
     diagnostics.push(
         Diagnostic::new(codes::BAD_NOTATION, inside(text, &range), format!("cannot read this name: {message}"))

@@ -1,6 +1,6 @@
 //! What the parameter objects of a PDO hold, and what it is called where nobody says otherwise.
 
-use super::{DataType, Direction};
+use super::{Access, DataType, Direction};
 
 /// An entry of the communication parameters of a PDO (CiA 301, object 22h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,6 +65,16 @@ impl CommunicationParameter {
             Self::CobId => DataType::Unsigned32,
             Self::InhibitTime | Self::EventTimer => DataType::Unsigned16,
             Self::Count | Self::Transmission | Self::Reserved | Self::SyncStart => DataType::Unsigned8,
+        }
+    }
+
+    /// Access where the specification says nothing.
+    pub const fn usual_access(self) -> Access {
+        match self {
+            Self::Count | Self::Reserved => Access::Ro,
+            Self::CobId | Self::Transmission | Self::InhibitTime | Self::EventTimer | Self::SyncStart => {
+                Access::Rw
+            }
         }
     }
 

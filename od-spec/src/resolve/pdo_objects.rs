@@ -117,12 +117,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
             sub: kind.sub(),
             said,
             data_type: kind.data_type(),
-            access: match kind {
-                Kind::Count | Kind::Reserved => Access::Ro,
-                Kind::CobId | Kind::Transmission | Kind::InhibitTime | Kind::EventTimer | Kind::SyncStart => {
-                    Access::Rw
-                }
-            },
+            access: kind.usual_access(),
             stated: (default.is_some() || kind == Kind::Count).then(|| stated(written, decl)),
             default,
             about: kind.about(),

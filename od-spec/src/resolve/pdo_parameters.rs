@@ -1,10 +1,11 @@
 //! What a specification says about the parameter objects of a PDO: for the PDO itself, for all of its direction, or nothing, which
 //! leaves what is usual.
 
+use super::values;
 use crate::ast::{
     PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::Diagnostics;
 use crate::model::{
     Access, CommunicationParameter, DataType, Direction, Index, Pdo, Storage, usual_pdo_names,
 };
@@ -138,12 +139,10 @@ pub(super) fn check_limits(described: &PdoParametersDecl, diagnostics: &mut Diag
         [(DataType::Unsigned8, layer.sub0.as_ref()), (DataType::Unsigned32, layer.entry.as_ref())]
     });
     for (data_type, said) in communication.chain(mapping) {
-        let Some(highest) = data_type.bits().map(|bits| (1i128 << bits) - 1) else { continue };
         let limits = said.into_iter().flat_map(|said| [said.min, said.max]).flatten();
-        for limit in limits.filter(|limit| limit.value > highest) {
-            let message = format!("{} is no value of the parameter, which is {data_type}", limit.value);
-            let help = format!("write a number from 0 to {highest}");
-            diagnostics.push(Diagnostic::new(codes::NUMBER_OUT_OF_RANGE, limit.span, message).help(help));
+        for limit in limits {
+            let fits = values::fits(limit.value, limit.span, data_type, &limit.value.to_string());
+            fits.unwrap_or_else(|diagnostic| diagnostics.push(*diagnostic));
         }
     }
 }

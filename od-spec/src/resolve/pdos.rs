@@ -39,10 +39,11 @@ pub(super) fn resolve(
         }
         let map: Vec<Spanned<Mapped>> =
             one.map.iter().filter_map(|name| mapped(name, &names, objects, broken, diagnostics)).collect();
-        match pdo(one, info, &map, diagnostics) {
+        let described = Described::new(decl, one);
+        let made =
+            pdo(one, info, &map, diagnostics).filter(|pdo| is_of_one_kind(pdo, &described, diagnostics));
+        match made {
             Some(pdo) => {
-                let described = Described::new(decl, one);
-                check_access(&pdo, &described, diagnostics);
                 parameters.extend([
                     communication_object(&pdo, one, &described),
                     mapping_object(&pdo, one, &described, &map),
@@ -68,11 +69,11 @@ fn stands_twice(decl: &PdoDecl, index: Index, object: Span) -> Diagnostic {
 }
 
 /// Whether the mapping can be changed is said by `mapping:`; the access of the number of mapped entries does not say otherwise.
-fn check_access(pdo: &Pdo, described: &Described<'_>, diagnostics: &mut Diagnostics) {
-    let Some(access) = described.mapped(pdo).access else { return };
-    if access.value.is_writable() == pdo.variable_mapping {
-        return;
-    }
+fn is_of_one_kind(pdo: &Pdo, described: &Described<'_>, diagnostics: &mut Diagnostics) -> bool {
+    let access = described.mapped(pdo).access;
+    let Some(access) = access.filter(|access| access.value.is_writable() != pdo.variable_mapping) else {
+        return true;
+    };
     let (kind, otherwise) = if pdo.variable_mapping { ("variable", "fixed") } else { ("fixed", "variable") };
     let message = format!(
         "the number of mapped entries of {} {} is `{}`, but its mapping is {kind}",
@@ -85,6 +86,7 @@ fn check_access(pdo: &Pdo, described: &Described<'_>, diagnostics: &mut Diagnost
             .with(pdo.span, "the PDO")
             .help(format!("correct the access, or write `mapping: {otherwise}` at the PDO")),
     );
+    false
 }
 
 /// The communication and mapping parameter of a PDO.
