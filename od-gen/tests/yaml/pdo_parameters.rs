@@ -1,8 +1,6 @@
 //! PDOs under `pdos:` keep the names of their parameter objects, and what else these have of their own.
 
-use od_spec::model::{
-    Access, Entry, Index, ObjectKind, Origin, PdoMapping, Storage, SubIndex, System, Value,
-};
+use od_spec::model::{Access, Entry, Index, ObjectKind, Origin, Storage, SubIndex, System, Value};
 use proptest::prelude::*;
 
 use super::likeness::difference;
@@ -10,20 +8,15 @@ use super::{model, written};
 
 /// A device with so many PDOs of each direction, of which each maps two entries and has room for three.
 fn device(count: u16) -> System {
-    let list = (1..=count).map(|number| {
-        format!(
-            "      {number}: {{map: [unsigned8, level], capacity: 3, cob-id: $NODEID + {}}}\n",
-            0x180 + number
-        )
+    let list = |keys: fn(u16) -> String| {
+        let lines = (1..=count).map(|number| format!("      {number}: {{{}}}", keys(number)));
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    let receive =
+        list(|number| format!("map: [unsigned8, level], capacity: 3, cob-id: $NODEID + {}", 0x180 + number));
+    let transmit = list(|number| {
+        format!("map: [hours], event-timer: 7, valid: no, cob-id: $NODEID + {}", 0x300 + number)
     });
-    let (transmit, receive): (String, String) = (
-        (1..=count)
-            .map(|number| {
-                format!("      {number}: {{map: [hours], event-timer: 7, valid: no, cob-id: {number}}}\n")
-            })
-            .collect(),
-        list.collect(),
-    );
     let system = model(&format!(
         "
 od-spec: 1
@@ -37,8 +30,10 @@ objects:
 pdos:
   lamp:
     receive:
-{receive}    transmit:
-{transmit}"
+{receive}
+    transmit:
+{transmit}
+"
     ));
     // As if somebody else had written it: no texts, and nothing about storage.
     let mut foreign = system;
@@ -92,7 +87,8 @@ fn regular(pdo: u16, index: u16, sub: Option<u8>, number: &str) -> String {
 
 #[test]
 fn regular_names_are_said_once() {
-    let numbers: [(&str, fn(u16) -> String); 4] = [
+    type Number = fn(u16) -> String;
+    let numbers: [(&str, Number); 4] = [
         ("{pdo}", |pdo| pdo.to_string()),
         ("{pdo-1}", |pdo| (pdo - 1).to_string()),
         ("{pdo:X}", |pdo| format!("{pdo:X}")),
@@ -242,7 +238,7 @@ fn what_has_no_key_stands_in_full_and_says_why() {
         (|s| entry(s, 0x1401, 0).default = Some(Value::Integer(3)), "sub-index 0 is not the highest"),
         (|s| entry(s, 0x1401, 2).eds.no_write = true, "has flags"),
         (|s| entry(s, 0x1601, 1).default = Some(Value::Integer(0x2001_0010)), "which has another length"),
-        (|s| entry(s, 0x1401, 2).pdo = PdoMapping::Receive, "what no key says"),
+        (|s| object(s, 0x1401).identifier = Some("mine".to_owned()), "what no key says"),
         (|s| drop(object(s, 0x1401).entries.remove(2)), "sub-index 2 is missing"),
     ];
     for (change, reason) in changes {
