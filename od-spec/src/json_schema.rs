@@ -13,7 +13,7 @@
 
 use std::fmt::Write as _;
 
-use crate::keys::{Key, KeyKind, Keys, SPEC, Shape};
+use crate::keys::{Key, KeyKind, Keys, NumberedName, SPEC, Shape};
 use crate::model::{Access, DataType};
 
 /// Prints the JSON Schema of specifications and libraries.
@@ -266,6 +266,8 @@ const SCALARS: &[Shape] = &[
     Shape::Condition,
     Shape::Formula,
     Shape::Pattern,
+    Shape::NumberedName(NumberedName::Parameter),
+    Shape::NumberedName(NumberedName::MappedEntry),
 ];
 
 /// The name of the definition of [`Shape::Text`].
@@ -290,6 +292,8 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Condition => "condition",
         Shape::Formula => "formula",
         Shape::Pattern => "bit-pattern",
+        Shape::NumberedName(NumberedName::Parameter) => "numbered-name",
+        Shape::NumberedName(NumberedName::MappedEntry) => "mapped-entry-name",
         Shape::Choice(_)
         | Shape::Integer(..)
         | Shape::Map(_)
@@ -337,8 +341,20 @@ fn scalar(shape: Shape) -> Json {
         Shape::Condition => pattern(&["string"], "[<=>]".to_owned()),
         Shape::Formula => pattern(&["string", "number"], "^[^<=>]+$".to_owned()),
         Shape::Pattern => pattern(&["string", "integer"], "^[01xrf\\s]+$".to_owned()),
+        Shape::NumberedName(of) => pattern(&["string", "number", "boolean"], numbered_name(of)),
         _ => any_text(),
     }
+}
+
+/// A regular expression for names with placeholders.
+fn numbered_name(of: NumberedName) -> String {
+    let counted = match of {
+        NumberedName::Parameter => "pdo",
+        NumberedName::MappedEntry => "(pdo|n)",
+    };
+    format!(
+        "^\\s*([^{{}}\\s]|\\{{\\{{|\\}}\\}}|\\{{(index|{counted}(-1)?(:[xX])?)\\}})([^{{}}]|\\{{\\{{|\\}}\\}}|\\{{(index|{counted}(-1)?(:[xX])?)\\}})*$"
+    )
 }
 
 fn yes_no() -> Json {

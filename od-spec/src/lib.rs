@@ -40,6 +40,7 @@ mod json_schema;
 pub mod keys;
 mod library;
 pub mod model;
+pub mod name_pattern;
 mod parameters;
 #[cfg(feature = "reference")]
 mod reference;

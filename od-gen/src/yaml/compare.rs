@@ -9,8 +9,17 @@ use super::context::same_unit;
 enum Likeness {
     /// Everything that the model says.
     Said,
-    /// Without names and descriptions, and without what stores it: the parameters of PDOs.
+    /// Without descriptions: the parameters of PDOs.
     Parameters,
+}
+
+impl Likeness {
+    fn of_texts(self, wanted: &Text, found: &Text) -> bool {
+        match self {
+            Self::Said => same_text(wanted, found),
+            Self::Parameters => true,
+        }
+    }
 }
 
 /// The objects that are not as they should be, and those that are too many.
@@ -23,16 +32,7 @@ pub(super) fn differing(wanted: &Dictionary, found: &Dictionary) -> Vec<Index> {
     missing.map(|object| object.index).chain(more.copied()).collect()
 }
 
-/// Whether objects or entries have other names than they should.
-pub(super) fn renamed(wanted: &Dictionary, found: &Dictionary) -> bool {
-    let name = |object: &Object, entry: &Entry| (object.name.clone(), entry.name.clone());
-    let entries = wanted.entries().zip(found.entries());
-    entries
-        .into_iter()
-        .any(|((_, object, entry), (_, made, made_entry))| name(object, entry) != name(made, made_entry))
-}
-
-/// The parameter objects that `pdos:` makes have their own names and descriptions.
+/// The parameter objects that `pdos:` makes have their own descriptions.
 fn likeness(wanted: &Object, found: &Object) -> Likeness {
     use od_spec::model::Origin;
     match found.origin {
@@ -43,17 +43,11 @@ fn likeness(wanted: &Object, found: &Object) -> Likeness {
 
 /// Whether an object says what is wanted; it may say more where the model is silent.
 fn same_object(wanted: &Object, found: &Object, likeness: Likeness) -> bool {
-    let whole = match likeness {
-        Likeness::Said => {
-            wanted.name == found.name
-                && wanted.identifier == found.identifier
-                && said(wanted.category.as_ref(), found.category.as_ref())
-                && said(wanted.since.as_ref(), found.since.as_ref())
-                && same_text(&wanted.about, &found.about)
-        }
-        Likeness::Parameters => wanted.identifier.is_none(),
-    };
-    whole
+    wanted.name == found.name
+        && wanted.identifier == found.identifier
+        && said(wanted.category.as_ref(), found.category.as_ref())
+        && said(wanted.since.as_ref(), found.since.as_ref())
+        && likeness.of_texts(&wanted.about, &found.about)
         && wanted.linked().eq(found.linked())
         && wanted.kind == found.kind
         && wanted.entries.len() == found.entries.len()
@@ -65,20 +59,14 @@ fn same_object(wanted: &Object, found: &Object, likeness: Likeness) -> bool {
 }
 
 fn same_entry(wanted: &Entry, found: &Entry, likeness: Likeness) -> bool {
-    let described = match likeness {
-        Likeness::Said => {
-            wanted.name == found.name
-                && wanted.identifier == found.identifier
-                && wanted.stored == found.stored
-                && same_text(&wanted.about, &found.about)
-        }
-        Likeness::Parameters => wanted.identifier.is_none(),
-    };
     let condition = |entry: &Entry| entry.writable_when.as_ref().map(|condition| condition.text.clone());
     let codes = |entry: &Entry| -> Vec<(u8, Vec<u16>)> {
         entry.bit_errors.iter().map(|errors| (errors.bit, errors.error_codes().collect())).collect()
     };
-    described
+    wanted.name == found.name
+        && wanted.identifier == found.identifier
+        && wanted.stored == found.stored
+        && likeness.of_texts(&wanted.about, &found.about)
         && wanted.sub == found.sub
         && wanted.data_type == found.data_type
         && same_named(wanted, found)

@@ -23,8 +23,6 @@ pub(super) struct Style {
     pub in_full: BTreeSet<Index>,
     /// PDOs whose parameter objects are written.
     pub pdos_in_full: BTreeSet<(Direction, u16)>,
-    /// Whether parameter objects of PDOs get other names than the model has.
-    pub renamed: bool,
 }
 
 /// What the parts of a specification are written against.

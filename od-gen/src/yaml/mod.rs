@@ -18,6 +18,9 @@ mod names;
 mod node;
 mod objects;
 mod options;
+mod pdo_names;
+mod pdo_obstacles;
+mod pdo_parameters;
 mod pdos;
 mod remarks;
 mod runs;
@@ -262,11 +265,8 @@ fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks
             Some(found) => compare::differing(plain, found).into_iter().collect(),
             None => errors.iter().filter_map(|error| blamed(draft, &written, error)).collect(),
         };
-        if let Some(found) = found.filter(|_| wrong.is_empty()) {
-            style.renamed = compare::renamed(plain, found);
-            // A comment more does not change what the text says.
-            let with_remark = || text::write(&draft.system, &draft.device, options, remarks, &style);
-            return Some(if style.renamed { with_remark() } else { written });
+        if found.is_some() && wrong.is_empty() {
+            return Some(written);
         }
         if !longer(&mut style, draft, &wrong) {
             return None;

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::model::{DataType, Direction, EntryId, Index, ObjectKind, Pdo, PdoTarget, SubIndex, Value};
+use od_spec::model::{DataType, Direction, EntryId, Index, Pdo, PdoTarget, SubIndex, Value};
 
 use super::context::Context;
 use super::node::{Item, Node, Spot};
+use super::pdo_obstacles::obstacle;
+use super::pdo_parameters::{self, Parameters};
 use super::scalar::spelled;
 use super::texts::words;
 
@@ -14,32 +16,43 @@ pub(super) fn short<'a>(context: &Context<'a>) -> Vec<&'a Pdo> {
     if !context.style.short {
         return Vec::new();
     }
-    let is_record = |index: u16| {
-        context.device.objects.get(&Index(index)).is_some_and(|object| object.kind == ObjectKind::Record)
-    };
     let in_full = |pdo: &Pdo| context.style.pdos_in_full.contains(&(pdo.direction, pdo.number));
     let pdos = context.device.pdos.iter().filter(|pdo| !in_full(pdo));
-    pdos.filter(|pdo| is_record(pdo.communication_index()) && is_record(pdo.mapping_index()))
-        .filter(|pdo| pdo.cob_id.is_some() && pdo.transmission.is_some())
-        .collect()
+    pdos.filter(|pdo| obstacle(context, pdo).is_none()).collect()
 }
 
 /// The value of `pdos:`.
 pub(super) fn items(context: &Context<'_>, pdos: &[&Pdo]) -> Vec<Item> {
     let names = Names::of(context, pdos);
-    let directions = [Direction::Receive, Direction::Transmit].into_iter().filter_map(|direction| {
-        let of = pdos.iter().filter(|pdo| pdo.direction == direction);
-        let items: Vec<Item> = of.map(|pdo| item(context, &names, pdo)).collect();
-        (!items.is_empty()).then(|| Item::new(direction.word(), Node::Block(items)))
-    });
-    let directions: Vec<Item> = directions.collect();
+    let (mut parameters, mut directions) = (Vec::new(), Vec::new());
+    for direction in [Direction::Receive, Direction::Transmit] {
+        let of: Vec<&Pdo> = pdos.iter().copied().filter(|pdo| pdo.direction == direction).collect();
+        if of.is_empty() {
+            continue;
+        }
+        let Parameters { common, mut own } = pdo_parameters::of(context, direction, &of);
+        if !common.is_empty() {
+            parameters.push(Item::new(direction.word(), Node::Block(common)));
+        }
+        let mut own = |pdo: &Pdo| own.remove(&pdo.number).unwrap_or_default();
+        let items = of.iter().map(|pdo| item(context, &names, pdo, own(pdo)));
+        directions.push(Item::new(direction.word(), Node::Block(items.collect())));
+    }
     if directions.is_empty() {
         return Vec::new();
     }
-    vec![Item::new(context.device.key.clone(), Node::Block(directions))]
+    let mut items = Vec::new();
+    if !pdo_parameters::are_stored(context, pdos) {
+        items.push(Item::new("stored", Node::yes_no(false)));
+    }
+    if !parameters.is_empty() {
+        items.push(Item::new("parameters", Node::Block(parameters)));
+    }
+    items.extend(directions);
+    vec![Item::new(context.device.key.clone(), Node::Block(items))]
 }
 
-fn item(context: &Context<'_>, names: &Names, pdo: &Pdo) -> Item {
+fn item(context: &Context<'_>, names: &Names, pdo: &Pdo, parameters: Vec<Item>) -> Item {
     let mut items = Vec::new();
     let flag = |bit: u32| {
         pdo.cob_id.as_ref().and_then(|id| id.integer_for(0)).is_some_and(|raw| raw >> bit & 1 == 1)
@@ -71,6 +84,9 @@ fn item(context: &Context<'_>, names: &Names, pdo: &Pdo) -> Item {
         PdoTarget::Dummy(data_type) => Node::plain(data_type.name()),
     });
     items.push(Item::new("map", Node::List(map.collect())));
+    if !parameters.is_empty() {
+        items.push(Item::new("parameters", Node::Map(parameters)));
+    }
     items.extend(words(&pdo.about, context.language()).map(|about| Item::new("about", about)));
     let above = [pdo.communication_index(), pdo.mapping_index()].map(Index);
     let above = above.into_iter().flat_map(|index| comments(context, index)).collect();

@@ -10,11 +10,7 @@ use super::features::{self, Chosen};
 use super::node::{Item, Node};
 use super::options::Options;
 use super::remarks::Remarks;
-use super::{departures, device, objects, pdos, runs, types};
-
-/// Said where the parameter objects of PDOs have other names than in the model.
-const RENAMED: &str =
-    "The parameter objects of the PDOs under `pdos:` have the names that the language gives them.";
+use super::{departures, device, objects, pdo_obstacles, pdos, runs, types};
 
 /// A device as a specification in a style. Libraries of the style from which nothing is taken are not used.
 pub(super) fn write(
@@ -57,8 +53,7 @@ fn attempt(context: &Context<'_>) -> (Written, Vec<String>) {
     section(Item::new("pdos", Node::Block(pdos::items(context, &short_pdos))));
     let mut written = emit::write(&items);
     let foot = context.options.foot.iter().flat_map(|line| head_line(line));
-    let renamed = context.style.renamed.then(|| RENAMED.to_owned());
-    let foot: Vec<String> = foot.chain(renamed).collect();
+    let foot: Vec<String> = foot.collect();
     if !foot.is_empty() {
         written.text.push('\n');
     }
@@ -95,12 +90,14 @@ fn object_items(context: &Context<'_>, short_pdos: &[&Pdo]) -> (Vec<Item>, Vec<S
             used.insert(library.name.clone());
         }
     }
+    let in_full_because = pdo_obstacles::remarks(context);
     let mut items = Vec::new();
     for (object, taken) in written.into_iter().zip(taken) {
         if chosen.objects.contains(&object.index) {
             continue;
         }
-        let in_full = objects::in_full(context, object);
+        let mut in_full = objects::in_full(context, object);
+        in_full.above.extend(in_full_because.get(&object.index).into_iter().flat_map(|line| comment(line)));
         let taken = taken.filter(|taken| length(taken) <= length(&in_full));
         match taken {
             Some(taken) => {

@@ -6,6 +6,7 @@
 mod faults;
 mod foreign;
 mod likeness;
+mod pdo_parameters;
 mod random;
 mod shipped;
 

@@ -1,13 +1,14 @@
 //! A specification as written: every leaf with its place, `None` where nothing is written.
 
 mod entry;
+mod pdos;
 
 use std::ops::RangeInclusive;
 
 use crate::expr::Expr;
 use crate::keys::{
     channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys,
-    machine_keys, pdo_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
+    machine_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
 };
 use crate::model::{
     Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio,
@@ -16,6 +17,9 @@ use crate::model::{
 use crate::source::{FileId, Span, Spanned};
 
 pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+pub(crate) use pdos::{
+    MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
+};
 
 pub(crate) type Words = Option<Spanned<Text>>;
 pub(crate) type Name = Spanned<String>;
@@ -33,6 +37,7 @@ macro_rules! declaration {
         }
     };
 }
+use declaration;
 
 /// One file.
 #[derive(Debug)]
@@ -57,7 +62,7 @@ pub(crate) struct Spec {
     pub axes: Option<Axes>,
     pub features: Vec<FeatureDecl>,
     pub objects: Vec<ObjectDecl>,
-    pub pdos: Vec<(Name, Vec<PdoDecl>)>,
+    pub pdos: Vec<(Name, PdosDecl)>,
     pub errors: Vec<ErrorDecl>,
     pub machines: Vec<MachineDecl>,
     pub constraints: Vec<ConstraintDecl>,
@@ -266,39 +271,6 @@ pub(crate) struct ArrayDecl {
 pub(crate) struct RecordDecl {
     pub span: Span,
     pub members: Vec<(Spanned<SubIndex>, EntryDecl)>,
-}
-
-pdo_keys! { declaration
-    #[derive(Debug)]
-    PdoDecl {
-        direction: Direction,
-        number: Spanned<u16>,
-        span: Span,
-    }
-}
-
-impl PdoDecl {
-    /// Whether the mapping cannot be changed over the bus.
-    pub(crate) fn is_fixed(&self) -> bool {
-        self.mapping.is_some_and(|mapping| mapping.value == MappingKind::Fixed)
-    }
-}
-
-/// Whether the mapping of a PDO can be changed over the bus.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum MappingKind {
-    Variable,
-    Fixed,
-}
-
-impl MappingKind {
-    pub(crate) fn from_word(word: &str) -> Option<Self> {
-        match word {
-            "variable" => Some(MappingKind::Variable),
-            "fixed" => Some(MappingKind::Fixed),
-            _ => None,
-        }
-    }
 }
 
 error_keys! { declaration

@@ -8,6 +8,7 @@ use crate::model::{
     Access, AccessRight, BitPattern, Category, Date, DateTime, ErratumKind, Index, PdoMapping, Ratio,
     Storage, Text,
 };
+use crate::name_pattern::NamePattern;
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{MERGE, Node, NodeKind};
@@ -166,6 +167,7 @@ scalars! {
     Expr = |text| Expr::parse(text).ok(),
     Formula = |text| Expr::parse_term(text).ok().map(Formula),
     BitPattern = lexical::pattern,
+    NamePattern = |text| NamePattern::parse(text).ok(),
 }
 
 impl FromNode for Text {

@@ -3,8 +3,9 @@
 use super::{lexical, nearest};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{ConditionError, Expr, Parsed};
-use crate::keys::{Key, KeyKind, Keys, Shape};
+use crate::keys::{Key, KeyKind, Keys, NumberedName, Shape};
 use crate::model::Access;
+use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{MERGE, Node, NodeKind};
@@ -193,6 +194,8 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
         Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
+        Shape::NumberedName(NumberedName::Parameter) => "a name such as `Receive PDO {pdo} Mapping`",
+        Shape::NumberedName(NumberedName::MappedEntry) => "a name such as `Mapping Entry {n}`",
         Shape::Text | Shape::HeaderText | Shape::Words => "a text",
         Shape::Map(_) | Shape::MapOf(..) | Shape::ShortOr(..) => "a map",
         Shape::List(_) | Shape::OneOrMore(_) => "a list",
@@ -272,8 +275,10 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
             "formulas look like `0x6092.1 / 0x6092.2 / 65536`",
             diagnostics,
         ),
+        Shape::NumberedName(of) if !value.trim().is_empty() => check_numbered(text, of, diagnostics),
         _ => {
             let fits = match shape {
+                Shape::NumberedName(_) => false,
                 Shape::Text => !value.trim().is_empty(),
                 Shape::Date => lexical::date(value).is_some(),
                 Shape::DateTime => lexical::date_time(value).is_some(),
@@ -306,6 +311,33 @@ pub(crate) fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> Spa
         Some(2) => text.span.part(range.start + 1, range.end.max(range.start + 1) + 1),
         _ => text.span,
     }
+}
+
+/// The placeholders of a name are there, and have a number where it stands.
+fn check_numbered(text: Spanned<&str>, of: NumberedName, diagnostics: &mut Diagnostics) {
+    let has_number = |placeholder: &Placeholder| match of {
+        NumberedName::Parameter => !placeholder.is_of_entry(),
+        NumberedName::MappedEntry => true,
+    };
+    let (range, message) = match NamePattern::parse(text.value) {
+        Err(error) => (error.range, error.message),
+        Ok(pattern) => match pattern.placeholders().find(|(placeholder, _)| !has_number(placeholder)) {
+            None => return,
+            Some((placeholder, range)) => {
+                (range, format!("`{{{}}}` is a number that only mapped entries have", placeholder.text()))
+            }
+        },
+    };
+    let plain =
+        Placeholder::all().filter(has_number).filter(|placeholder| !placeholder.text().contains([':', '-']));
+    let words: Vec<String> = plain.map(|placeholder| format!("`{{{}}}`", placeholder.text())).collect();
+    diagnostics.push(
+        Diagnostic::new(codes::BAD_NOTATION, inside(text, &range), format!("cannot read this name: {message}"))
+            .help(format!(
+                "placeholders are {}; `{{pdo-1}}` counts from 0, `{{pdo:X}}` is hexadecimal; a brace of the name is doubled",
+                words.join(", ")
+            )),
+    );
 }
 
 fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnostics) {

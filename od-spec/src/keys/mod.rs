@@ -24,8 +24,11 @@ pub use libraries::{AXES, FEATURE};
 pub use machines::{COMMAND, MACHINE, STATE, TRANSITION};
 pub use manual::{ERRATUM, SECTION, TABLE, TABLE_PDOS, TABLE_ROWS};
 pub use objects::{ARRAY, OBJECT, SUB0};
-pub use pdos::{PDO, PDOS};
-pub use shape::{Key, KeyKind, Keys, Shape};
+pub use pdos::{
+    PDO, PDO_COMMUNICATION, PDO_DIRECTIONS, PDO_MAPPED_ENTRY, PDO_MAPPING, PDO_PARAMETER, PDO_PARAMETERS,
+    PDO_RESERVED, PDOS,
+};
+pub use shape::{Key, KeyKind, Keys, NumberedName, Shape};
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 
 pub(crate) use constraints::constraint_keys;
@@ -35,5 +38,5 @@ pub(crate) use errors::error_keys;
 pub(crate) use file::{revision_keys, source_keys, vendor_keys};
 pub(crate) use machines::{command_keys, machine_keys, state_keys, transition_keys};
 pub(crate) use manual::erratum_keys;
-pub(crate) use pdos::pdo_keys;
+pub(crate) use pdos::{pdo_communication_keys, pdo_keys, pdo_mapping_keys, pdo_parameters_keys};
 pub(crate) use types::unit_keys;

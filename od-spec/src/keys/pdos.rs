@@ -1,13 +1,114 @@
 //! PDOs.
 
-use super::shape::{Key, KeyKind, Keys, Shape, U8, U16};
+use super::shape::{Key, KeyKind, Keys, NumberedName, Shape, U8, U16, U32};
 use super::table::keys;
 
 keys! {
     /// `pdos:` of a device.
     PDOS = "a device's PDOs" {
+        "stored": Shape::Choice(&["communication", "no"]), "whether parameters that can be written are stored with the communication parameters; `no` also where nobody knows; `communication` unless given";
+        "parameters": Shape::Map(&PDO_DIRECTIONS), "what the parameter objects of all PDOs are called, and what else they have of their own";
         "receive": Shape::MapOf(KeyKind::PdoNumber, &Shape::Map(&PDO)), "RPDOs by number", "{1: {map: [controlword]}}";
         "transmit": Shape::MapOf(KeyKind::PdoNumber, &Shape::Map(&PDO)), "TPDOs by number";
+    }
+}
+
+keys! {
+    /// `parameters:` of a device's PDOs.
+    PDO_DIRECTIONS = "the parameters of all PDOs" {
+        "receive": Shape::Map(&PDO_PARAMETERS), "of RPDOs", "{communication: {name: \"Receive PDO Parameter {pdo}\", cob-id: COB-ID}}";
+        "transmit": Shape::Map(&PDO_PARAMETERS), "of TPDOs";
+    }
+}
+
+const NAME: Shape = Shape::NumberedName(NumberedName::Parameter);
+const ENTRY_NAME: Shape = Shape::NumberedName(NumberedName::MappedEntry);
+const PARAMETER: Shape = Shape::ShortOr(&NAME, &PDO_PARAMETER);
+
+macro_rules! pdo_parameters_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "communication": Shape::Map(&PDO_COMMUNICATION) => communication: Option<PdoCommunicationDecl>, "the communication parameter objects (1400h, 1800h and following)", "{name: \"TPDO{pdo} Communication\", cob-id: COB-ID}";
+            "mapping": Shape::Map(&PDO_MAPPING) => mapping: Option<PdoMappingDecl>, "the mapping parameter objects (1600h, 1A00h and following)", "{name: \"TPDO{pdo} Mapping\", entry: \"Mapping Entry {n}\"}";
+        } }
+    };
+}
+pub(crate) use pdo_parameters_keys;
+
+pdo_parameters_keys! { keys
+    /// `parameters:` of the PDOs of a direction, or of one PDO.
+    PDO_PARAMETERS = "parameters of PDOs"
+}
+
+macro_rules! pdo_communication_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "name": NAME => name: Option<Spanned<NamePattern>>, "name of the object", "\"Transmit PDO {pdo} Parameter\"";
+            "sub0": PARAMETER => sub0: Option<PdoParameterDecl>, "sub-index 0", "Number of Entries";
+            "cob-id": PARAMETER => cob_id: Option<PdoParameterDecl>, "sub-index 1, the COB-ID", "COB-ID";
+            "transmission": PARAMETER => transmission: Option<PdoParameterDecl>, "sub-index 2, the transmission type", "{name: Transmission Type, min: 0, max: 255}";
+            "inhibit-time": PARAMETER => inhibit_time: Option<PdoParameterDecl>, "sub-index 3, the inhibit time, of PDOs that have one";
+            "reserved": Shape::ShortOr(&NAME, &PDO_RESERVED) => reserved: Option<PdoParameterDecl>, "sub-index 4, which CiA 301 reserves: the device has it all the same", "{name: Compatibility Entry, access: rw, default: 0}";
+            "event-timer": PARAMETER => event_timer: Option<PdoParameterDecl>, "sub-index 5, the event timer, of PDOs that have one";
+            "sync-start": PARAMETER => sync_start: Option<PdoParameterDecl>, "sub-index 6, the SYNC start value, of PDOs that have one";
+        } }
+    };
+}
+pub(crate) use pdo_communication_keys;
+
+pdo_communication_keys! { keys
+    /// `communication:` of parameters of PDOs.
+    PDO_COMMUNICATION = "communication parameters of PDOs"
+}
+
+macro_rules! pdo_mapping_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "name": NAME => name: Option<Spanned<NamePattern>>, "name of the object", "\"Transmit PDO {pdo} Mapping\"";
+            "sub0": PARAMETER => sub0: Option<PdoParameterDecl>, "sub-index 0, the number of mapped entries", "Number of Entries";
+            "entry": Shape::ShortOr(&ENTRY_NAME, &PDO_MAPPED_ENTRY) => entry: Option<PdoParameterDecl>, "every other sub-index, a mapped entry", "\"Mapping Entry {n}\"";
+            "entries": Shape::MapOf(KeyKind::SubIndex, &ENTRY_NAME) => entries: BTreeMap<u8, Spanned<NamePattern>>, "names of single mapped entries, by sub-index", "{1: First mapped object}";
+        } }
+    };
+}
+pub(crate) use pdo_mapping_keys;
+
+pdo_mapping_keys! { keys
+    /// `mapping:` of parameters of PDOs.
+    PDO_MAPPING = "mapping parameters of PDOs"
+}
+
+/// The words of `access:` of a parameter.
+const ACCESS: Shape = Shape::Choice(&["ro", "rw", "const"]);
+
+keys! {
+    /// An entry of the parameter objects of PDOs.
+    PDO_PARAMETER = "a parameter of PDOs" {
+        "name": NAME, "name", "Transmission Type";
+        "access": ACCESS, "access; unless given, sub-index 0 of communication parameters and what belongs to a fixed mapping is `ro`, everything else `rw`";
+        "min": U32, "smallest allowed value";
+        "max": U32, "largest allowed value";
+    }
+}
+
+keys! {
+    /// Sub-index 4 of communication parameters.
+    PDO_RESERVED = "a reserved parameter of PDOs" {
+        "name": NAME, "name; `reserved` unless given", "Compatibility Entry";
+        "access": ACCESS, "access; `ro` unless given";
+        "default": U8, "its value; none unless given";
+        "min": U32, "smallest allowed value";
+        "max": U32, "largest allowed value";
+    }
+}
+
+keys! {
+    /// The mapped entries of mapping parameters.
+    PDO_MAPPED_ENTRY = "a mapped entry of PDOs" {
+        "name": ENTRY_NAME, "name", "\"Mapping Entry {n}\"";
+        "access": ACCESS, "access; unless given, `ro` where the mapping is fixed, else `rw`";
+        "min": U32, "smallest allowed value";
+        "max": U32, "largest allowed value";
     }
 }
 
@@ -22,8 +123,9 @@ macro_rules! pdo_keys {
             "event-timer": U16 => event_timer: Option<Spanned<i128>>, "event timer in ms; the device has no such entry unless given";
             "sync-start": Shape::Integer(0, 240) => sync_start: Option<Spanned<i128>>, "SYNC start value; the device has no such entry unless given";
             "mapping": Shape::Choice(&["variable", "fixed"]) => mapping: Option<Spanned<MappingKind>>, "whether the mapping can be changed over the bus; variable unless given";
-            "capacity": Shape::Integer(1, 64) => capacity: Option<Spanned<i128>>, "mapping entries the device offers; 64 / granularity unless given (granularity 0 counts as 1); of no effect where the mapping is fixed";
+            "capacity": Shape::Integer(0, 64) => capacity: Option<Spanned<i128>>, "mapping entries the device offers; 64 / granularity unless given (granularity 0 counts as 1); of no effect where the mapping is fixed";
             "map" required: Shape::List(&Shape::Entry) => map: Vec<Name>, "mapped entries in order, by index or name, or data types as placeholders", "[statusword, 0x6064, drive data.error mask]";
+            "parameters": Shape::Map(&PDO_PARAMETERS) => parameters: Option<PdoParametersDecl>, "what its parameter objects have otherwise than those of the other PDOs";
             "about": Shape::Words => about: Words, "meaning";
         } }
     };

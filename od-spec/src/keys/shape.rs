@@ -63,6 +63,8 @@ pub enum Shape {
     Formula,
     /// Bits, most significant first: `xxxx xxxx x01x 0001`.
     Pattern,
+    /// A name with placeholders for numbers: `Receive PDO {pdo} Mapping`.
+    NumberedName(NumberedName),
     /// A map with fixed keys.
     Map(&'static Keys),
     /// A map whose keys are data.
@@ -73,6 +75,15 @@ pub enum Shape {
     OneOrMore(&'static Shape),
     /// A short form (a scalar) or a map.
     ShortOr(&'static Shape, &'static Keys),
+}
+
+/// What a name with placeholders is the name of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NumberedName {
+    /// A parameter object of PDOs, or an entry that each has once.
+    Parameter,
+    /// A mapped entry, which has a number of its own.
+    MappedEntry,
 }
 
 /// What the keys of a map are that carries data in its keys.

@@ -13,6 +13,7 @@ mod machine;
 mod named_type;
 mod object;
 mod pdo;
+mod pdo_parameter;
 mod ratio;
 mod role;
 mod text;
@@ -36,6 +37,7 @@ pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transiti
 pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
+pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names};
 pub use ratio::Ratio;
 pub use role::Role;
 pub use text::Text;

@@ -95,6 +95,7 @@ fn value(shape: Shape) -> String {
         Shape::Condition => "condition".to_owned(),
         Shape::Formula => "formula".to_owned(),
         Shape::Pattern => "bit pattern".to_owned(),
+        Shape::NumberedName(_) => "name with placeholders".to_owned(),
         Shape::Map(keys) => link(keys),
         Shape::MapOf(kind, inner) => format!("map: {} → {}", key_kind(kind), value(*inner)),
         Shape::List(Shape::List(inner)) => format!("list of lists: {}", value(**inner)),

@@ -8,7 +8,7 @@ use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::{aliases, device_info, objects, pdos};
-use crate::ast::{DeviceDecl, FrontEnd, Name, Spec};
+use crate::ast::{DeviceDecl, FrontEnd, Name, PdosDecl, Spec};
 use crate::diag::{Diagnostics, codes};
 use crate::model::{DeviceInfo, Dictionary, Facts, Index, Object, Statement, SubIndex, Text, Value, Vendor};
 
@@ -43,11 +43,12 @@ pub(super) fn resolve(
             if root.front_end == FrontEnd::Specification {
                 built.identity(device, &info, vendor);
             }
-            let list =
-                root.pdos.iter().find(|(key, _)| key.value == device.key.value).map_or(&[][..], |(_, l)| l);
+            let none = PdosDecl::default();
+            let decl = root.pdos.iter().find(|(key, _)| key.value == device.key.value);
+            let decl = decl.map_or(&none, |(_, decl)| decl);
             let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
             let pdos =
-                pdos::resolve(list, &info, written, &mut built.objects, &mut built.broken, diagnostics);
+                pdos::resolve(decl, &info, written, &mut built.objects, &mut built.broken, diagnostics);
             broken.append(built.broken);
             Dictionary {
                 key: device.key.value.clone(),

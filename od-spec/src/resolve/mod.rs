@@ -14,6 +14,7 @@ mod machines;
 mod numbers;
 mod objects;
 mod pdo_objects;
+mod pdo_parameters;
 mod pdos;
 mod places;
 mod refs;

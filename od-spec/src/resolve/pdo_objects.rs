@@ -1,38 +1,61 @@
 //! The parameter objects that a PDO has: communication (1400h, 1800h and following) and mapping (1600h, 1A00h and following).
 
+use super::pdo_parameters::{Described, Said};
 use crate::ast::PdoDecl;
 use crate::model::{
-    Access, DataType, Entry, Fact, Index, Mapped, Object, ObjectKind, Origin, Pdo, Statement, Storage,
-    SubIndex, Text, Value,
+    Access, CommunicationParameter, DataType, Entry, Fact, Index, Mapped, Object, ObjectKind, Origin, Pdo,
+    Statement, Storage, SubIndex, Text, Value,
 };
 use crate::source::{Span, Spanned};
 
 /// A parameter of a PDO.
 struct Parameter {
     sub: u8,
-    name: String,
+    said: Said,
     data_type: DataType,
-    writable: bool,
+    /// Where nothing is said about it.
+    access: Access,
     default: Option<Value>,
     /// Where the value stands.
-    stated: Statement,
+    stated: Option<Statement>,
     about: &'static str,
 }
 
 impl Parameter {
-    fn into_entry(self, span: Span) -> Entry {
-        let access = if self.writable { Access::Rw } else { Access::Ro };
+    fn into_entry(self, stored: Option<Spanned<Storage>>, span: Span) -> Entry {
+        let Said { name: (name, named), access, min, max, .. } = self.said;
+        let right = access.map_or(self.access, |access| access.value);
+        let storage = stored.map_or(Storage::Communication, |stored| stored.value);
+        let facts = [
+            (Fact::Name, named),
+            (Fact::Access, access.map(|access| access.span)),
+            (Fact::LowLimit, min.map(|min| min.span)),
+            (Fact::HighLimit, max.map(|max| max.span)),
+            (Fact::Storage, stored.filter(|_| right.is_writable()).map(|stored| stored.span)),
+        ];
+        let facts = facts
+            .into_iter()
+            .filter_map(|(fact, span)| span.map(|span| (fact, Statement::written(span, span.file))))
+            .chain(self.stated.map(|stated| (Fact::Default, stated)));
         Entry {
             default: self.default,
-            stored: if self.writable { Storage::Communication } else { Storage::No },
-            facts: [(Fact::Default, self.stated)].into_iter().collect(),
+            low: min.map(|min| min.value),
+            high: max.map(|max| max.value),
+            stored: if right.is_writable() { storage } else { Storage::No },
+            facts: facts.collect(),
             about: english(self.about),
-            ..Entry::new(SubIndex(self.sub), self.name, self.data_type, access, span)
+            ..Entry::new(SubIndex(self.sub), name, self.data_type, right, span)
         }
     }
 }
 
-fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> Object {
+fn object(
+    index: u16,
+    name: String,
+    parameters: Vec<Parameter>,
+    stored: Option<Spanned<Storage>>,
+    span: Span,
+) -> Object {
     Object {
         index: Index(index),
         name,
@@ -45,7 +68,7 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, span: Span) -> O
         since: None,
         links: Vec::new(),
         about: Text::default(),
-        entries: parameters.into_iter().map(|parameter| parameter.into_entry(span)).collect(),
+        entries: parameters.into_iter().map(|parameter| parameter.into_entry(stored, span)).collect(),
         span,
     }
 }
@@ -62,109 +85,89 @@ fn stated(written: Option<Span>, decl: &PdoDecl) -> Statement {
     }
 }
 
-pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl) -> Object {
-    let title = pdo.direction.pdo();
-    let number = |value: u16| Some(Value::Integer(i128::from(value)));
-    let mut list = vec![
-        Parameter {
-            sub: 1,
-            name: format!("COB-ID used by {title}"),
-            data_type: DataType::Unsigned32,
-            writable: true,
-            default: pdo.cob_id.clone(),
-            stated: stated(decl.cob_id.as_ref().map(|text| text.span), decl),
-            about: "CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)",
-        },
-        Parameter {
-            sub: 2,
-            name: "transmission type".to_owned(),
-            data_type: DataType::Unsigned8,
-            writable: true,
-            default: pdo.transmission.and_then(|transmission| number(transmission.into())),
-            stated: stated(decl.transmission.map(|value| value.span), decl),
-            about: "0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame",
-        },
-    ];
-    if let Some(time) = pdo.inhibit_time {
-        list.push(Parameter {
-            sub: 3,
-            name: "inhibit time".to_owned(),
-            data_type: DataType::Unsigned16,
-            writable: true,
-            default: number(time),
-            stated: stated(decl.inhibit_time.map(|value| value.span), decl),
-            about: "least time between two transmissions, in 100 µs",
-        });
+pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Described<'_>) -> Object {
+    use CommunicationParameter as Kind;
+    let number = |value: Option<u16>| value.map(|value| Value::Integer(value.into()));
+    let parameter = |kind: Kind| {
+        let said = described.communication(kind, pdo);
+        let (there, default, written) = match kind {
+            Kind::Count => (true, None, None),
+            Kind::CobId => (true, pdo.cob_id.clone(), decl.cob_id.as_ref().map(|text| text.span)),
+            Kind::Transmission => {
+                let value = number(pdo.transmission.map(u16::from));
+                (true, value, decl.transmission.map(|value| value.span))
+            }
+            Kind::InhibitTime => {
+                let value = number(pdo.inhibit_time);
+                (value.is_some(), value, decl.inhibit_time.map(|value| value.span))
+            }
+            Kind::Reserved => {
+                let value = said.default.map(|value| Value::Integer(value.value));
+                (described.has_reserved(), value, said.default.map(|value| value.span))
+            }
+            Kind::EventTimer => {
+                let value = number(pdo.event_timer);
+                (value.is_some(), value, decl.event_timer.map(|value| value.span))
+            }
+            Kind::SyncStart => {
+                let value = number(pdo.sync_start.map(u16::from));
+                (value.is_some(), value, decl.sync_start.map(|value| value.span))
+            }
+        };
+        there.then(|| Parameter {
+            sub: kind.sub(),
+            said,
+            data_type: kind.data_type(),
+            access: kind.usual_access(),
+            stated: (default.is_some() || kind == Kind::Count).then(|| stated(written, decl)),
+            default,
+            about: kind.about(),
+        })
+    };
+    let mut list: Vec<Parameter> = Kind::ALL.into_iter().filter_map(parameter).collect();
+    let highest = list.last().map(|parameter| u16::from(parameter.sub));
+    if let Some(count) = list.first_mut() {
+        count.default = number(highest);
     }
-    if let Some(time) = pdo.event_timer {
-        list.push(Parameter {
-            sub: 5,
-            name: "event timer".to_owned(),
-            data_type: DataType::Unsigned16,
-            writable: true,
-            default: number(time),
-            stated: stated(decl.event_timer.map(|value| value.span), decl),
-            about: "longest time between two transmissions or, for an RPDO, receptions, in ms; 0: off",
-        });
-    }
-    if let Some(start) = pdo.sync_start {
-        list.push(Parameter {
-            sub: 6,
-            name: "SYNC start value".to_owned(),
-            data_type: DataType::Unsigned8,
-            writable: true,
-            default: number(u16::from(start)),
-            stated: stated(decl.sync_start.map(|value| value.span), decl),
-            about: "SYNC counter value of the first transmission; 0: any",
-        });
-    }
-    let highest = list.last().map_or(0, |parameter| parameter.sub);
-    list.insert(
-        0,
-        Parameter {
-            sub: 0,
-            name: "highest sub-index supported".to_owned(),
-            data_type: DataType::Unsigned8,
-            writable: false,
-            default: number(u16::from(highest)),
-            stated: stated(None, decl),
-            about: "",
-        },
-    );
-    let name = format!("{title} {} communication parameter", pdo.number);
-    let mut object = object(pdo.communication_index(), name, list, pdo.span);
+    let name = described.communication_name(pdo);
+    let mut object = object(pdo.communication_index(), name, list, described.stored, pdo.span);
     if let (Some(flag), Some(cob_id)) = (decl.no_rtr, object.entries.get_mut(1)) {
         cob_id.facts.state(Fact::RemoteFrames, stated(Some(flag.span), decl));
     }
     object
 }
 
-pub(super) fn mapping_object(pdo: &Pdo, decl: &PdoDecl, map: &[Spanned<Mapped>]) -> Object {
-    let title = pdo.direction.pdo();
+pub(super) fn mapping_object(
+    pdo: &Pdo,
+    decl: &PdoDecl,
+    described: &Described<'_>,
+    map: &[Spanned<Mapped>],
+) -> Object {
     let mapped = i128::try_from(map.len()).unwrap_or_default();
+    let access = if pdo.variable_mapping { Access::Rw } else { Access::Ro };
     let mut list = vec![Parameter {
         sub: 0,
-        name: "number of mapped entries".to_owned(),
+        said: described.mapped(pdo),
         data_type: DataType::Unsigned8,
-        writable: pdo.variable_mapping,
+        access,
         default: Some(Value::Integer(mapped)),
-        stated: stated(Some(decl.span), decl),
+        stated: Some(stated(Some(decl.span), decl)),
         about: "0 disables the mapping while it is changed",
     }];
     list.extend((1..=pdo.capacity).map(|sub| {
         let mapped = map.get(usize::from(sub) - 1);
         Parameter {
             sub,
-            name: format!("mapped entry {sub}"),
+            said: described.entry(sub, pdo),
             data_type: DataType::Unsigned32,
-            writable: pdo.variable_mapping,
+            access,
             default: Some(Value::Integer(mapped.map_or(0, |mapped| mapped.value.parameter().into()))),
-            stated: stated(mapped.map(|mapped| mapped.span), decl),
+            stated: Some(stated(mapped.map(|mapped| mapped.span), decl)),
             about: "bits 31..16 index, 15..8 sub-index, 7..0 length in bits",
         }
     }));
-    let name = format!("{title} {} mapping parameter", pdo.number);
-    let mut object = object(pdo.mapping_index(), name, list, pdo.span);
+    let name = described.mapping_name(pdo);
+    let mut object = object(pdo.mapping_index(), name, list, described.stored, pdo.span);
     if let (Some(capacity), Some(count)) = (decl.capacity, object.entries.first_mut()) {
         count.facts.state(Fact::Capacity, stated(Some(capacity.span), decl));
     }

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use super::numbers::{to_u8, to_u16};
 use super::pdo_objects::{communication_object, mapping_object};
+use super::pdo_parameters::{Described, check_limits};
 use super::refs::{Broken, Names};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{Name, PdoDecl};
+use crate::ast::{Name, PdoDecl, PdosDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, Value};
@@ -16,7 +17,7 @@ use crate::source::{Span, Spanned};
 /// Resolves the PDOs of a device and adds their parameter objects. A PDO whose parameter objects are written in full follows from
 /// them; `written` tells where an object is.
 pub(super) fn resolve(
-    list: &[PdoDecl],
+    decl: &PdosDecl,
     info: &DeviceInfo,
     written: impl Fn(Index) -> Option<Span>,
     objects: &mut BTreeMap<Index, Object>,
@@ -26,20 +27,30 @@ pub(super) fn resolve(
     let mut pdos: Vec<Pdo> = Vec::new();
     let mut parameters: Vec<Object> = Vec::new();
     let names = Names::new(objects.values());
-    for decl in list {
-        let in_full = parameter_indices(decl).into_iter().filter_map(|index| Some((index, written(index)?)));
+    let of_some = decl.list.iter().filter_map(|one| one.parameters.as_ref());
+    for described in [&decl.receive, &decl.transmit].into_iter().flatten().chain(of_some) {
+        check_limits(described, diagnostics);
+    }
+    for one in &decl.list {
+        let in_full = parameter_indices(one).into_iter().filter_map(|index| Some((index, written(index)?)));
         if let Some((index, object)) = in_full.min() {
-            diagnostics.push(stands_twice(decl, index, object));
+            diagnostics.push(stands_twice(one, index, object));
             continue;
         }
         let map: Vec<Spanned<Mapped>> =
-            decl.map.iter().filter_map(|name| mapped(name, &names, objects, broken, diagnostics)).collect();
-        match pdo(decl, info, &map, diagnostics) {
+            one.map.iter().filter_map(|name| mapped(name, &names, objects, broken, diagnostics)).collect();
+        let described = Described::new(decl, one);
+        let made =
+            pdo(one, info, &map, diagnostics).filter(|pdo| is_of_one_kind(pdo, &described, diagnostics));
+        match made {
             Some(pdo) => {
-                parameters.extend([communication_object(&pdo, decl), mapping_object(&pdo, decl, &map)]);
+                parameters.extend([
+                    communication_object(&pdo, one, &described),
+                    mapping_object(&pdo, one, &described, &map),
+                ]);
                 pdos.push(pdo);
             }
-            None => parameter_indices(decl).into_iter().for_each(|index| broken.add(index, None)),
+            None => parameter_indices(one).into_iter().for_each(|index| broken.add(index, None)),
         }
     }
     pdos.extend(objects.values().filter_map(|object| Pdo::of_objects(object, objects)));
@@ -55,6 +66,27 @@ fn stands_twice(decl: &PdoDecl, index: Index, object: Span) -> Diagnostic {
         .label("written in full")
         .with(decl.number.span, "the PDO, of which its parameter objects are made")
         .help(format!("remove the object, or {pdo} from `pdos:`; a PDO has one description"))
+}
+
+/// Whether the mapping can be changed is said by `mapping:`; the access of the number of mapped entries does not say otherwise.
+fn is_of_one_kind(pdo: &Pdo, described: &Described<'_>, diagnostics: &mut Diagnostics) -> bool {
+    let access = described.mapped(pdo).access;
+    let Some(access) = access.filter(|access| access.value.is_writable() != pdo.variable_mapping) else {
+        return true;
+    };
+    let (kind, otherwise) = if pdo.variable_mapping { ("variable", "fixed") } else { ("fixed", "variable") };
+    let message = format!(
+        "the number of mapped entries of {} {} is `{}`, but its mapping is {kind}",
+        pdo.direction.pdo(),
+        pdo.number,
+        access.value.word()
+    );
+    diagnostics.push(
+        Diagnostic::new(codes::CONFLICTING_KEYS, access.span, message)
+            .with(pdo.span, "the PDO")
+            .help(format!("correct the access, or write `mapping: {otherwise}` at the PDO")),
+    );
+    false
 }
 
 /// The communication and mapping parameter of a PDO.

@@ -3,7 +3,7 @@
 use std::fmt::{self, Debug};
 
 use od_spec::ascii::transliterate;
-use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, PdoMapping, Role, SubIndex, Value};
+use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, PdoMapping, SubIndex, Value};
 
 /// A fact that an EDS states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -161,11 +161,8 @@ fn object(before: &Object, after: &Object, found: &mut Vec<Difference>) {
     found.extend(fact(whole, Stated::Kind, &before.kind, &after.kind));
     let links = |object: &Object| object.linked().collect::<Vec<_>>();
     found.extend(fact(whole, Stated::Links, &links(before), &links(after)));
-    // A parameter object that `pdos:` makes has the name that every such object has.
-    let named = |id, one: &str, other: &str| {
-        let is_kept = Role::of(index).is_pdo_parameter();
-        fact(id, Stated::Name, &transliterate(one), &transliterate(other)).filter(|_| !is_kept)
-    };
+    let named =
+        |id, one: &str, other: &str| fact(id, Stated::Name, &transliterate(one), &transliterate(other));
     found.extend(named(whole, &before.name, &after.name));
     for one in &before.entries {
         let id = EntryId { index, sub: one.sub };
