@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
+use od_spec::diag::{Code, Diagnostic, codes};
 use od_spec::eds::Document;
 use od_spec::encoding::decode;
 use od_spec::source::SourceMap;
@@ -120,16 +120,13 @@ impl File {
     fn tell(&self, written: bool, report: &Report) -> bool {
         let mut left = self.fixed.left.clone();
         left.soften();
-        let mut decisions = Diagnostics::new();
-        for diagnostic in left.iter().filter(|one| one.severity() != Severity::Note) {
-            decisions.push(diagnostic.clone());
-        }
+        let decisions = left.clone().without_notes();
         report.show(&decisions, &self.fixed.sources);
         report.note(&self.summary(written));
         let notes = left.iter().count() - decisions.iter().count();
         if notes > 0 {
-            let plural = if notes == 1 { "" } else { "s" };
-            report.note(&format!("{}: {notes} note{plural} about matters of form are not shown", self.name));
+            let (count, them) = if notes == 1 { ("note", "it") } else { ("notes", "them") };
+            report.note(&format!("{}: {notes} {count}, `odgen check --notes` shows {them}", self.name));
         }
         left.has_errors()
     }

@@ -48,8 +48,9 @@ impl Report {
         let _ = std::io::stderr().write_all(text.as_bytes());
     }
 
-    /// Writes diagnostics and, for people, their number.
+    /// Writes what is wrong and, for people, how much it is; notes are for `odgen check --notes`.
     pub(crate) fn show(&self, diagnostics: &Diagnostics, sources: &SourceMap) {
+        let diagnostics = &diagnostics.clone().without_notes();
         let mut text = render::render(diagnostics, sources, self.format, self.colour);
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {

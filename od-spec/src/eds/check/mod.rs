@@ -8,7 +8,6 @@ mod enumeration;
 mod keys;
 mod numbered;
 mod object_form;
-mod repeated;
 mod rule;
 
 mod commissioning;
@@ -68,6 +67,7 @@ pub(crate) static RULES: &[FormatRule] = &[
     information::dummies_are_allowed_or_not::RULE,
     information::every_dummy_is_mentioned::RULE,
     information::dummies_are_static_types::RULE,
+    information::dynamic_objects_are_not_described::RULE,
     lists::lists_exist::RULE,
     lists::counts_agree::RULE,
     lists::lists_are_numbered::RULE,
@@ -87,6 +87,7 @@ pub(crate) static RULES: &[FormatRule] = &[
     objects::flags_are_defined::RULE,
     objects::flags_are_needed::RULE,
     objects::links_lead_somewhere::RULE,
+    objects::mapping_has_a_direction::RULE,
     modules::modules_are_described::RULE,
     modules::modules_bring_something::RULE,
     modules::objects_of_modules_are_one_thing::RULE,

@@ -1,9 +1,8 @@
 //! Every section is one of the standard.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::decode::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::names::{List, Topic, canonical};
 use crate::eds::view::{View, name_place};
 
