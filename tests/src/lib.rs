@@ -48,3 +48,21 @@ pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> 
         _ => Err(render(&diagnostics, &sources, Format::Human, false).into()),
     }
 }
+
+/// Breaks a text at one of its lines: takes it out, doubles it, puts another before it, replaces its value, or moves it.
+pub fn break_lines(lines: &mut Vec<String>, at: usize, kind: u8, one: &str, other: &str) {
+    match kind {
+        0 => drop(lines.remove(at)),
+        1 => lines.insert(at, lines[at].clone()),
+        2 => lines.insert(at, format!("{one}{other}")),
+        3 => {
+            let key = lines[at].split('=').next().unwrap_or_default().to_owned();
+            lines[at] = format!("{key}={one}");
+        }
+        _ => {
+            let line = lines.remove(at);
+            let to = (at * 7 + 3) % (lines.len() + 1);
+            lines.insert(to, line);
+        }
+    }
+}

@@ -2,13 +2,11 @@
 
 use std::fmt;
 
+use crate::model;
+
 /// A date; printed as the standard has it, `mm-dd-yyyy`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Date {
-    year: u16,
-    month: u8,
-    day: u8,
-}
+pub(super) struct Date(model::Date);
 
 /// A time; printed as the standard has it, `hh:mmAM`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,22 +47,13 @@ impl Date {
     }
 
     fn new(year: u16, month: u16, day: u16) -> Option<Self> {
-        let is_leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
-        let days = match month {
-            1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
-            4 | 6 | 9 | 11 => 30,
-            2 if is_leap => 29,
-            2 => 28,
-            _ => return None,
-        };
-        let is_day = (1..=days).contains(&day) && (1000..=9999).contains(&year);
-        is_day.then_some(Self { year, month: u8::try_from(month).ok()?, day: u8::try_from(day).ok()? })
+        model::Date::of(year, month, day).filter(|date| date.year >= 1000).map(Self)
     }
 }
 
 impl fmt::Display for Date {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:02}-{:02}-{}", self.month, self.day, self.year)
+        write!(f, "{:02}-{:02}-{}", self.0.month, self.0.day, self.0.year)
     }
 }
 
