@@ -23,6 +23,11 @@ pub struct Selection<'a> {
 pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
     let devices = Devices::listed(selection.devices);
     let wanted = |device: &&Dictionary| devices.includes(&device.key);
+    let configured = selection.configured.map(|configured| {
+        let mut configured = configured.clone();
+        configured.node = selection.node.unwrap_or(configured.node);
+        configured
+    });
     // The dump is half of the work, and independent of the rest.
     std::thread::scope(|scope| {
         let files = scope.spawn(|| {
@@ -31,15 +36,8 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
                 let path = format!("eds/{}.eds", device.key);
                 let bytes = eds::write_eds(system, device);
                 list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
-                let commissioning = match (selection.node, selection.configured) {
-                    (Some(node), Some(configured)) => {
-                        let mut commissioning = configured.clone();
-                        commissioning.node = node;
-                        Some(Cow::Owned(commissioning))
-                    }
-                    (Some(node), None) => Some(Cow::Owned(Commissioning::of_node(device, node))),
-                    (None, configured) => configured.map(Cow::Borrowed),
-                };
+                let of_node = || selection.node.map(|node| Cow::Owned(Commissioning::of_node(device, node)));
+                let commissioning = configured.as_ref().map(Cow::Borrowed).or_else(of_node);
                 if let Some(commissioning) = commissioning {
                     let node = commissioning.node;
                     let file = format!("{}.dcf", device.key);
@@ -50,7 +48,7 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
             }
             list
         });
-        let bytes = match selection.configured.filter(|_| selection.node.is_none()) {
+        let bytes = match &configured {
             Some(node) => json::dump_node(system, selection.devices, node),
             None => json::dump(system, selection.devices),
         };

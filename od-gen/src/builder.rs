@@ -119,7 +119,7 @@ impl Builder {
     }
 
     /// Writes `KEY.rs` for each device and tells cargo about it. Mistakes in the specification appear as errors of the build,
-    /// with their places and with help, and end the process with exit code 1; warnings appear as warnings. Of an EDS or DCF, which
+    /// with their places and with help, and end the process with exit code 1; warnings appear as warnings, notes not at all. Of an EDS or DCF, which
     /// is read whatever is wrong with it, one warning says how much that is.
     #[expect(clippy::print_stdout, clippy::print_stderr, reason = "cargo reads what a build script prints")]
     pub fn generate(&self) {
@@ -130,7 +130,7 @@ impl Builder {
         if let Some(line) = &outcome.in_short {
             println!("cargo::warning={line}");
         }
-        for diagnostic in &outcome.diagnostics {
+        for diagnostic in &outcome.diagnostics.clone().without_notes() {
             let mut one = Diagnostics::new();
             one.push(diagnostic.clone());
             let kind = if diagnostic.severity() == Severity::Error { "error" } else { "warning" };

@@ -245,3 +245,62 @@ fn a_count_without_a_value_is_said_once() {
     crate::check::system(standard::rules(&rules), &system, None, &mut Allowed::none(), &mut diagnostics);
     assert_eq!(codes(&diagnostics), ["OD0818"]);
 }
+
+const LEVEL: &str = "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\n";
+
+/// A maker reserves no identifier that whoever configures the network has not given; who sets one has.
+#[test]
+fn an_identifier_is_expected_of_a_device_not_of_a_node() {
+    let tpdo =
+        |parameters: &str| format!("{LEVEL}pdos:\n  io: {{transmit: {{{parameters}, map: [level]}}}}}}");
+    for parameters in
+        ["4: {cob-id: $NODEID + 0x480", "1: {valid: no, cob-id: 0x300", "5: {valid: no, cob-id: 0x300"]
+    {
+        assert_eq!(said(&tpdo(parameters), 1, &[]), NONE, "{parameters}");
+    }
+    for parameters in ["1: {cob-id: 0x181", "4: {cob-id: $NODEID + 0x180", "5: {cob-id: $NODEID + 0x180"] {
+        assert_eq!(said(&tpdo(parameters), 1, &[]), ["OD0823"], "{parameters}");
+    }
+    assert_eq!(said(&tpdo("1: {valid: yes"), 5, &["1800.1=0x300"]), NONE);
+    // That no PDO can have the identifier is said by itself.
+    assert_eq!(said(&tpdo("1: {cob-id: $NODEID + 0x600"), 1, &[]), ["OD0503"]);
+}
+
+#[test]
+fn a_time_that_is_set_is_kept_or_said() {
+    let device =
+        "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, sync consumer]}\n";
+    let tpdo = format!(
+        "{device}{LEVEL}pdos:\n  io: {{transmit: {{1: {{inhibit-time: 0, event-timer: 0, map: [level]}}}}}}"
+    );
+    assert_eq!(said(&tpdo, 5, &["1800.5=100"]), NONE);
+    for kind in ["1800.2=0", "1800.2=240", "1800.2=252", "1800.2=253"] {
+        assert_eq!(said(&tpdo, 5, &[kind]), NONE, "{kind}");
+        assert_eq!(said(&tpdo, 5, &[kind, "1800.5=100"]), ["OD0824"], "{kind}");
+        assert_eq!(said(&tpdo, 5, &[kind, "1800.3=100"]), ["OD0824"], "{kind}");
+    }
+    let rpdo = "objects:\n  0x2000: {name: level, type: unsigned8, access: rww, pdo: receive}\npdos:\n  io: {receive: {1: {inhibit-time: 0, event-timer: 0, map: [level]}}}";
+    assert_eq!(said(rpdo, 5, &["1400.5=100"]), NONE, "an RPDO that fails to come is noticed");
+    assert_eq!(said(rpdo, 5, &["1400.3=100"]), ["OD0824"]);
+}
+
+/// What is set says nothing about defaults.
+#[test]
+fn settings_are_no_defaults() {
+    let array = "objects:\n  0x2000: {name: limits, array: {count: 2, name: \"limit {n}\", type: unsigned8, access: rw}}";
+    assert_eq!(said(array, 5, &["2000.2=7"]), NONE);
+    assert_eq!(said("objects:\n  0x2000: {name: key, type: unsigned8, access: wo}", 5, &["2000=7"]), NONE);
+}
+
+/// The number of mapped entries can be set to that of a multiplexed PDO where its access and its limits let it.
+#[test]
+fn a_mapping_that_can_be_changed_can_be_multiplexed() {
+    let device = |count: &str| {
+        format!(
+            "devices:\n  io: {{name: Example, bit-rates: [125], group-messaging: yes, features: [heartbeat producer]}}\n{LEVEL}  0x1800:\n    name: TPDO 1\n    record:\n      1: {{name: COB-ID, type: unsigned32, access: rw, default: $NODEID + 0x180}}\n      2: {{name: transmission type, type: unsigned8, access: rw, default: 255}}\n  0x1A00:\n    name: TPDO 1 mapping\n    sub0: {{{count}, default: 1}}\n    record:\n      1: {{name: mapped entry 1, type: unsigned32, access: rw, default: 0x2000_0008}}"
+        )
+    };
+    assert_eq!(said(&device("access: rw"), 1, &[]), NONE);
+    assert_eq!(said(&device("access: rw, max: 64"), 1, &[]), ["OD0827"]);
+    assert_eq!(said(&device("access: rw, max: 254"), 1, &[]), NONE);
+}

@@ -179,6 +179,14 @@ impl Pdo<'_> {
     }
 }
 
+/// The communication parameters of a PDO with an inhibit time and an event timer.
+fn pdo_with_times(index: u16, transmission: &str) -> String {
+    let transmission = format!("DefaultValue={transmission}");
+    let (time, reserved) = ((6, "rw", "DefaultValue=100"), (5, "rw", ""));
+    let subs = [(7, "rw", "DefaultValue=$NODEID+0x80000180"), (5, "rw", &transmission), time, reserved, time];
+    structured(index, 9, ("const", "DefaultValue=5"), &subs)
+}
+
 /// Entries that PDOs map.
 fn levels() -> String {
     var(0x2000, "level", 5, "ro", "PDOMapping=1") + &var(0x2001, "set level", 5, "rww", "PDOMapping=1")
@@ -273,6 +281,20 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0818", structured(0x2000, 8, ("ro", "DefaultValue=1\nPDOMapping=1"), &[element])),
         ("OD0819", pdo(Pdo { count: ("rw", "2"), mapped: &[("rw", "0x20000008"); 2], ..TPDO })),
         ("OD0820", pdo(Pdo { cob_id: ("ro", "$NODEID+0x180"), ..TPDO })),
+        ("OD0821", info("VendorNumber=0") + &level("")),
+        ("OD0822", structured(0x2000, 8, ("const", "DefaultValue=2"), &[element, (5, "rw", "")])),
+        ("OD0822", structured(0x2000, 8, ("const", "DefaultValue=2"), &[element, (5, "ro", in_pdo)])),
+        ("OD0822", structured(0x2000, 8, ("const", "DefaultValue=2"), &[(5, "rw", ""), (5, "rw", "DefaultValue=1")])),
+        ("OD0823", pdo(Pdo { cob_id: ("rw", "0x185"), ..TPDO })),
+        ("OD0823", pdo(Pdo { cob_id: ("rw", "$NODEID+0x180"), ..RPDO })),
+        ("OD0823", pdo(Pdo { index: 0x1804, cob_id: ("rw", "$NODEID+0x1C0"), ..TPDO })),
+        ("OD0824", pdo_with_times(TPDO.index, "1")),
+        ("OD0824", pdo_with_times(TPDO.index, "253")),
+        ("OD0824", pdo_with_times(RPDO.index, "255")),
+        ("OD0825", var(0x2000, "level", 5, "wo", &default("1"))),
+        ("OD0826", var(0x2000, "level", 0x16, "ro", "")),
+        ("OD0827", info("GroupMessaging=1") + &level("")),
+        ("OD0827", info("GroupMessaging=1") + &pdo(Pdo { count: ("ro", "1"), ..TPDO })),
     ]
 }
 

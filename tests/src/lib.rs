@@ -7,6 +7,7 @@ pub mod generate;
 use std::path::{Path, PathBuf};
 
 use od_spec::diag::render::{Format, render};
+use od_spec::diag::{Diagnostic, Severity};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, NoFiles, compile};
@@ -19,10 +20,16 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
-/// Compiles a file of the workspace that is expected to be without any message.
+/// Whether a message is a note about what the manuals of the shipped devices say: they name no vendor-ID, and have an element
+/// that is read back in an array of those that are written.
+pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
+    diagnostic.severity() == Severity::Note && ["OD0821", "OD0822"].contains(&diagnostic.code.id)
+}
+
+/// Compiles a file of the workspace that is expected to be without a message, but for notes.
 ///
 /// # Errors
-/// The file cannot be read, or the compiler has something to say.
+/// The file cannot be read, or the compiler has more to say than notes.
 pub fn compile_clean(path: &str) -> Result<System, Failure> {
     compile_with_sources(path).map(|(system, _)| system)
 }
@@ -37,7 +44,25 @@ pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> 
     let root = sources.add(path, text);
     let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
     match system {
-        Some(system) if diagnostics.is_empty() => Ok((system, sources)),
+        Some(system) if diagnostics.clone().without_notes().is_empty() => Ok((system, sources)),
         _ => Err(render(&diagnostics, &sources, Format::Human, false).into()),
+    }
+}
+
+/// Breaks a text at one of its lines: takes it out, doubles it, puts another before it, replaces its value, or moves it.
+pub fn break_lines(lines: &mut Vec<String>, at: usize, kind: u8, one: &str, other: &str) {
+    match kind {
+        0 => drop(lines.remove(at)),
+        1 => lines.insert(at, lines[at].clone()),
+        2 => lines.insert(at, format!("{one}{other}")),
+        3 => {
+            let key = lines[at].split('=').next().unwrap_or_default().to_owned();
+            lines[at] = format!("{key}={one}");
+        }
+        _ => {
+            let line = lines.remove(at);
+            let to = (at * 7 + 3) % (lines.len() + 1);
+            lines.insert(to, line);
+        }
     }
 }

@@ -107,8 +107,10 @@ fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node
     if is_client && FIRST_CHANNEL.iter().any(|range| range.contains(&id)) {
         return None;
     }
-    RESTRICTED
-        .iter()
-        .any(|restricted| restricted.contains(&id))
-        .then(|| format!("{id:03X}h{on_node} is kept for another service"))
+    is_restricted(id).then(|| format!("{id:03X}h{on_node} is kept for another service"))
+}
+
+/// Whether an identifier is kept for a service that cannot be moved.
+pub(super) fn is_restricted(id: i128) -> bool {
+    RESTRICTED.iter().any(|restricted| restricted.contains(&id))
 }

@@ -29,11 +29,13 @@ mod counts_agree;
 mod counts_are_constant;
 mod definitions_are_used;
 mod device_type_is_kept;
+mod elements_are_alike;
 mod error_codes_are_listed;
 mod error_control_exists;
 mod granularity_fits_mapping;
 mod identity_agrees;
 mod indices_in_object_areas;
+mod integers_have_common_widths;
 mod limits_in_order;
 mod links_lead_somewhere;
 mod locked_entries_are_not_set;
@@ -45,6 +47,7 @@ mod mappable_types_have_a_length;
 mod mapped_entries_are_mappable;
 mod mapping_follows_access;
 mod mappings_change_as_a_whole;
+mod multiplexed_pdos_are_possible;
 mod multiplexed_pdos_are_supported;
 mod names_are_unique;
 mod names_fit_eds;
@@ -52,6 +55,7 @@ mod objects_need_each_other;
 mod pdo_parameters_agree;
 mod pdos_can_be_switched_off;
 mod pdos_fit_a_frame;
+mod pdos_have_their_predefined_cob_ids;
 mod pdos_map_each_entry_once;
 mod placeholders_are_accepted;
 mod predefined_cob_ids_are_kept;
@@ -65,10 +69,13 @@ mod standard_objects_keep_their_type;
 mod stored_entries_can_be_stored;
 mod structures_have_entries;
 pub(crate) mod texts_fit_eds;
+mod times_fit_the_transmission;
 mod transmission_types_are_defined;
 mod value_fits_type;
 mod value_in_enum;
 mod value_within_limits;
+mod values_can_be_read_back;
+mod vendor_has_a_number;
 mod write_conditions_are_met;
 
 /// Codes of rules that reading and looking up report as well.
@@ -153,6 +160,13 @@ pub(crate) static RULES: &[Rule] = &[
     counts_are_constant::RULE,
     pdos_map_each_entry_once::RULE,
     pdos_can_be_switched_off::RULE,
+    vendor_has_a_number::RULE,
+    elements_are_alike::RULE,
+    pdos_have_their_predefined_cob_ids::RULE,
+    times_fit_the_transmission::RULE,
+    values_can_be_read_back::RULE,
+    integers_have_common_widths::RULE,
+    multiplexed_pdos_are_possible::RULE,
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.

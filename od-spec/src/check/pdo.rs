@@ -13,7 +13,7 @@ pub(super) const NO_REMOTE_FRAMES: i128 = 1 << 30;
 /// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they were read from.
 pub(super) const SOURCE_ADDRESS: i128 = 254;
 /// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they are written to.
-const DESTINATION_ADDRESS: i128 = 255;
+pub(super) const DESTINATION_ADDRESS: i128 = 255;
 
 /// Whether a number of mapped entries is none, but makes the PDO a multiplexed one (CiA 301, 11.4).
 pub(super) const fn is_multiplexed(count: i128) -> bool {

@@ -4,8 +4,10 @@ mod code;
 pub mod codes;
 pub mod readers;
 pub mod render;
+mod repeated;
 
 pub use code::{Code, Example, Language};
+pub(crate) use repeated::Repeated;
 
 use crate::source::Span;
 use readers::Readers;
@@ -203,6 +205,13 @@ impl Diagnostics {
     pub fn count(&self) -> (usize, usize) {
         let of = |severity| self.list.iter().filter(|d| d.severity() == severity).count();
         (of(Severity::Error), of(Severity::Warning))
+    }
+
+    /// Those after which something has to be done. Who builds with a file has no use for the notes about it.
+    #[must_use]
+    pub fn without_notes(mut self) -> Self {
+        self.list.retain(|diagnostic| diagnostic.severity() != Severity::Note);
+        self
     }
 
     /// Takes each message as serious as it is in an EDS that was written by others and is only read.

@@ -33,6 +33,19 @@ pub(crate) enum Topic {
     Unknown,
 }
 
+impl Topic {
+    /// The sections of every EDS that come before those of objects, in the order of the standard's examples.
+    pub(crate) const OF_EVERY_FILE: [Self; 7] = [
+        Self::FileInfo,
+        Self::DeviceInfo,
+        Self::DummyUsage,
+        Self::Comments,
+        Self::Objects(List::Mandatory),
+        Self::Objects(List::Optional),
+        Self::Objects(List::Manufacturer),
+    ];
+}
+
 /// A list of objects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum List {

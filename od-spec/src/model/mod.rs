@@ -112,6 +112,8 @@ pub struct Vendor {
     pub number: u32,
     /// Where the name is written.
     pub name_span: Option<Span>,
+    /// Where the number is written.
+    pub number_span: Option<Span>,
 }
 
 /// An emergency and error code (603Fh, 1003h).

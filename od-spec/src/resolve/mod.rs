@@ -57,6 +57,7 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
             .map_or("unknown".to_owned(), |name| name.value.clone()),
         number: root.vendor.as_ref().and_then(|vendor| vendor.number.as_ref()).map_or(0, |n| to_u32(n.value)),
         name_span: root.vendor.as_ref().and_then(|vendor| vendor.name.as_ref()).map(|name| name.span),
+        number_span: root.vendor.as_ref().and_then(|vendor| vendor.number.as_ref()).map(|number| number.span),
     };
     if root.profile.is_none() && root.devices.is_empty() && !root.unsure {
         diagnostics.push(

@@ -18,6 +18,11 @@ const NOT_VALID: i128 = 1 << 31;
 const NO_REMOTE_FRAMES: i128 = 1 << 30;
 const EXTENDED: i128 = 1 << 29;
 
+/// A free identifier that is not the one of the pre-defined connection set, as the default of a PDO that exists.
+fn of_its_own(case: Case) -> Case {
+    case.but(Specification, Said::Warned("OD0823".to_owned()), Reason::DefaultIsPredefined)
+}
+
 /// CAN identifiers at the boundaries of what CiA 301 table 35 keeps for other services.
 fn identifiers() -> Vec<Case> {
     let restricted =
@@ -27,7 +32,7 @@ fn identifiers() -> Vec<Case> {
     for (communication, about) in [(0x1400, "an RPDO's identifier"), (0x1800, "a TPDO's identifier")] {
         let cob_id = |id| [number(communication, 1, id)];
         cases.extend(restricted.map(|id| refused(about, &cob_id(id), UNUSABLE, AbortCode::INVALID_VALUE)));
-        cases.extend(free.map(|id| accepted(about, &cob_id(id))));
+        cases.extend(free.map(|id| of_its_own(accepted(about, &cob_id(id)))));
     }
     cases
 }
@@ -42,7 +47,7 @@ fn flags() -> Vec<Case> {
     vec![
         refused("bit 30 of an RPDO", &receive(NO_REMOTE_FRAMES | 0x201), "OD0508", invalid),
         refused("bit 30 of an RPDO", &receive(NOT_VALID | NO_REMOTE_FRAMES | 0x201), "OD0508", invalid),
-        accepted("bit 30 of a TPDO", &transmit(NO_REMOTE_FRAMES | 0x6E1)),
+        of_its_own(accepted("bit 30 of a TPDO", &transmit(NO_REMOTE_FRAMES | 0x6E1))),
         refused("a 29-bit frame", &receive(EXTENDED | 0x300), UNUSABLE, invalid),
         refused("a 29-bit frame", &transmit(EXTENDED | 0x300), UNUSABLE, invalid),
         refused("a 29-bit frame, switched off", &receive(NOT_VALID | EXTENDED | 0x300), UNUSABLE, invalid),

@@ -29,8 +29,9 @@ fn names_of_cases_tell_what_comes_out() {
         let is_of_kind = match kind {
             "err" => compiled.system.is_none() && errors > 0,
             "warn" => compiled.system.is_some() && errors == 0 && warnings > 0,
-            "ok" => compiled.system.is_some() && errors + warnings == 0,
-            _ => panic!("{name}: a case is named err_, warn_ or ok_"),
+            "note" => compiled.system.is_some() && errors + warnings == 0 && !compiled.diagnostics.is_empty(),
+            "ok" => compiled.system.is_some() && compiled.diagnostics.is_empty(),
+            _ => panic!("{name}: a case is named err_, warn_, note_ or ok_"),
         };
         assert!(
             is_of_kind,

@@ -6,7 +6,7 @@ use od_spec::eds::Document;
 use od_spec::encoding::{decode, encode};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, Strictness, add_source, compile_as};
-use od_tests::root;
+use od_tests::{break_lines, root};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -133,20 +133,7 @@ proptest! {
         let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
         for (at, kind, one, other) in faults {
             let at = at.index(lines.len());
-            match kind {
-                0 => drop(lines.remove(at)),
-                1 => lines.insert(at, lines[at].clone()),
-                2 => lines.insert(at, format!("{one}{other}")),
-                3 => {
-                    let key = lines[at].split('=').next().unwrap_or_default().to_owned();
-                    lines[at] = format!("{key}={one}");
-                }
-                _ => {
-                    let line = lines.remove(at);
-                    let to = (at * 7 + 3) % (lines.len() + 1);
-                    lines.insert(to, line);
-                }
-            }
+            break_lines(&mut lines, at, kind, one, other);
         }
         let text = lines.iter().fold(String::new(), |mut text, line| {
             let _ = write!(text, "{line}\r\n");

@@ -121,6 +121,13 @@ const INFORMATION: &[Fault] = &[
     fault("EDS217", "Dummy0005=0", "Dummy0005=no", "Dummy0005=no", Left),
     fault("EDS218", "Dummy0001=0\r\n", "", "[DummyUsage]", SaysTheSame),
     fault("EDS219", "Dummy0001=0", "Dummy0001=0\r\nDummy001B=1", "Dummy001B=1", Left),
+    fault(
+        "EDS220",
+        "[1018]\r\n",
+        "[DynamicChannels]\r\nNrOfSeg=2\r\nRange1=0xA000-0xA0FF\r\nrange2=0x1000\r\n[1018]\r\n",
+        "[1000]",
+        Left,
+    ),
 ];
 
 /// Lists and objects.
@@ -170,6 +177,7 @@ const LISTS: &[Fault] = &[
         "[1FFFObjectLinks]",
         Left,
     ),
+    fault("EDS428", "AccessType=rww", "AccessType=RW", "AccessType=RW", Left),
     fault("EDS708", "[1000]\r\n", "[1000]\r\nUploadFile=a.bin\r\n", "UploadFile=a.bin", Left),
     fault("EDS709", "[1000]\r\n", "[1000]\r\nParameterValue=5\r\n", "ParameterValue=5", Left),
 ];

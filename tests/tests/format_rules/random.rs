@@ -1,7 +1,7 @@
 //! Whatever a text is, the rules say something about it without a panic, at places that exist, and mending it ends.
 
 use od_spec::fix;
-use od_tests::root;
+use od_tests::{break_lines, root};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -115,20 +115,7 @@ proptest! {
         let mut lines: Vec<String> = text.lines().take(300).map(str::to_owned).collect();
         for (at, kind, one, other) in faults {
             let at = at.index(lines.len());
-            match kind {
-                0 => drop(lines.remove(at)),
-                1 => lines.insert(at, lines[at].clone()),
-                2 => lines.insert(at, format!("{one}{other}")),
-                3 => {
-                    let key = lines[at].split('=').next().unwrap_or_default().to_owned();
-                    lines[at] = format!("{key}={one}");
-                }
-                _ => {
-                    let line = lines.remove(at);
-                    let to = (at * 7 + 3) % (lines.len() + 1);
-                    lines.insert(to, line);
-                }
-            }
+            break_lines(&mut lines, at, kind, one, other);
         }
         go_through("pmc.eds", lines.join("\r\n").as_bytes());
     }

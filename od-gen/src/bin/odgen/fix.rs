@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
+use od_spec::diag::{Code, Diagnostic, codes};
 use od_spec::eds::Document;
 use od_spec::encoding::decode;
 use od_spec::source::SourceMap;
@@ -117,10 +117,7 @@ impl File {
     fn tell(&self, written: bool, report: &Report) {
         let mut left = self.fixed.left.clone();
         left.soften();
-        let mut decisions = Diagnostics::new();
-        for diagnostic in left.iter().filter(|one| one.severity() != Severity::Note) {
-            decisions.push(diagnostic.clone());
-        }
+        let decisions = left.clone().without_notes();
         report.show(&decisions, &self.fixed.sources);
         report.note(&self.summary(written));
         let notes = left.iter().count() - decisions.iter().count();

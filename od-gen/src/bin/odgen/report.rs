@@ -7,7 +7,7 @@ use std::path::Path;
 use od_gen::condense;
 use od_gen::source::{FileLoader, compile_file};
 use od_spec::diag::render::{self, Format};
-use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
@@ -30,17 +30,6 @@ pub(crate) struct Used {
     pub(crate) node: Option<Commissioning>,
     /// The node-ID that a DCF states.
     pub(crate) stated_node_id: Option<u8>,
-}
-
-/// What people have not decided yet: without what `allow:` lets pass.
-fn asked(diagnostics: &Diagnostics) -> Diagnostics {
-    let mut asked = Diagnostics::new();
-    for diagnostic in diagnostics {
-        if diagnostic.severity != Severity::Note || diagnostic.code.severity == Severity::Note {
-            asked.push(diagnostic.clone());
-        }
-    }
-    asked
 }
 
 impl Used {
@@ -70,8 +59,9 @@ impl Report {
         let _ = std::io::stderr().write_all(text.as_bytes());
     }
 
-    /// Writes diagnostics and, for people, their number.
+    /// Writes what is wrong and, for people, how much it is; notes are for `odgen check --notes`.
     pub(crate) fn show(&self, diagnostics: &Diagnostics, sources: &SourceMap) {
+        let diagnostics = &diagnostics.clone().without_notes();
         let mut text = match self.format {
             Format::Human => {
                 let source = sources.files().next().map(|(_, file)| file);
@@ -83,7 +73,7 @@ impl Report {
                     Some(file) => format!("`odgen check {} --all`", file.name()),
                     None => "`odgen check --all`".to_owned(),
                 };
-                for_people(&asked(diagnostics), sources, most, &shows, self.colour)
+                for_people(diagnostics, sources, most, &shows, self.colour)
             }
             format => render::render(diagnostics, sources, format, self.colour),
         };

@@ -3,7 +3,7 @@
 use crate::diag::Edit;
 use crate::eds::document::SectionRef;
 use crate::eds::line::{Line, LineEnd, LineKind};
-use crate::eds::names::{self, List, Topic};
+use crate::eds::names::{self, Topic};
 use crate::eds::view::View;
 use crate::source::Span;
 
@@ -75,15 +75,6 @@ pub(super) fn new_section<'l>(
     topic: Topic,
     lines: impl IntoIterator<Item = &'l str>,
 ) -> Option<Edit> {
-    const ORDER: [Topic; 7] = [
-        Topic::FileInfo,
-        Topic::DeviceInfo,
-        Topic::DummyUsage,
-        Topic::Comments,
-        Topic::Objects(List::Mandatory),
-        Topic::Objects(List::Optional),
-        Topic::Objects(List::Manufacturer),
-    ];
     // A section whose name lacks a bracket is there, and gets it.
     let is_there = |line: &Line<'_>| {
         line.kind() == LineKind::Unreadable
@@ -92,7 +83,7 @@ pub(super) fn new_section<'l>(
     if view.document.lines().iter().any(is_there) {
         return None;
     }
-    let before = ORDER.iter().take_while(|other| **other != topic);
+    let before = Topic::OF_EVERY_FILE.iter().take_while(|other| **other != topic);
     let sections = before.filter_map(|other| view.section(*other)?.sections.last());
     let behind = sections.max_by_key(|section| place(view, section.header()).start)?;
     Some(below(view, last_line(behind), lines))

@@ -16,13 +16,11 @@ const FILE_INFO: &[&str] = &[
     "ModifiedBy",
     "LastEDS",
 ];
-const DEVICE_INFO: &[&str] = &[
-    "VendorName",
-    "VendorNumber",
-    "ProductName",
-    "ProductNumber",
-    "RevisionNumber",
-    "OrderCode",
+/// Keys of `[DeviceInfo]` that tell whose device it is and which one.
+pub(super) const IDENTITY: &[&str] =
+    &["VendorName", "VendorNumber", "ProductName", "ProductNumber", "RevisionNumber", "OrderCode"];
+/// Keys of `[DeviceInfo]` that tell what the device can do, and that every file has.
+pub(super) const ABILITIES: &[&str] = &[
     "BaudRate_10",
     "BaudRate_20",
     "BaudRate_50",
@@ -39,12 +37,10 @@ const DEVICE_INFO: &[&str] = &[
     "NrOfRXPDO",
     "NrOfTXPDO",
     "LSS_Supported",
-    "CompactPDO",
-    "CANopenSafetySupported",
-    "NG_Slave",
-    "NG_Master",
-    "NrOfNG_MonitoredNodes",
 ];
+/// Keys of `[DeviceInfo]` that a device without what they tell leaves out.
+const FURTHER_ABILITIES: &[&str] =
+    &["CompactPDO", "CANopenSafetySupported", "NG_Slave", "NG_Master", "NrOfNG_MonitoredNodes"];
 /// Keys of `[DeviceInfo]` that are reserved for EDS of version 3 (CiA 306 4.5).
 pub(in crate::eds) const RESERVED: &[&str] = &[
     "ProductVersion",
@@ -90,10 +86,8 @@ const MODULE_INFO: &[&str] = &["ProductName", "ProductVersion", "ProductRevision
 
 /// The keys of a section.
 pub(in crate::eds) struct Keys {
-    /// Those with a name.
-    named: &'static [&'static str],
-    /// Further ones with a name.
-    further: &'static [&'static str],
+    /// Those with a name, by what they are about.
+    named: &'static [&'static [&'static str]],
     /// Those with a number.
     numbered: Numbered,
 }
@@ -110,33 +104,31 @@ enum Numbered {
 
 /// The keys of a section; `None` where any may stand.
 pub(in crate::eds) fn of(topic: Topic) -> Option<Keys> {
-    const LINES: Keys = keys(&["Lines"], Numbered::Decimal("Line"));
-    const ENTRIES: Keys = keys(&["NrOfEntries"], Numbered::Decimal(""));
+    const LINES: Keys = keys(&[&["Lines"]], Numbered::Decimal("Line"));
+    const ENTRIES: Keys = keys(&[&["NrOfEntries"]], Numbered::Decimal(""));
     Some(match topic {
-        Topic::FileInfo => keys(FILE_INFO, Numbered::None),
-        Topic::DeviceInfo => Keys { further: RESERVED, ..keys(DEVICE_INFO, Numbered::None) },
+        Topic::FileInfo => keys(&[FILE_INFO], Numbered::None),
+        Topic::DeviceInfo => keys(&[IDENTITY, ABILITIES, FURTHER_ABILITIES, RESERVED], Numbered::None),
         Topic::DummyUsage => keys(&[], Numbered::Dummy),
         Topic::Comments | Topic::Module(_, ModuleTopic::Comments) => LINES,
-        Topic::Objects(_) => keys(&["SupportedObjects"], Numbered::Decimal("")),
-        Topic::Commissioning => keys(COMMISSIONING, Numbered::None),
+        Topic::Objects(_) => keys(&[&["SupportedObjects"]], Numbered::Decimal("")),
+        Topic::Commissioning => keys(&[COMMISSIONING], Numbered::None),
         Topic::Object(_) | Topic::Sub(..) | Topic::Module(_, ModuleTopic::Fixed(..)) => {
-            keys(OBJECT, Numbered::None)
+            keys(&[OBJECT], Numbered::None)
         }
-        Topic::Module(_, ModuleTopic::SubExtension(_)) => {
-            Keys { further: EXTENSION, ..keys(OBJECT, Numbered::None) }
-        }
+        Topic::Module(_, ModuleTopic::SubExtension(_)) => keys(&[OBJECT, EXTENSION], Numbered::None),
         Topic::Elements(..)
         | Topic::ConnectedModules
         | Topic::Module(_, ModuleTopic::FixedObjects | ModuleTopic::SubExtends) => ENTRIES,
-        Topic::ObjectLinks(_) => keys(&["ObjectLinks"], Numbered::Decimal("")),
-        Topic::SupportedModules => keys(&["NrOfEntries"], Numbered::None),
-        Topic::Module(_, ModuleTopic::ModuleInfo) => keys(MODULE_INFO, Numbered::None),
+        Topic::ObjectLinks(_) => keys(&[&["ObjectLinks"]], Numbered::Decimal("")),
+        Topic::SupportedModules => keys(&[&["NrOfEntries"]], Numbered::None),
+        Topic::Module(_, ModuleTopic::ModuleInfo) => keys(&[MODULE_INFO], Numbered::None),
         Topic::DynamicChannels | Topic::Tools | Topic::Tool(_) | Topic::Unknown => return None,
     })
 }
 
-const fn keys(named: &'static [&'static str], numbered: Numbered) -> Keys {
-    Keys { named, further: &[], numbered }
+const fn keys(named: &'static [&'static [&'static str]], numbered: Numbered) -> Keys {
+    Keys { named, numbered }
 }
 
 /// Whether a section describes an object or entry.
@@ -152,7 +144,7 @@ pub(in crate::eds) const fn is_of_object(topic: Topic) -> bool {
 impl Keys {
     /// The keys with a name.
     pub(in crate::eds) fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.named.iter().chain(self.further).copied()
+        self.named.iter().copied().flatten().copied()
     }
 
     /// A key in the standard's capitals; `None` for one that the section does not have.

@@ -7,7 +7,6 @@ mod enumeration;
 pub(in crate::eds) mod keys;
 mod numbered;
 mod object_form;
-mod repeated;
 mod rule;
 
 mod commissioning;
@@ -67,6 +66,7 @@ pub(crate) static RULES: &[FormatRule] = &[
     information::dummies_are_allowed_or_not::RULE,
     information::every_dummy_is_mentioned::RULE,
     information::dummies_are_static_types::RULE,
+    information::dynamic_objects_are_not_described::RULE,
     lists::lists_exist::RULE,
     lists::counts_agree::RULE,
     lists::lists_are_numbered::RULE,
@@ -86,6 +86,7 @@ pub(crate) static RULES: &[FormatRule] = &[
     objects::flags_are_defined::RULE,
     objects::flags_are_needed::RULE,
     objects::links_have_an_object::RULE,
+    objects::mapping_has_a_direction::RULE,
     modules::modules_are_described::RULE,
     modules::modules_bring_something::RULE,
     modules::objects_of_modules_are_one_thing::RULE,

@@ -1,9 +1,8 @@
 //! An EDS holds no settings of a node.
 
 use super::super::keys;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::is_dcf;
 use crate::eds::names::Topic;
 use crate::eds::view::View;

@@ -1,6 +1,7 @@
 //! The device says whose it is and which one.
 
 use super::super::enumeration::enumeration;
+use super::super::keys::IDENTITY;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::eds::names::Topic;
@@ -20,12 +21,9 @@ const CODE: &Code = &Code {
     example: Some(Example::eds("[DeviceInfo]\nVendorNumber=\n; ...", "[DeviceInfo]\nVendorNumber=1\n; ...")),
 };
 
-const KEYS: [&str; 6] =
-    ["VendorName", "VendorNumber", "ProductName", "ProductNumber", "RevisionNumber", "OrderCode"];
-
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(part) = view.section(Topic::DeviceInfo) else { return };
-    let missing: Vec<&str> = KEYS.into_iter().filter(|key| part.value(key).is_none()).collect();
+    let missing: Vec<&str> = IDENTITY.iter().copied().filter(|key| part.value(key).is_none()).collect();
     let Some(first) = missing.first() else { return };
     let place = part.key(first).map_or(part.place(), |entry| entry.key.span);
     let message = format!("`[DeviceInfo]` does not say {}", enumeration(&missing));

@@ -1,6 +1,7 @@
 //! The device says which bit rates and services it has.
 
 use super::super::enumeration::enumeration;
+use super::super::keys::ABILITIES;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::eds::names::Topic;
@@ -23,28 +24,9 @@ const CODE: &Code = &Code {
     )),
 };
 
-const KEYS: [&str; 16] = [
-    "BaudRate_10",
-    "BaudRate_20",
-    "BaudRate_50",
-    "BaudRate_125",
-    "BaudRate_250",
-    "BaudRate_500",
-    "BaudRate_800",
-    "BaudRate_1000",
-    "SimpleBootUpMaster",
-    "SimpleBootUpSlave",
-    "Granularity",
-    "DynamicChannelsSupported",
-    "GroupMessaging",
-    "NrOfRXPDO",
-    "NrOfTXPDO",
-    "LSS_Supported",
-];
-
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(part) = view.section(Topic::DeviceInfo) else { return };
-    let missing: Vec<&str> = KEYS.into_iter().filter(|key| part.value(key).is_none()).collect();
+    let missing: Vec<&str> = ABILITIES.iter().copied().filter(|key| part.value(key).is_none()).collect();
     if !missing.is_empty() {
         let counts = if missing.len() == 1 { "counts" } else { "count" };
         let message = format!("`[DeviceInfo]` does not say {}, which {counts} as 0", enumeration(&missing));

@@ -1,8 +1,7 @@
 //! A dummy is allowed or not.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{Part, View};

@@ -1,8 +1,7 @@
 //! Dummies are the static data types 0001h to 0007h.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{Entry, Part, View};

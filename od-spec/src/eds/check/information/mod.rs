@@ -8,6 +8,7 @@ pub(super) mod device_says_what_it_can;
 pub(super) mod dummies_are_allowed_or_not;
 pub(super) mod dummies_are_static_types;
 pub(super) mod dynamic_channels_agree;
+pub(super) mod dynamic_objects_are_not_described;
 pub(super) mod every_dummy_is_mentioned;
 pub(super) mod file_has_its_name;
 pub(super) mod file_is_described;

@@ -1,9 +1,8 @@
 //! A comment begins with a semicolon in the first column.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity};
 use crate::eds::line::LineKind;
 use crate::eds::view::View;
 

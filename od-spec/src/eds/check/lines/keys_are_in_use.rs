@@ -1,9 +1,8 @@
 //! Keys that the standard has taken back are not used.
 
 use super::super::keys::RESERVED;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::names::Topic;
 use crate::eds::view::View;
 

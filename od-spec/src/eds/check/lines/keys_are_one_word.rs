@@ -1,9 +1,8 @@
 //! Keys are one word of letters, digits and underscores.
 
 use super::super::keys;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::view::Entry;
 use crate::eds::view::View;
 

@@ -1,8 +1,7 @@
 //! Every key stands in a section.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::view::{View, entry};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::super::keys;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::view::{Part, View};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

@@ -1,9 +1,8 @@
 //! A key begins its line and touches its equals sign.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

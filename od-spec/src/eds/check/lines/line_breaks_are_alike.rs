@@ -1,9 +1,8 @@
 //! All lines end alike, and with a line feed.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity};
 use crate::eds::line::LineEnd;
 use crate::eds::view::View;
 use crate::source::Span;

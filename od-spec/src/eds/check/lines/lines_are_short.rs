@@ -1,9 +1,8 @@
 //! Lines are at most 255 characters long, which limits every name and text.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

@@ -1,10 +1,9 @@
 //! Every line is blank, a comment, a section name, or a key with a value.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use super::headers_are_closed::is_name_without_bracket;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::line::LineKind;
 use crate::eds::view::View;
 

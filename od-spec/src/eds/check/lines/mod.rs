@@ -23,4 +23,5 @@ pub(super) mod sections_are_known;
 pub(super) mod sections_are_unique;
 pub(super) mod text_is_ascii;
 pub(super) mod texts_are_not_quoted;
+mod unknown_keys;
 pub(super) mod values_have_no_control_characters;

@@ -1,8 +1,7 @@
 //! An object comes before its sub-indices.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

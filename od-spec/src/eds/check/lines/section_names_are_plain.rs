@@ -1,9 +1,8 @@
 //! Names of sections have no prefix, no blanks and no zeros in front.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::document::SectionRef;
 use crate::eds::names::{Topic, canonical};
 use crate::eds::view::{View, name_place};

@@ -1,8 +1,7 @@
 //! Names of sections have the standard's capitals.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::names::{Topic, canonical};
 use crate::eds::view::{View, name_place};
 

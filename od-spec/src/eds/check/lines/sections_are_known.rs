@@ -1,10 +1,9 @@
 //! Every section is one of the standard.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::decode::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
-use crate::eds::names::{List, Topic, canonical};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
+use crate::eds::names::{Topic, canonical};
 use crate::eds::view::{View, name_place};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -42,18 +41,8 @@ impl Message {
 }
 
 fn message(name: &str) -> Message {
-    const PLAIN: [Topic; 9] = [
-        Topic::FileInfo,
-        Topic::DeviceInfo,
-        Topic::DummyUsage,
-        Topic::Comments,
-        Topic::Objects(List::Mandatory),
-        Topic::Objects(List::Optional),
-        Topic::Objects(List::Manufacturer),
-        Topic::Commissioning,
-        Topic::SupportedModules,
-    ];
-    let known: Vec<String> = PLAIN.into_iter().filter_map(canonical).collect();
+    let plain = Topic::OF_EVERY_FILE.into_iter().chain([Topic::Commissioning, Topic::SupportedModules]);
+    let known: Vec<String> = plain.filter_map(canonical).collect();
     let is_number = name.len() > 4 && name.bytes().all(|byte| byte.is_ascii_hexdigit());
     let text = format!("`{}` is no section of the standard", shorten(name));
     let help = match nearest(name, known.iter().map(String::as_str)) {

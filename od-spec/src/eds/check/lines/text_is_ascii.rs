@@ -1,10 +1,9 @@
 //! The text is ASCII.
 
 use super::super::edits;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::ascii::transliterate;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::line::{Line, LineKind};
 use crate::eds::view::View;
 

@@ -1,9 +1,8 @@
 //! The entries of a list of objects are indices.
 
 use super::super::numbered;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::names::{ModuleTopic, Topic};
 use crate::eds::number::integer;
 use crate::eds::view::View;

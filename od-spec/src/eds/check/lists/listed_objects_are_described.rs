@@ -1,9 +1,8 @@
 //! Every listed object has a section.
 
 use super::super::numbered;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::names::{ModuleTopic, Topic};
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;

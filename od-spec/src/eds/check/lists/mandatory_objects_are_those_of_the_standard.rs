@@ -1,9 +1,8 @@
 //! The list of mandatory objects names 1000h, 1001h and 1018h.
 
 use super::super::numbered;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::names::List;
 use crate::eds::view::View;
 

@@ -1,9 +1,8 @@
 //! Every object stands in a list.
 
 use super::super::numbered;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::names::{List, ModuleTopic};
 use crate::eds::view::{Part, View};
 use crate::model::Index;

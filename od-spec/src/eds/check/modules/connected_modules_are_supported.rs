@@ -1,9 +1,8 @@
 //! Every connected module is one that the bus coupler takes.
 
 use super::super::numbered;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;

@@ -1,9 +1,8 @@
 //! `ObjFlags` has no bits without a meaning.
 
 use super::super::keys;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
 

@@ -1,8 +1,7 @@
 //! Links lead from an object that is described. Where they lead is judged by the rules over the model.
 
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::view::{ObjectPart, View};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

@@ -2,9 +2,8 @@
 
 use super::super::edits;
 use super::super::object_form::{Form, form};
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
 

@@ -2,9 +2,8 @@
 
 use super::super::edits;
 use super::super::object_form::{Form, described, form, number};
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

@@ -1,9 +1,8 @@
 //! Sub-indices are described, or they are alike and only counted.
 
 use super::super::object_form::number;
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };

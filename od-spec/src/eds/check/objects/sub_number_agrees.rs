@@ -2,9 +2,8 @@
 
 use super::super::edits;
 use super::super::object_form::{Form, described, form};
-use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{ObjectPart, View};
 

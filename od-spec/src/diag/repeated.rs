@@ -2,24 +2,24 @@
 
 use std::fmt::Write as _;
 
-use crate::diag::{Diagnostic, Diagnostics, Edit};
+use super::{Diagnostic, Diagnostics, Edit};
 use crate::source::Span;
 
 /// A finding that may hold for many places of a file. It is said once, at the first of them, with what puts all of them
 /// right: a list of hundreds of equal messages is read by nobody.
-pub(super) struct Repeated {
+pub(crate) struct Repeated {
     first: Option<(Span, Diagnostic)>,
     places: usize,
     edits: Vec<Edit>,
 }
 
 impl Repeated {
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self { first: None, places: 0, edits: Vec::new() }
     }
 
     /// Adds a place with what puts it right there; `say` makes the message if the place is the first of the file.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         place: Span,
         edits: impl IntoIterator<Item = Edit>,
@@ -33,14 +33,21 @@ impl Repeated {
     }
 
     /// Says it, and of how many more `places` (a plural) it is true.
-    pub(super) fn finish(self, places: &str, diagnostics: &mut Diagnostics) {
-        let Some((_, mut diagnostic)) = self.first else { return };
+    pub(crate) fn finish(self, places: &str, diagnostics: &mut Diagnostics) {
+        if let Some(diagnostic) = self.into_diagnostic(places) {
+            diagnostics.push(diagnostic);
+        }
+    }
+
+    /// What there is to say: [`finish`](Self::finish), for a rule that has its own list of findings.
+    pub(crate) fn into_diagnostic(self, places: &str) -> Option<Diagnostic> {
+        let (_, mut diagnostic) = self.first?;
         if self.places > 1 {
             let more = self.places - 1;
             let _ = write!(diagnostic.message, "; {more} more {} like this", counted(places, more));
         }
         diagnostic.edits.extend(self.edits);
-        diagnostics.push(diagnostic);
+        Some(diagnostic)
     }
 }
 

@@ -1,0 +1,59 @@
+//! Keys that the standard does not have.
+
+use std::collections::BTreeMap;
+
+use super::super::keys;
+use super::keys_are_one_word::is_word;
+use crate::decode::nearest;
+use crate::diag::{Code, Diagnostic, Diagnostics, shorten};
+use crate::eds::names::Topic;
+use crate::eds::view::Part;
+use crate::source::Span;
+
+/// Names that are said; a file that is no EDS has many.
+const MOST: usize = 10;
+
+/// A name that is no key.
+struct Unknown<'d> {
+    place: Span,
+    times: usize,
+    meant: Option<&'d str>,
+}
+
+/// One message for each name among the keys of some sections: a key of somebody's own stands in many of them. `here` tells
+/// where the standard has no such key.
+pub(super) fn report<'v, 'd: 'v>(
+    code: &'static Code,
+    sections: impl Iterator<Item = (Topic, &'v Part<'d>)>,
+    here: &str,
+    diagnostics: &mut Diagnostics,
+) {
+    let mut names: BTreeMap<&str, Unknown<'_>> = BTreeMap::new();
+    for (topic, part) in sections {
+        let Some(known) = keys::of(topic) else { continue };
+        for entry in part.entries() {
+            let name = entry.key.value;
+            // What is no word is said already.
+            if known.is_standard(name) || !is_word(name) || known.spelling(name).is_some() {
+                continue;
+            }
+            let first = || Unknown { place: entry.key.span, times: 0, meant: nearest(name, known.names()) };
+            let unknown = names.entry(name).or_insert_with(first);
+            unknown.place = unknown.place.min(entry.key.span);
+            unknown.times += 1;
+        }
+    }
+    let mut names: Vec<_> = names.into_iter().collect();
+    names.sort_by_key(|(_, unknown)| unknown.place);
+    for (name, Unknown { place, times, meant }) in names.into_iter().take(MOST) {
+        let times = if times > 1 { format!("; it stands {times} times") } else { String::new() };
+        let message = format!("`{}` is no key of the standard {here}{times}", shorten(name));
+        diagnostics.push(
+            Diagnostic::new(code, place, message).help(match meant {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None => "nothing to do if the tools that read the file know it; otherwise make it a comment"
+                    .to_owned(),
+            }),
+        );
+    }
+}
