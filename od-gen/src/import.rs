@@ -64,6 +64,8 @@ pub fn import(
     let values = node_values(compiled, device);
     let count = without_place.len() + values.len();
     options.foot = foot(without_place, values);
+    // What follows takes the most memory.
+    drop(document);
     let written = yaml::specification(system, device, &options);
     Some(written.map(|written| Imported {
         text: written.text,
