@@ -1,5 +1,6 @@
 //! Names and texts stand without quotation marks.
 
+use super::super::keys::TEXTS;
 use super::super::repeated::Repeated;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
@@ -20,22 +21,6 @@ const CODE: &Code = &Code {
         "[DeviceInfo]\nVendorName=Example\n; ...",
     )),
 };
-
-/// The keys whose values are texts for people.
-const TEXTS: [&str; 12] = [
-    "ParameterName",
-    "Denotation",
-    "FileName",
-    "Description",
-    "CreatedBy",
-    "ModifiedBy",
-    "LastEDS",
-    "VendorName",
-    "ProductName",
-    "OrderCode",
-    "NodeName",
-    "NetworkName",
-];
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
