@@ -2,6 +2,7 @@
 
 mod exceptions;
 mod facts;
+mod files;
 mod steps;
 
 use std::any::Any;
@@ -9,6 +10,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use facts::{Difference, Stated, differences};
+pub use files::find;
 
 /// What is done with a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -102,7 +104,7 @@ fn guarded(step: Step, checked: &mut Checked, run: impl FnOnce(&mut Checked)) {
     }
 }
 
-fn message(panic: &(dyn Any + Send)) -> &str {
+pub(crate) fn message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a message")
 }
