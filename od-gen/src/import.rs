@@ -83,6 +83,8 @@ pub fn import(
     let values = node_values(compiled, system, device);
     let count = without_place.len() + values.settings.len() + values.refused.len() + values.texts.len();
     options.foot = foot(without_place, values, base_name(file.name()));
+    // What follows takes the most memory.
+    drop(document);
     let written = yaml::specification(system, device, &options);
     Some(written.map(|written| Imported {
         text: written.text,

@@ -109,13 +109,19 @@ fn rounds(
             break;
         }
         let mut next = read(apply(fixed.text(), &chosen));
-        if errors(&next.left) > errors(&fixed.left) {
+        if errors(&next.left) > errors(&fixed.left) || !is_read_alike(next.text(), encoding) {
             break;
         }
         next.changes = moved(&fixed.changes, &chosen);
         fixed = next;
     }
     fixed
+}
+
+/// Whether the bytes of a text stand for that text. How characters are stored is a guess where nothing says it, and may become
+/// another guess when some of them are gone.
+fn is_read_alike(text: &str, encoding: Encoding) -> bool {
+    text.is_ascii() || encode(text, encoding).is_ok_and(|bytes| decode(bytes).0 == text)
 }
 
 fn errors(diagnostics: &Diagnostics) -> usize {
@@ -257,6 +263,15 @@ mod tests {
         assert_eq!(changes.first(), Some(&(0..0, codes::BAD_COUNT.id)));
         assert_eq!(changes.last(), Some(&(7..7, codes::BAD_COUNT.id)));
         assert!(changes.contains(&(1..3, codes::BAD_FLAG.id)), "{changes:?}");
+    }
+
+    /// What looks like a mark in front of a text is none as long as the rest is no UTF-8.
+    #[test]
+    fn the_rest_of_a_text_is_read_as_before() {
+        let bytes = b"\xEF\xBB\xBF[FileInfo]\nDescription=a lamp\n;\xE4\n".as_slice();
+        let fixed = fix("lamp.eds", bytes);
+        assert_eq!(decode(fixed.to_bytes()).0, fixed.text());
+        assert!(fix("lamp.eds", &fixed.to_bytes()).changes.is_empty());
     }
 
     #[test]

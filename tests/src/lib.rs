@@ -2,6 +2,7 @@
 
 pub mod access_cases;
 pub mod foreign;
+pub mod fuzz;
 pub mod generate;
 
 use std::path::{Path, PathBuf};

@@ -144,3 +144,50 @@ fn what_is_excepted_is_counted() {
     assert!(Step::ALL.into_iter().all(|step| checked.passed(step)), "{:?}", checked.problems);
     assert_eq!(checked.excepted.len(), 1, "{:?}", checked.excepted);
 }
+
+#[test]
+fn a_unit_that_a_comment_names_at_the_number_of_entries_changes_no_value() {
+    comes_back(
+        &[
+            object("2000", 8, "SubNumber=2"),
+            "; unit PU\n".to_owned(),
+            entry("2000sub0", "DataType=5\nAccessType=ro\nDefaultValue=6"),
+            entry("2000sub1", "DataType=5\nAccessType=ro"),
+        ]
+        .concat(),
+    );
+}
+
+/// What putting right makes of this is read as before.
+fn keeps_its_meaning(objects: &str) {
+    let checked = lamp(objects);
+    assert!(checked.passed(Step::Fixing), "{:?}", checked.problems);
+}
+
+#[test]
+fn a_key_with_a_blank_is_read_as_it_is_written_when_put_right() {
+    keeps_its_meaning(&entry("2000", "DataType=5\nAc\tcessType=rw\nDefault Value=7"));
+    keeps_its_meaning(&entry("2000", "DataType=5\nAccess Type=rw\nAccessType=ro"));
+}
+
+#[test]
+fn of_equal_keys_and_sections_none_is_removed_behind_another() {
+    keeps_its_meaning(&entry("2000", "DataType=5\nAccessType=rw\nAccessType=ro\nAccessType=rw"));
+    let (one, other) =
+        (entry("2000", "DataType=5\nAccessType=rw"), entry("2000", "DataType=6\nAccessType=rw"));
+    keeps_its_meaning(&[one.clone(), other, one].concat());
+}
+
+#[test]
+fn unicode_blanks_around_a_text_are_no_part_of_it() {
+    keeps_its_meaning("[2000]\nParameterName=a name\u{2028}\nObjectType=7\nDataType=5\nAccessType=ro\n");
+}
+
+#[test]
+fn a_section_whose_name_lacks_a_bracket_is_one() {
+    for broken in ["2001]", "[2001", "  2001 ]"] {
+        let (one, other) =
+            (entry("2000", "DataType=5\nAccessType=rw"), entry("2001", "DataType=6\nAccessType=ro"));
+        keeps_its_meaning(&[one, other.replace("[2001]", broken)].concat());
+    }
+}

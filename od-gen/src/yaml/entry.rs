@@ -132,5 +132,13 @@ pub(super) fn sub0(context: &Context<'_>, object: &Object, entry: &Entry) -> Key
         // It is an UNSIGNED8, and has no other keys.
         _ => false,
     };
-    keys(context, object.index, entry).into_iter().filter(|(fact, _)| is_written(*fact)).collect()
+    let keys = if entry.unit.is_some() || entry.named_type.is_some() {
+        // Its values are not told in a unit or by name, either.
+        let mut plain = entry.clone();
+        (plain.unit, plain.named_type) = (None, None);
+        keys(context, object.index, &plain)
+    } else {
+        keys(context, object.index, entry)
+    };
+    keys.into_iter().filter(|(fact, _)| is_written(*fact)).collect()
 }

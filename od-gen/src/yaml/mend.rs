@@ -7,7 +7,7 @@ use od_spec::model::{
 };
 
 use super::emit::Written;
-use super::names::{apart, readable};
+use super::names::{apart, readable, shortened};
 use super::node::Spot;
 use super::options::Place;
 use super::remarks::Repair;
@@ -412,7 +412,7 @@ impl Draft {
         ];
         let mut changed = Vec::new();
         for text in texts {
-            let plain = shortened(&readable(text), 243);
+            let plain = shortened(&readable(text), 243).trim().to_owned();
             if plain != *text {
                 changed.push(std::mem::replace(text, plain));
             }
@@ -423,18 +423,11 @@ impl Draft {
     }
 
     fn mend_vendor(&mut self) -> Option<Repair> {
-        let plain = shortened(&readable(&self.system.vendor.name), 244);
+        let plain = shortened(&readable(&self.system.vendor.name), 244).trim().to_owned();
         let original = std::mem::replace(&mut self.system.vendor.name, plain);
         let now = self.system.vendor.name.clone();
         (now != original).then(|| repair(Place::Device, Some(Fact::Name), original, Some(now)))
     }
-}
-
-/// A text that has at most so many characters in an EDS.
-fn shortened(text: &str, longest: usize) -> String {
-    let mut kept = text.to_owned();
-    while od_spec::ascii::transliterate(&kept).len() > longest && kept.pop().is_some() {}
-    kept.trim().to_owned()
 }
 
 /// A repair whose reason the message gives.

@@ -106,6 +106,8 @@ pub fn specification(
     options: &Options,
 ) -> Result<Specification, Diagnostics> {
     let mut draft = Draft { system: system.clone(), device: device.clone() };
+    // The only device of a draft is its own.
+    draft.system.devices.clear();
     let mut left_out = leave_out(&mut draft);
     name_device(&mut draft);
     withhold(&mut draft);

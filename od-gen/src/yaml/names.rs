@@ -114,9 +114,20 @@ fn first_free(name: &str, endings: impl Iterator<Item = String>, is_free: impl F
 
 /// A name with an ending, cut so that both fit.
 fn cut(name: &str, ending: &str) -> String {
-    let mut kept: String = name.to_owned();
-    while transliterate(&kept).len() + ending.len() > LONGEST && kept.pop().is_some() {}
+    let kept = shortened(name, LONGEST.saturating_sub(ending.len()));
     format!("{}{ending}", kept.trim_end())
+}
+
+/// The front of a text that has at most so many characters in an EDS.
+pub(super) fn shortened(text: &str, longest: usize) -> &str {
+    // Characters are transcribed one by one, each for itself.
+    let mut length = 0;
+    let too_long = |c: char| {
+        length += transliterate(c.encode_utf8(&mut [0; 4])).len();
+        length > longest
+    };
+    let end = text.char_indices().zip(text.chars().map(too_long)).find(|(_, is_over)| *is_over);
+    end.map_or(text, |((end, _), _)| &text[..end])
 }
 
 /// The text of a name or of the header as a line can hold it; what another text gives where nothing is left.

@@ -19,7 +19,9 @@ pub(super) fn objects<'a>(
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
     let mut before: BTreeMap<Index, Spanned<&str>> = BTreeMap::new();
-    let mut list = Vec::new();
+    // A declaration is large: the list has room for as many as there are, and no more.
+    let entries: Vec<_> = entries.collect();
+    let mut list = Vec::with_capacity(entries.len());
     for (key, r) in entries {
         let Some(IndexRange { first, last }) = lexical::indices(key.value) else { continue };
         if let Some((index, earlier)) = before.range(first..=last).next() {

@@ -21,7 +21,7 @@ pub struct Line<'t> {
 pub(super) enum Content {
     Blank,
     Comment,
-    /// Where the name ends, which begins behind the first bracket.
+    /// Where the name ends, which begins behind the first bracket if there is one.
     Header {
         end: u32,
     },
@@ -215,9 +215,9 @@ fn length(text: &str) -> u32 {
     u32::try_from(text.len()).unwrap_or(u32::MAX)
 }
 
-/// White space and control characters, such as the DOS end-of-file sign.
+/// White space, also that of Unicode, and control characters such as the DOS end-of-file sign.
 pub(super) const fn is_blank(c: char) -> bool {
-    c <= ' ' || c == '\u{FEFF}'
+    c <= ' ' || c == '\u{FEFF}' || c.is_whitespace()
 }
 
 /// What is left of `start..end` without the blanks around it.

@@ -1,6 +1,7 @@
 //! From a text to its lines: one pass, which accepts everything.
 
 use super::line::{Content, Line, LineEnd, is_blank};
+use super::names::{Topic, topic};
 
 /// The lines of a text; their texts and breaks, one behind the other, are the text.
 pub(super) fn lines(text: &str) -> Vec<Line<'_>> {
@@ -42,8 +43,15 @@ fn content(line: &str) -> Content {
         Some(equals) if equals > first => {
             Content::KeyValue { equals: u32::try_from(equals).unwrap_or(u32::MAX) }
         }
-        Some(_) | None => Content::Unreadable,
+        Some(_) | None => without_bracket(line, first).unwrap_or(Content::Unreadable),
     }
+}
+
+/// The name of a section whose first bracket is missing: the keys that follow belong to no other section, either.
+fn without_bracket(line: &str, first: usize) -> Option<Content> {
+    let name = line.trim_end_matches(is_blank).strip_suffix(']')?;
+    let is_name = topic(name.get(first..)?.trim_end_matches(is_blank)) != Topic::Unknown;
+    is_name.then(|| Content::Header { end: u32::try_from(name.len()).unwrap_or(u32::MAX) })
 }
 
 /// A line that begins with a bracket. One that is not closed is a header as well: the keys that follow belong to no other

@@ -188,11 +188,13 @@ impl<'d> Part<'d> {
         sections.into_iter().flat_map(|section| section.keys()).filter_map(move |line| entry(line, file))
     }
 
-    /// A key in any capitals, the last of several, as most readers take it.
+    /// A key in any capitals, the last of several, as most readers take it; where it is not there, one with blanks in it.
     pub(crate) fn key(&self, name: &str) -> Option<Entry<'d>> {
         let keys = self.sections.iter().rev().flat_map(|section| section.body().iter().rev());
-        let mut named = keys.filter(|line| line.key().is_some_and(|key| key.eq_ignore_ascii_case(name)));
-        entry(named.next()?, self.file)
+        let mut named =
+            keys.clone().filter(|line| line.key().is_some_and(|key| key.eq_ignore_ascii_case(name)));
+        let mut spaced = keys.filter(|line| line.key().is_some_and(|key| is_spaced(key, name)));
+        entry(named.next().or_else(|| spaced.next())?, self.file)
     }
 
     /// The value of a key, unless it is missing or, which means the same (CiA 306 4.3), empty.
@@ -204,6 +206,17 @@ impl<'d> Part<'d> {
     pub(crate) fn comments_at_header(&self) -> impl Iterator<Item = &'d str> + use<'d> {
         self.sections[0].comments_at_header()
     }
+}
+
+/// Whether a key is a name with blanks in it: `Product Name`.
+pub(crate) fn is_spaced(key: &str, name: &str) -> bool {
+    key.len() > name.len()
+        && key.contains(char::is_whitespace)
+        && key
+            .split_whitespace()
+            .flat_map(str::bytes)
+            .map(|byte| byte.to_ascii_lowercase())
+            .eq(name.bytes().map(|byte| byte.to_ascii_lowercase()))
 }
 
 /// The place of the name in a header.

@@ -1,8 +1,8 @@
 //! Which declarations make up a device: its own objects, laid over a library's where `from:` says so, and the objects
 //! that its features bring.
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Deref;
 
 use super::scope::{Scope, unknown};
 use super::{keys_have_effect, libraries};
@@ -13,10 +13,29 @@ use crate::source::Spanned;
 
 /// A declaration that is ready to be resolved for one device.
 pub(super) struct Declared<'a> {
-    pub decl: Cow<'a, ObjectDecl>,
+    pub decl: Decl<'a>,
     pub origin: Origin,
     pub profile: Option<String>,
     pub departures: Vec<Departure>,
+}
+
+/// The declaration of an object. It is large: one that is written has no room of its own here.
+pub(super) enum Decl<'a> {
+    /// As it is written.
+    Written(&'a ObjectDecl),
+    /// Laid over a library's, or moved to another axis.
+    Made(Box<ObjectDecl>),
+}
+
+impl Deref for Decl<'_> {
+    type Target = ObjectDecl;
+
+    fn deref(&self) -> &ObjectDecl {
+        match self {
+            Decl::Written(decl) => decl,
+            Decl::Made(decl) => decl,
+        }
+    }
 }
 
 /// All declarations of a device by index.
@@ -48,8 +67,8 @@ pub(super) fn of_device<'a>(
                 continue;
             };
             let decl = match library.axes.filter(|_| axis > 1) {
-                Some(axes) => libraries::on_axis(decl, axes, axis).map(Cow::Owned),
-                None => Some(Cow::Borrowed(decl)),
+                Some(axes) => libraries::on_axis(decl, axes, axis).map(|decl| Decl::Made(Box::new(decl))),
+                None => Some(Decl::Written(decl)),
             };
             let Some(decl) = decl else { continue };
             declared.entry(decl.index.value).or_insert_with(|| Declared {
@@ -89,7 +108,7 @@ fn of_specification<'a>(
                 if decl.array.is_some() {
                     check_omitted(decl, decl, diagnostics);
                 }
-                let (origin, decl) = (Origin::Manual, Cow::Borrowed(decl));
+                let (origin, decl) = (Origin::Manual, Decl::Written(decl));
                 Some(Declared { decl, origin, profile: None, departures: Vec::new() })
             }
         };
@@ -178,7 +197,7 @@ fn from_library<'a>(
     };
     let (merged, departures) = lay_over(decl, &below, scope);
     check_own_keys(decl, &merged, diagnostics);
-    let merged = Cow::Owned(merged);
+    let merged = Decl::Made(Box::new(merged));
     Some(Declared { decl: merged, origin: Origin::Manual, profile: Some(from.value.clone()), departures })
 }
 

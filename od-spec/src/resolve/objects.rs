@@ -110,7 +110,8 @@ fn elements(
     };
     let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
     let common = EntryDecl { name: None, ..array.entry.over(&decl.entry.inherited()) };
-    let (mut list, mut broken) = (Vec::new(), false);
+    // One more for sub-index 0.
+    let (mut list, mut broken) = (Vec::with_capacity(usize::from(count) + 1), false);
     for sub in (1..=count).filter(|sub| !omitted(*sub)) {
         let element = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
         let merged = element.map_or_else(|| common.clone(), |element| element.over(&common));
@@ -147,7 +148,8 @@ fn members(
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
     let common = decl.entry.inherited();
-    let (mut list, mut broken) = (Vec::new(), false);
+    // One more for sub-index 0.
+    let (mut list, mut broken) = (Vec::with_capacity(record.members.len() + 1), false);
     for (sub, member) in &record.members {
         if decl.omit.iter().any(|omit| omit.value == i128::from(sub.value.0)) {
             continue;

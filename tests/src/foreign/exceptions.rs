@@ -2,12 +2,15 @@
 
 use od_gen::yaml::{Place, Repair};
 use od_spec::ascii::transliterate;
-use od_spec::model::{DataType, Dictionary, EntryId, Fact, Object, SubIndex, Value};
+use od_spec::model::{DataType, Dictionary, EntryId, Fact, Index, Object, SubIndex, Value};
 
 use super::{Checked, Difference, Stated, Step};
 
 /// The longest text that an EDS of ours has in a line of `[FileInfo]` and `[DeviceInfo]`.
 const LONGEST_TEXT: usize = 243;
+/// Why what a device fills in can differ.
+const OTHER_THAN_FILLED_IN: &str =
+    "an identity, device type or name of another type than the device fills in";
 /// The longest default.
 const LONGEST_DEFAULT: usize = 242;
 
@@ -46,6 +49,12 @@ fn is_about(repair: &Repair, place: Option<EntryId>) -> bool {
 fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) -> Option<&'static str> {
     let renamed = |repair: &Repair| repair.fact == Some(Fact::Name) && is_about(repair, difference.place);
     let Some(id) = difference.place else {
+        let device_type = before.objects.get(&Index(0x1000)).and_then(|object| object.entry(SubIndex(0)));
+        if difference.fact == Stated::Device("device type")
+            && device_type.is_some_and(|entry| entry.data_type != DataType::Unsigned32)
+        {
+            return Some(OTHER_THAN_FILLED_IN);
+        }
         let text = match difference.fact {
             Stated::Device("description") => &before.file.description,
             Stated::Device("created by") => &before.file.created_by,
@@ -58,6 +67,9 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
     };
     let entry = before.entry(id)?;
     let is_counted = before.objects.get(&id.index).is_some_and(Object::is_structured);
+    if is_filled_in(id) && entry.data_type != filled_in_type(id) {
+        return Some(OTHER_THAN_FILLED_IN);
+    }
     match difference.fact {
         Stated::Name => {
             repairs.iter().any(renamed).then_some("a name that clashes, or that an EDS cannot hold")
@@ -88,6 +100,16 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
         | Stated::Links
         | Stated::Device(_) => None,
     }
+}
+
+/// Whether a specification takes the value of an entry from what it says about the device.
+const fn is_filled_in(id: EntryId) -> bool {
+    matches!((id.index.0, id.sub.0), (0x1000 | 0x1008, 0) | (0x1018, 1..=3))
+}
+
+/// The type that such a value has.
+const fn filled_in_type(id: EntryId) -> DataType {
+    if id.index.0 == 0x1008 { DataType::VisibleString } else { DataType::Unsigned32 }
 }
 
 /// Whether a default is plain ASCII that fits into its line.

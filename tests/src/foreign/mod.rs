@@ -3,6 +3,7 @@
 mod comparing;
 mod exceptions;
 mod facts;
+mod files;
 mod steps;
 
 use std::any::Any;
@@ -10,6 +11,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use facts::{Difference, Stated, differences};
+pub use files::find;
 
 /// What is done with a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -107,7 +109,7 @@ fn guarded(step: Step, checked: &mut Checked, run: impl FnOnce(&mut Checked)) {
     }
 }
 
-fn message(panic: &(dyn Any + Send)) -> &str {
+pub(crate) fn message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a message")
 }

@@ -1,5 +1,7 @@
 //! For people: with the source lines and marks, as rustc does.
 
+use std::borrow::Cow;
+
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::diag::{Diagnostic, Label, Severity};
@@ -46,15 +48,23 @@ fn snippet<'a>(
     let first = in_file().map(|(_, label)| file.line_index(label.span.start)).min().unwrap_or(0);
     let last = in_file().map(|(_, label)| file.line_index(shown_end(label, file))).max().unwrap_or(0);
     let (start, end) = file.lines(first, last);
-    let text = &file.text()[start..end];
+    let text = visible(&file.text()[start..end]);
+    let length = text.len();
     let annotations = in_file().map(|(at, label)| {
-        let clamp = |offset: u32| (offset as usize).saturating_sub(start).min(text.len());
+        let clamp = |offset: u32| (offset as usize).saturating_sub(start).min(length);
         let range = clamp(label.span.start)..clamp(shown_end(label, file));
         let kind = if at == 0 { AnnotationKind::Primary } else { AnnotationKind::Context };
         let annotation = kind.span(range);
         if label.text.is_empty() { annotation } else { annotation.label(label.text.as_str()) }
     });
     Snippet::source(text).line_start(first + 1).path(file.name()).annotations(annotations)
+}
+
+/// A text without the control characters that the renderer does not replace, U+0080 to U+009F: a terminal obeys them. What stands
+/// for them is as long.
+fn visible(text: &str) -> Cow<'_, str> {
+    let is_control = |c: char| matches!(c, '\u{80}'..='\u{9F}');
+    if text.contains(is_control) { text.replace(is_control, "·").into() } else { text.into() }
 }
 
 /// The end of a mark; a mark over many lines is cut to its first line.
@@ -64,4 +74,27 @@ fn shown_end(label: &Label, file: &SourceFile) -> u32 {
         return label.span.end;
     }
     u32::try_from(file.lines(first, first).1).unwrap_or(label.span.end).max(label.span.start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Diagnostics;
+    use crate::diag::codes;
+    use crate::diag::render::{Format, render};
+
+    #[test]
+    fn no_control_character_of_a_text_reaches_a_terminal() {
+        let mut sources = SourceMap::new();
+        let file = sources.add("a.eds", "Na\u{85}me=\u{9b}31m\u{7f}\u{1b}\u{7}\n");
+        let place = sources.whole(file).part(0, 6);
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(Diagnostic::new(codes::UNKNOWN_KEY, place, "found").edit(place, "\u{85}"));
+        for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
+            let text = render(&diagnostics, &sources, format, false);
+            assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{format:?}: {text:?}");
+        }
+        // The mark is as long as what it is under.
+        assert!(human(diagnostics.iter().next().unwrap(), &sources, false).ends_with("\n  | ^^^^^"));
+    }
 }

@@ -84,6 +84,43 @@ const OBJECT: &[&str] = &[
 const EXTENSION: &[&str] = &["Count", "ObjExtend"];
 const MODULE_INFO: &[&str] = &["ProductName", "ProductVersion", "ProductRevision", "OrderCode"];
 
+/// Keys that hold a text for people.
+pub(super) const TEXTS: [&str; 12] = [
+    "ParameterName",
+    "Denotation",
+    "FileName",
+    "Description",
+    "CreatedBy",
+    "ModifiedBy",
+    "LastEDS",
+    "VendorName",
+    "ProductName",
+    "OrderCode",
+    "NodeName",
+    "NetworkName",
+];
+/// Keys that count what a section lists.
+const COUNTS: &[&str] = &["NrOfEntries", "SupportedObjects", "ObjectLinks", "Lines"];
+
+/// Whether a key is one of the standard's, and holds a number, a date, a word or a value instead of a text.
+pub(super) fn is_no_text(key: &str) -> bool {
+    let is_among = |names: &[&str]| names.iter().any(|name| name.eq_ignore_ascii_case(key));
+    let known = [
+        FILE_INFO,
+        IDENTITY,
+        ABILITIES,
+        FURTHER_ABILITIES,
+        RESERVED,
+        COMMISSIONING,
+        OBJECT,
+        EXTENSION,
+        MODULE_INFO,
+        COUNTS,
+    ];
+    let is_dummy = key.get(..5).is_some_and(|front| front.eq_ignore_ascii_case("Dummy"));
+    is_dummy || (known.into_iter().any(is_among) && !is_among(&TEXTS))
+}
+
 /// The keys of a section.
 pub(in crate::eds) struct Keys {
     /// Those with a name, by what they are about.

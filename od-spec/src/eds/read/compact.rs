@@ -59,7 +59,7 @@ pub(super) fn object(
     }
     let mut explicit: BTreeMap<u8, (Spanned<SubIndex>, EntryDecl)> =
         members(index, part, context).into_iter().map(|member| (member.0.value.0, member)).collect();
-    let mut elements = Vec::new();
+    let mut elements = Vec::with_capacity(usize::from(count));
     for sub in 1..=count {
         if let Some(value) = values.get(&sub) {
             let read = data_type.and_then(|known| value::value(value.value, known, context.diagnostics));

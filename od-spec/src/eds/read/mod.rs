@@ -85,8 +85,9 @@ fn objects(
 ) -> Vec<ObjectDecl> {
     let mut context = entry::Context { node, meanings, diagnostics };
     let described = view.objects.iter().filter(|(_, part)| part.object.is_some() || !part.subs.is_empty());
-    let mut objects: Vec<ObjectDecl> =
-        described.filter_map(|(index, part)| objects::object(*index, part, &mut context)).collect();
+    // A declaration is large: the list has room for as many as there are, and no more.
+    let mut objects: Vec<ObjectDecl> = Vec::with_capacity(view.objects.len());
+    objects.extend(described.filter_map(|(index, part)| objects::object(*index, part, &mut context)));
     implicit_pdos::add(view, &mut objects);
     modules::add(view, &mut objects, &mut context);
     objects.sort_by_key(|object| object.index.value);

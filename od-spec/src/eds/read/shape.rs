@@ -57,7 +57,7 @@ pub(super) fn members(
     part: &ObjectPart<'_>,
     context: &mut Context<'_>,
 ) -> Vec<(Spanned<SubIndex>, EntryDecl)> {
-    let mut members = Vec::new();
+    let mut members = Vec::with_capacity(part.subs.len());
     for (number, section) in part.subs.range(1..) {
         let Some(number) = u8::try_from(*number).ok().filter(|number| *number < 0xFF) else {
             let message = format!("{index} has no sub-index {number:X}h; it is left out");

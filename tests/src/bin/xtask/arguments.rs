@@ -19,6 +19,8 @@ pub(crate) enum Task {
     Package,
     /// Take a directory of foreign EDS and DCF files through everything.
     Corpus(String),
+    /// Try mutants of EDS and DCF files, with the arguments of the program `fuzz`.
+    Fuzz(Vec<String>),
     /// Measure beside other tools, with the arguments of tests/bench/run.py.
     Bench(Vec<String>),
     /// Measure the reading of EDS files beside other readers, with the arguments of tests/bench/eds/reading.py.
@@ -54,6 +56,8 @@ cargo xtask TASK
   generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
   package             package the crates that users depend on, and build each from its package
   corpus DIR          take the EDS and DCF files of a directory through everything
+  fuzz [--seconds N] [--seed N] [FILE|DIR…]
+                      change EDS and DCF files by chance, and see whether anything breaks
   bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
   bench eds [ARGUMENT…]
                       measure the reading of EDS files beside other readers; `bench eds --help` lists the arguments
@@ -63,7 +67,7 @@ cargo xtask TASK
 const TEST: &str = "\
 cargo xtask test [--all] [--without-browser] [--without-emulator]
 
-Runs the Rust tests, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
+Runs the Rust tests, the fuzzer for a minute, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
 emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then it runs every part
 whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
 
@@ -108,6 +112,26 @@ tests/src/foreign/exceptions.rs. Fast with `cargo run --profile tool --package o
 Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong command line.
 ";
 
+const FUZZ: &str = "\
+cargo xtask fuzz [--seconds N] [--seed N] [--mutants N] [--failures N] [FILE|DIR…]
+
+Changes EDS and DCF files by chance, as the seed decides, and demands of every mutant: no panic; its bytes come back; a model
+comes out; every place of a finding is in the file; findings read well in every format; what is put right says the same, has no
+more errors than before and is not changed by a second time; an import compiles and has the same facts, but for those with a
+reason in tests/src/foreign/exceptions.rs; memory stays within the bounds of tests/src/fuzz/eds.rs. It begins with the files of
+this repository, and with those that are named.
+
+  --seconds N         how long (60)
+  --seed N            the number of the first mutant (1); the next have the numbers behind it
+  --mutants N         at most so many
+  --failures N        end after so many failures of different kinds (1)
+
+A failure is printed with the seed that makes the mutant again from the same files; the smallest text that was found for it goes
+to target/fuzz.
+
+Exit codes: 0 no mutant fails, 1 one fails.
+";
+
 const BENCH: &str = "\
 cargo xtask bench [ARGUMENT…]
 cargo xtask bench eds [ARGUMENT…]
@@ -125,6 +149,9 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
         ["help", task] => help(task),
         // The scripts of the benchmarks answer `--help` themselves.
         ["bench", "eds", rest @ ..] => Ok(Task::BenchReading(owned(rest))),
+        ["fuzz", rest @ ..] if !rest.contains(&"--help") && !rest.contains(&"-h") => {
+            Ok(Task::Fuzz(owned(rest)))
+        }
         ["bench", rest @ ..] => Ok(Task::Bench(owned(rest))),
         [task, options @ ..] if options.contains(&"--help") || options.contains(&"-h") => help(task),
         ["test", options @ ..] => test(options).map(Task::Test),
@@ -152,6 +179,7 @@ fn help(task: &str) -> Result<Task, String> {
         "generate" => Ok(Task::Help(GENERATE)),
         "package" => Ok(Task::Help(PACKAGE)),
         "corpus" => Ok(Task::Help(CORPUS)),
+        "fuzz" => Ok(Task::Help(FUZZ)),
         "bench" => Ok(Task::Help(BENCH)),
         "help" => Ok(Task::Help(HELP)),
         _ => Err(format!("there is no task `{task}`")),
@@ -195,6 +223,10 @@ mod tests {
         assert_eq!(parse(&["generate", "--check"]), Ok(Task::CheckGenerated));
         assert_eq!(parse(&["package"]), Ok(Task::Package));
         assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned())));
+        assert_eq!(
+            parse(&["fuzz", "--seed", "7"]),
+            Ok(Task::Fuzz(vec!["--seed".to_owned(), "7".to_owned()]))
+        );
         assert_eq!(parse(&["bench", "--help"]), Ok(Task::Bench(vec!["--help".to_owned()])));
         assert_eq!(parse(&["bench", "eds", "--help"]), Ok(Task::BenchReading(vec!["--help".to_owned()])));
     }
@@ -204,7 +236,10 @@ mod tests {
         let lines =
             HELP.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
         let tasks: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
-        assert_eq!(tasks, ["test", "browser", "generate", "package", "corpus", "bench", "bench", "help"]);
+        assert_eq!(
+            tasks,
+            ["test", "browser", "generate", "package", "corpus", "fuzz", "bench", "bench", "help"]
+        );
         for task in tasks {
             assert!(matches!(parse(&["help", task]), Ok(Task::Help(_))), "{task}");
         }

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use od_tests::Failure;
-use od_tests::foreign::{Checked, Step, check};
+use od_tests::foreign::{Checked, Step, check, find};
 
 /// Most problems of one file and step that are told.
 const MOST_TOLD: usize = 5;
@@ -52,23 +52,6 @@ pub(crate) fn corpus(directory: &str) -> Result<(), Failure> {
         0 => Ok(()),
         failed => Err(format!("{failed} of {} files have problems", done.len()).into()),
     }
-}
-
-fn find(directory: &Path, paths: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    let entries =
-        std::fs::read_dir(directory).map_err(|error| format!("{}: {error}", directory.display()))?;
-    for entry in entries {
-        let path = entry?.path();
-        let is_eds = path
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("eds") || ending.eq_ignore_ascii_case("dcf"));
-        if path.is_dir() {
-            find(&path, paths)?;
-        } else if is_eds {
-            paths.push(path);
-        }
-    }
-    Ok(())
 }
 
 fn name(path: &Path) -> String {

@@ -38,6 +38,7 @@ fn main() -> ExitCode {
         Ok(Task::CheckGenerated) => check(),
         Ok(Task::Package) => package::package(),
         Ok(Task::Corpus(directory)) => corpus::corpus(&directory),
+        Ok(Task::Fuzz(rest)) => fuzz(&rest),
         Ok(Task::Bench(rest)) => bench("tests/bench/run.py", &rest),
         Ok(Task::BenchReading(rest)) => bench("tests/bench/eds/reading.py", &rest),
         Ok(Task::Help(text)) => {
@@ -56,6 +57,11 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn fuzz(arguments: &[String]) -> Result<(), Failure> {
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    Runner::default().fuzz(&arguments)
 }
 
 fn bench(script: &str, arguments: &[String]) -> Result<(), Failure> {

@@ -12,6 +12,8 @@ use crate::{browser, readers};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
     Rust,
+    /// Mutants of EDS and DCF files, the same in every run.
+    Mutants,
     /// The foreign readers notice what is wrong.
     ReadersSelfTest,
     /// A device with every feature and data type, which the shipped devices do not have.
@@ -51,8 +53,9 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 11] = [
+    pub(crate) const ALL: [Part; 12] = [
         Part::Rust,
+        Part::Mutants,
         Part::ReadersSelfTest,
         Part::EveryFeature,
         Part::Configured,
@@ -68,6 +71,7 @@ impl Part {
     pub(crate) const fn title(self) -> &'static str {
         match self {
             Part::Rust => "Rust tests",
+            Part::Mutants => "mutants of EDS files",
             Part::ReadersSelfTest => "EDS readers notice mistakes",
             Part::EveryFeature => "EDS readers: every feature",
             Part::Configured => "EDS readers: a DCF with settings",
@@ -83,7 +87,7 @@ impl Part {
 
     pub(crate) const fn area(self) -> Area {
         match self {
-            Part::Rust => Area::Rust,
+            Part::Rust | Part::Mutants => Area::Rust,
             Part::ReadersSelfTest
             | Part::EveryFeature
             | Part::Configured
@@ -99,7 +103,7 @@ impl Part {
     /// Tools without which it cannot run.
     const fn needs(self) -> &'static [Tool] {
         match self {
-            Part::Rust => &[],
+            Part::Rust | Part::Mutants => &[],
             Part::ReadersSelfTest
             | Part::EveryFeature
             | Part::Configured
@@ -122,7 +126,12 @@ impl Part {
             | Part::Shipped
             | Part::Drives
             | Part::Foretold => &[Tool::Node],
-            Part::Rust | Part::SdoClient | Part::Browser | Part::FirmwareSizes | Part::FirmwareTests => &[],
+            Part::Rust
+            | Part::Mutants
+            | Part::SdoClient
+            | Part::Browser
+            | Part::FirmwareSizes
+            | Part::FirmwareTests => &[],
         }
     }
 
@@ -144,6 +153,7 @@ impl Part {
     pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
         match self {
             Part::Rust => runner.cargo(&["test", "--workspace", "--no-fail-fast"]),
+            Part::Mutants => runner.fuzz(&["--seconds", "60", "--seed", "1"]),
             Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
             Part::EveryFeature => readers::every_feature(runner),
             Part::Configured => readers::configured(runner),
@@ -195,7 +205,7 @@ mod tests {
         for part in Part::ALL {
             assert_eq!(readiness(part, &[]), Readiness::Whole);
             let alone = readiness(part, &Tool::ALL);
-            assert_eq!(alone == Readiness::Whole, part == Part::Rust, "{part:?}: {alone:?}");
+            assert_eq!(alone == Readiness::Whole, part.area() == Area::Rust, "{part:?}: {alone:?}");
             assert!(!matches!(alone, Readiness::Partly(_)), "{part:?}");
         }
     }

@@ -48,6 +48,12 @@ impl Runner {
         self.run(Command::new(cargo).args(arguments))
     }
 
+    /// The fuzzer is a program of its own: its allocator counts, and its profile is quicker than that of the tests.
+    pub(crate) fn fuzz(&mut self, arguments: &[&str]) -> Result<(), Failure> {
+        let program = ["run", "--quiet", "--profile", "fuzz", "--package", "od-tests", "--bin", "fuzz", "--"];
+        self.cargo(&[&program, arguments].concat())
+    }
+
     pub(crate) fn python(&mut self, script: &str, arguments: &[&str]) -> Result<(), Failure> {
         self.run(Command::new("python3").arg(script).args(arguments))
     }

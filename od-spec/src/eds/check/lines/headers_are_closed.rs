@@ -22,37 +22,21 @@ const CODE: &Code = &Code {
 };
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
-    for line in view.document.lines() {
+    for line in view.document.lines().iter().filter(|line| line.kind() == LineKind::Header) {
         let text = line.text();
         let place = edits::place(view, line);
-        let (name, edit) = match (line.kind(), line.name_part()) {
-            (LineKind::Header, Some(name)) if !text.contains(']') => {
-                let rest = place.part(name.end as usize, text.len());
-                (line.name().unwrap_or_default(), Edit { span: rest, text: "]".to_owned() })
-            }
-            (LineKind::Unreadable, _) => {
-                let bare = text.trim_end().strip_suffix(']').unwrap_or_default();
-                (
-                    bare.trim_start(),
-                    Edit { span: place.part(0, text.len() - text.trim_start().len()), text: "[".to_owned() },
-                )
-            }
-            _ => continue,
+        let Some(part) = line.name_part() else { continue };
+        let edit = match (text.contains('['), text.contains(']')) {
+            (true, true) => continue,
+            (true, false) => Edit { span: place.part(part.end as usize, text.len()), text: "]".to_owned() },
+            (false, _) => Edit { span: place.part(0, part.start as usize), text: "[".to_owned() },
         };
-        let is_known = topic(name) != Topic::Unknown;
-        if line.kind() == LineKind::Unreadable && !is_known {
-            continue;
-        }
+        let name = line.name().unwrap_or_default();
         let message = format!("`{}` lacks a bracket, expected `[{}]`", shorten(text.trim()), shorten(name));
         let mut diagnostic = Diagnostic::new(CODE, place, message).help("put the name between brackets");
-        if is_known {
+        if topic(name) != Topic::Unknown {
             diagnostic.edits.push(edit);
         }
         diagnostics.push(diagnostic);
     }
-}
-
-/// Whether a line that nobody can read is the name of a section whose first bracket is missing.
-pub(super) fn is_name_without_bracket(text: &str) -> bool {
-    text.trim_end().strip_suffix(']').is_some_and(|name| topic(name.trim_start()) != Topic::Unknown)
 }

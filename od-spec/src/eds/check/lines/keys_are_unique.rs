@@ -46,19 +46,25 @@ fn compare(
     entries: &[Entry<'_>],
     diagnostics: &mut Diagnostics,
 ) {
-    let mut first: BTreeMap<String, &Entry<'_>> = BTreeMap::new();
+    // The first of each key, and whether all so far say the same.
+    let mut first: BTreeMap<String, (&Entry<'_>, bool)> = BTreeMap::new();
     for entry in entries {
-        let before = first.entry(entry.key.value.to_ascii_lowercase()).or_insert(entry);
+        let (before, are_equal) = first.entry(entry.key.value.to_ascii_lowercase()).or_insert((entry, true));
         if before.key.span == entry.key.span {
             continue;
         }
+        let is_equal = before.value == entry.value;
+        *are_equal &= is_equal;
         let message = format!("`{}` stands twice in `{}`", shorten(entry.key.value), shorten(section.name()));
         let mut diagnostic = Diagnostic::new(CODE, entry.key.span, message)
             .label("again here")
             .with(before.key.span, "first here");
-        if before.value == entry.value {
+        // Readers take the last: behind another value, an equal one is not superfluous.
+        if *are_equal {
             diagnostic = diagnostic.help("remove one of the two, they say the same; `odgen fix` does");
             diagnostic.edits.push(edits::remove(view, entry.line));
+        } else if is_equal {
+            diagnostic = diagnostic.help("decide which value is right, and remove the others");
         } else {
             diagnostic = diagnostic.help(format!(
                 "decide whether `{}` or `{}` is right, and remove the other",

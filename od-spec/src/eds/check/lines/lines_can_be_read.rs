@@ -2,7 +2,6 @@
 
 use super::super::edits;
 use super::super::rule::FormatRule;
-use super::headers_are_closed::is_name_without_bracket;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::line::LineKind;
 use crate::eds::view::View;
@@ -27,9 +26,6 @@ const CODE: &Code = &Code {
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for line in view.document.lines().iter().filter(|line| line.kind() == LineKind::Unreadable) {
-        if is_name_without_bracket(line.text()) {
-            continue;
-        }
         let place = edits::place(view, line);
         found.add(place, [], || {
             let text = shorten(line.text().trim());

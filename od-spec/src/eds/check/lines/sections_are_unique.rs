@@ -40,13 +40,17 @@ fn compare<'d>(view: &View<'d>, sections: &[SectionRef<'d, 'd>], diagnostics: &m
         return;
     }
     let first_keys = keys(first);
+    let mut are_equal = true;
     for other in others {
         let place = name_place(other.header(), view.file);
         let name = shorten(other.name());
         let mut diagnostic = Diagnostic::new(CODE, place, format!("section `{name}` stands twice"))
             .label("again here")
             .with(name_place(first.header(), view.file), "first here");
-        if other.keys().next().is_none() || first_keys == keys(other) {
+        let is_empty = other.keys().next().is_none();
+        are_equal &= is_empty || first_keys == keys(other);
+        // Readers take the last: behind another section, an equal one is not superfluous.
+        if is_empty || are_equal {
             diagnostic = diagnostic.help("remove one of the two, they say the same; `odgen fix` does");
             diagnostic.edits = removal(view, other);
         } else {

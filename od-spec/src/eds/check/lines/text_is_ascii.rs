@@ -1,6 +1,7 @@
 //! The text is ASCII.
 
 use super::super::edits;
+use super::super::keys;
 use super::super::rule::FormatRule;
 use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
@@ -23,6 +24,9 @@ const CODE: &Code = &Code {
         "[Comments]\nLines=1\nLine1=Up to 40 degC",
     )),
 };
+
+/// So many characters of a line are changed one by one.
+const FEW: usize = 16;
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
@@ -49,7 +53,9 @@ fn transliterated(view: &View<'_>, line: &Line<'_>) -> Vec<Edit> {
     let text = line.text();
     let start = match (line.kind(), line.value_part()) {
         (LineKind::Comment, _) => 0,
-        (LineKind::KeyValue, Some(value)) if !is_value(line.key().unwrap_or_default()) => {
+        (LineKind::KeyValue, Some(value))
+            if !is_value(line.key().unwrap_or_default(), line.value().unwrap_or_default()) =>
+        {
             value.start as usize
         }
         _ => return Vec::new(),
@@ -63,12 +69,49 @@ fn transliterated(view: &View<'_>, line: &Line<'_>) -> Vec<Edit> {
         }
         edits.push(Edit { span: place.part(at, at + c.len_utf8()), text: ascii });
     }
-    edits
+    if edits.len() <= FEW {
+        return edits;
+    }
+    // Of many, each with a column of its own in a line that is long, nobody wants to know the single ones.
+    let (Some(first), Some(last)) = (edits.first(), edits.last()) else { return edits };
+    let (from, to) = (first.span.start - place.start, last.span.end - place.start);
+    let between = text.get(from as usize..to as usize).unwrap_or_default();
+    let ascii = |c: char| match c {
+        c if c.is_ascii() => c.to_string(),
+        c => transliterate(c.encode_utf8(&mut [0; 4])),
+    };
+    vec![Edit { span: place.part(from as usize, to as usize), text: between.chars().map(ascii).collect() }]
 }
 
-/// Whether a key holds what the device has, byte by byte.
-fn is_value(key: &str) -> bool {
-    ["DefaultValue", "ParameterValue", "LowLimit", "HighLimit"]
-        .iter()
-        .any(|name| name.eq_ignore_ascii_case(key))
+/// Whether a key holds what the device has, byte by byte, or a number or word that another character would change: `000ª` is no
+/// number, `000a` is one.
+fn is_value(key: &str, value: &str) -> bool {
+    let is_index =
+        key.bytes().all(|byte| byte.is_ascii_digit()) && value.starts_with(|c: char| c.is_ascii_digit());
+    is_index || keys::is_no_text(key)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::encoding::Encoding;
+    use crate::fix;
+
+    #[test]
+    fn what_is_no_number_does_not_become_one() {
+        let text = "[2000]\nParameterName=10 µm\nDataType=0x000ª\n[OptionalObjects]\n1=0x2000ª\n";
+        let fixed = fix("lamp.eds", text.as_bytes());
+        let kept = ["ParameterName=10 um", "DataType=0x000ª", "1=0x2000ª"];
+        assert!(kept.iter().all(|line| fixed.text().contains(line)), "{}", fixed.text());
+    }
+
+    /// A change for each character would have to be told with its column, for which the whole line is counted.
+    #[test]
+    fn many_characters_of_a_line_are_one_change() {
+        let text = format!("[FileInfo]\nDescription={}\n", "ä\t".repeat(5000));
+        let fixed = fix("lamp.eds", text.as_bytes());
+        assert_eq!(fixed.encoding, Encoding::Ascii);
+        assert!(fixed.text().contains(&format!("Description={}", "ae\t".repeat(5000).trim_end())));
+        let changes = fixed.changes.iter().filter(|change| change.code.id == "EDS101").count();
+        assert_eq!(changes, 1);
+    }
 }

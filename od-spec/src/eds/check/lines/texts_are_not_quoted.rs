@@ -1,5 +1,6 @@
 //! Names and texts stand without quotation marks.
 
+use super::super::keys::TEXTS;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::view::View;
@@ -19,22 +20,6 @@ const CODE: &Code = &Code {
         "[DeviceInfo]\nVendorName=Example\n; ...",
     )),
 };
-
-/// The keys whose values are texts for people.
-const TEXTS: [&str; 12] = [
-    "ParameterName",
-    "Denotation",
-    "FileName",
-    "Description",
-    "CreatedBy",
-    "ModifiedBy",
-    "LastEDS",
-    "VendorName",
-    "ProductName",
-    "OrderCode",
-    "NodeName",
-    "NetworkName",
-];
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();

@@ -40,8 +40,6 @@ fn finding(view: &View<'_>, list: &NumberedList<'_, '_>) -> Option<Diagnostic> {
         _ => format!("there are {entries} entries"),
     };
     let (place, message) = match list.part.value(key) {
-        // With a blank in the key it is another rule's.
-        None if list.part.entries().any(|entry| is_spaced(entry.key.value, key)) => return None,
         None => {
             let place = list.part.key(key).map_or(list.part.place(), |entry| entry.key.span);
             (place, format!("`{key}` is missing, and {there_are}"))
@@ -62,9 +60,4 @@ fn finding(view: &View<'_>, list: &NumberedList<'_, '_>) -> Option<Diagnostic> {
         return Some(diagnostic.help(format!("write `{key}={entries}`; `odgen fix` does")));
     }
     Some(diagnostic.help("number the entries 1, 2, 3 and so on, and count them"))
-}
-
-fn is_spaced(key: &str, meant: &str) -> bool {
-    key.contains(char::is_whitespace)
-        && key.split_whitespace().collect::<String>().eq_ignore_ascii_case(meant)
 }

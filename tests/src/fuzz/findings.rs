@@ -1,0 +1,49 @@
+//! What is demanded of findings, whatever text they are about: their places, and how they read in every format.
+
+use od_spec::diag::Diagnostics;
+use od_spec::diag::render::{Findings, Format, render, sarif};
+use od_spec::source::SourceMap;
+use serde_json::Value;
+
+/// What is wrong with the texts of findings.
+pub(super) fn wrong(
+    name: &str,
+    diagnostics: &Diagnostics,
+    sources: &SourceMap,
+) -> Vec<(&'static str, String)> {
+    let count = diagnostics.iter().count();
+    let text = |format| render(diagnostics, sources, format, false);
+    let human = text(Format::Human);
+    let [short, json, github] = [Format::Short, Format::Json, Format::Github].map(text);
+    let document = sarif("0.0.0", &[Findings { name, diagnostics, sources }]);
+    let mut wrong = Vec::new();
+    for (format, text) in
+        [("human", &human), ("short", &short), ("json", &json), ("github", &github), ("sarif", &document)]
+    {
+        let is_raw = |c: &char| c.is_control() && *c != '\n';
+        wrong.extend(
+            text.chars().find(is_raw).map(|raw| (format, format!("has the character {raw:?} as it is"))),
+        );
+    }
+    let lines = |format, text: &str, per_finding: fn(&str) -> bool| {
+        let found = text.split_terminator('\n').filter(|line| per_finding(line)).count();
+        (found != count).then(|| (format, format!("{found} lines for {count} findings")))
+    };
+    wrong.extend(lines("short", &short, |_| true));
+    wrong.extend(lines("json", &json, |_| true));
+    wrong.extend(lines("github", &github, |_| true));
+    let is_object = |line: &str| serde_json::from_str::<Value>(line).is_ok_and(|value| value.is_object());
+    let broken = json.lines().find(|line| !is_object(line));
+    wrong.extend(broken.map(|line| ("json", format!("no object: `{line}`"))));
+    match serde_json::from_str::<Value>(&document) {
+        Ok(document) => {
+            let results = document.pointer("/runs/0/results").and_then(Value::as_array).map(Vec::len);
+            wrong.extend(
+                (results != Some(count))
+                    .then(|| ("sarif", format!("{results:?} results for {count} findings"))),
+            );
+        }
+        Err(error) => wrong.push(("sarif", format!("cannot be read: {error}"))),
+    }
+    wrong
+}
