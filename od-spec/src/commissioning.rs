@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, Write, download};
-use crate::parameters::ParameterValues;
+use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, Value, Write, download};
+
+/// Values of single entries, by entry.
+pub type ParameterValues = BTreeMap<EntryId, Value>;
 
 /// A node: its place in a network, and the values of its parameters. A DCF holds it, as a concise DCF and an XDC do.
 #[derive(Debug, Clone, PartialEq)]

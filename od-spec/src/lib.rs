@@ -60,7 +60,7 @@ pub mod yaml;
 pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
-pub use commissioning::{Commissioning, Denoted, DomainFiles};
+pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues};
 pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
 pub use decode::{is_device_key, nearest};
 pub use departures::departures;
@@ -69,7 +69,7 @@ pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;
 pub use library::{Feature, Library, LibraryObject, library};
-pub use parameters::{Assignment, ParameterValues, assign};
+pub use parameters::{Assignment, assign};
 #[cfg(feature = "reference")]
 pub use reference::reference;
 pub use standard::LIBRARIES;

@@ -123,7 +123,7 @@ fn every_notation_of_a_valid_value_is_accepted() {
     for rest in [
         "types: {t: {base: unsigned8, rest: unused, bits: {0: a, 1..2: {name: b, values: {0: off, 1: on}}, \"4 .. 5\": reserved}}}",
         "units: {a: {symbol: V, scale: 0.1}, b: {symbol: V, scale: 1 / 10, base: 1/1000 V}, c: {symbol: 1, base: 60 s}}",
-        "pdos: {d: {receive: {0x1: {map: [0x6040, a.b, 8192.1, unsigned8]}}, transmit: }}",
+        "pdos: {pump: {receive: {0x1: {map: [0x6040, a.b, 8192.1, unsigned8]}}, transmit: }}",
         "errors: {0x1000..0x1FFF: {name: 1}, 8192: {name: b}, \"0xFF_00\": {name: c}}",
         "document: [{title: a, tables: [{errors: all}, {errors: [0x1000, 4096]}, {rows: {columns: [1], rows: [[0], [{de: b}]]}}]}]",
         "state-machines: {m: {status: a, command: 0x6040, states: {s: {pattern: 00000001}}, transitions: {0x0: {from: start, to: s, event: e}}}}",
@@ -165,7 +165,7 @@ fn misshapen_specifications_are_refused() {
         ("OD0112", "od-spec: 1\ntitle: t\nobjects: {a: {}}\n"),
         ("OD0206", "od-spec: 1\ntitle: t\nrevision: {number: 1, date: 27.05.2009}\n"),
         ("OD0206", "od-spec: 1\ntitle: t\nunits: {a: {symbol: V, base: V}}\n"),
-        ("OD0207", "od-spec: 1\ntitle: t\ndevices: {d: {name: d, lss: 1}}\n"),
+        ("OD0207", "od-spec: 1\ntitle: t\ndevices: {pump: {name: Pump, lss: 1}}\n"),
     ];
     let objects = objects.map(|(code, object)| (code, with_object(object)));
     for (code, text) in objects.into_iter().chain(whole.map(|(code, text)| (code, text.to_owned()))) {
@@ -213,14 +213,14 @@ fn the_first_specification_of_the_reference_compiles_without_a_word() {
 
 #[test]
 fn the_other_pieces_of_the_reference_compile() {
-    let head = "od-spec: 1\ntitle: t\nuses: [cia301, cia402]\n\
-        devices: {d: {name: d, bit-rates: [125], features: [heartbeat producer, drive]}}\n";
+    let head = "od-spec: 1\ntitle: t\nvendor: {name: v, number: 1}\nuses: [cia301, cia402]\n\
+        devices: {pump: {name: Pump, bit-rates: [125], features: [heartbeat producer, drive]}}\n";
     for piece in &yaml_of_reference()[1..] {
         // A drive's objects can be mapped, so that it has PDOs.
         let pdos = if piece.contains("pdos:") {
             ""
         } else {
-            "pdos: {d: {receive: {1: {map: []}}, transmit: {1: {map: []}}}}\n"
+            "pdos: {pump: {receive: {1: {map: []}}, transmit: {1: {map: []}}}}\n"
         };
         let found = diagnostics(&format!("{head}{pdos}{piece}"));
         let found: Vec<String> = found.iter().map(|one| format!("{} {}", one.code, one.message)).collect();

@@ -4,18 +4,13 @@
 mod overlay;
 mod read;
 
-use std::collections::BTreeMap;
-
-use crate::Commissioning;
 use crate::check;
+use crate::commissioning::{Commissioning, ParameterValues};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::eds::read::{FileUse, NodeDecl};
 use crate::model::{Author, Dictionary, EntryId, Statement, System, Value};
 use crate::source::{Span, Spanned};
 use crate::standard;
-
-/// Values of single entries, by entry.
-pub type ParameterValues = BTreeMap<EntryId, Value>;
 
 /// A setting `ENTRY=VALUE` and its place.
 pub type Assignment = Spanned<String>;

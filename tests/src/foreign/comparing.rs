@@ -110,7 +110,10 @@ fn sections(text: &str) -> Vec<(Index, Vec<(usize, &str)>)> {
         at += line.len();
     }
     let names: Vec<String> = sections.iter().map(|(name, _)| name.to_ascii_lowercase()).collect();
-    let is_single = |name: &str| names.iter().filter(|one| one.eq_ignore_ascii_case(name)).count() == 1;
+    // Some files have a section twice, once as `[0x2000]`.
+    let is_single = |name: &str| {
+        names.iter().filter(|one| one.trim_start_matches("0x").eq_ignore_ascii_case(name)).count() == 1
+    };
     let of_entry = |(name, lines): (&str, _)| Some((entry_of(name).filter(|_| is_single(name))?, lines));
     sections.into_iter().filter_map(of_entry).collect()
 }

@@ -9,6 +9,7 @@ use super::{compiled, device};
 const PLC: &str = "\
 od-spec: 1
 title: PLC
+vendor: {name: Example, number: 0x1FF}
 uses: [cia301]
 devices:
   plc:

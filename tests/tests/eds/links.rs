@@ -11,6 +11,7 @@ use super::{compiled, device};
 const LAMP: &str = "\
 od-spec: 1
 title: Lamp
+vendor: {name: Example, number: 0x1FF}
 uses: [cia301]
 devices: {lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer], eds: {created: 2024-02-29 12:00}}}
 objects:

@@ -23,8 +23,7 @@ use crate::ast::{DeviceDecl, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::{Span, Spanned};
 
-pub(crate) use node::NodeDecl;
-pub(crate) use node_texts::FileUse;
+pub(crate) use node::{FileUse, NodeDecl};
 
 /// What an EDS or DCF says.
 pub(crate) struct Read {

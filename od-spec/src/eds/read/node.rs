@@ -1,12 +1,31 @@
 //! `[DeviceComissioning]` and the values of a DCF (CiA 306 5): one node of a network.
 
-use super::node_texts::FileUse;
 use crate::ast::Name;
 use crate::commissioning::Denoted;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
 use crate::model::EntryId;
+
+/// Which way a DOMAIN goes between a node and a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FileUse {
+    /// The file receives what is read from the node.
+    Upload,
+    /// What the file holds is written to the node.
+    Download,
+}
+
+impl FileUse {
+    pub(super) const ALL: [Self; 2] = [Self::Upload, Self::Download];
+
+    pub(super) const fn key(self) -> &'static str {
+        match self {
+            Self::Upload => "UploadFile",
+            Self::Download => "DownloadFile",
+        }
+    }
+}
 
 /// A node, as far as its DCF says.
 #[derive(Debug, Default)]

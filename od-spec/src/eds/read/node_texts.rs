@@ -2,6 +2,7 @@
 //! files of DOMAINs. In an EDS, and where a key means nothing, it is left out with a word.
 
 use super::entry::Context;
+use super::node::FileUse;
 use super::{owned, without_place};
 use crate::commissioning::Denoted;
 use crate::diag::Diagnostic;
@@ -12,26 +13,6 @@ use crate::source::Spanned;
 
 /// Longest line without its line break (CiA 306 4.2).
 const LONGEST_LINE: usize = 255;
-
-/// Which way a DOMAIN goes between a node and a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FileUse {
-    /// The file receives what is read from the node.
-    Upload,
-    /// What the file holds is written to the node.
-    Download,
-}
-
-impl FileUse {
-    const ALL: [Self; 2] = [Self::Upload, Self::Download];
-
-    const fn key(self) -> &'static str {
-        match self {
-            Self::Upload => "UploadFile",
-            Self::Download => "DownloadFile",
-        }
-    }
-}
 
 /// Reads the section of an object or an entry; of an entry, and of an object that is one, with its data type.
 pub(super) fn read(part: &Part<'_>, of: Denoted, data_type: Option<DataType>, context: &mut Context<'_>) {
