@@ -214,7 +214,7 @@ fn the_first_specification_of_the_reference_compiles_without_a_word() {
 #[test]
 fn the_other_pieces_of_the_reference_compile() {
     let head = "od-spec: 1\ntitle: t\nvendor: {name: v, number: 1}\nuses: [cia301, cia402]\n\
-        devices: {pump: {name: Pump, bit-rates: [125], features: [heartbeat producer, drive]}}\n";
+        devices: {pump: {name: Pump, bit-rates: [125], features: [heartbeat producer, drive, profile position mode]}}\n";
     for piece in &yaml_of_reference()[1..] {
         // A drive's objects can be mapped, so that it has PDOs.
         let pdos = if piece.contains("pdos:") {
