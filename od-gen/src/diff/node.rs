@@ -1,6 +1,6 @@
 //! What two DCF files say of their nodes: where they are, and the values that they set.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::Commissioning;
 use od_spec::model::{Dictionary, EntryId, Fact, Role};
@@ -70,5 +70,27 @@ pub(super) fn changes(
             _ => change.with(rules::default(id, entry)),
         })
     });
-    facts.into_iter().flatten().chain(values).collect()
+    facts.into_iter().flatten().chain(values).chain(texts(old, new)).collect()
+}
+
+/// What a DCF calls its objects, and the files that go into and out of the node.
+fn texts(old: &Commissioning, new: &Commissioning) -> Vec<Change> {
+    let all = |node: &Commissioning| -> BTreeMap<String, String> {
+        let names = node.denotations.iter().map(|(of, name)| (format!("name of {of}"), name.clone()));
+        let files = node.files.iter().flat_map(|(id, files)| {
+            let kinds = [("upload", &files.upload), ("download", &files.download)];
+            kinds
+                .into_iter()
+                .filter_map(move |(kind, path)| Some((format!("{kind} file of {id}"), path.clone()?)))
+        });
+        names.chain(files).collect()
+    };
+    let (before, after) = (all(old), all(new));
+    let parts: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
+    let change = |part: &String| {
+        let value = |texts: &BTreeMap<String, String>| texts.get(part).cloned();
+        let change = Change::of(Place::Device, Fact::Node, value(&before), value(&after))?;
+        Some(change.part(part).so(Class::Documents, "a text for people and tools"))
+    };
+    parts.into_iter().filter_map(change).collect()
 }

@@ -62,6 +62,10 @@ fn nodes_and_their_values_are_compared() {
     scratch.file("unset.dcf", ROOF_FAN.replace("ParameterValue=-5\n", ""));
     let (differs, _) = short("old.dcf", "unset.dcf");
     assert_eq!(differs, "unset: ~ 2000h Speed, set by the DCF: default: -5 -> none [behaviour]\n");
+    scratch
+        .file("named.dcf", ROOF_FAN.replace("ParameterValue=-5\n", "ParameterValue=-5\nDenotation=Roof\n"));
+    let (differs, _) = short("old.dcf", "named.dcf");
+    assert_eq!(differs, "named: ~ device, name of 2000h: node: none -> Roof [documents]\n");
     let (_, said) = short("old.dcf", "fan.eds");
     assert!(
         said.contains("the 1 value that the DCF sets is not compared, as the other side is no DCF"),

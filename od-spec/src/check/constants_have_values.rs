@@ -12,7 +12,7 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check
 const CODE: &Code = &Code {
     id: "OD0805",
     severity: Severity::Warning,
-    foreign: Severity::Warning,
+    foreign: Severity::Note,
     title: "a constant without a value",
     explanation: "A `const` entry has one value for ever; without it, an EDS leaves the reader in the dark, and generated code has nothing to answer. \
         State it as `default`, or make the entry `ro`.",
@@ -28,7 +28,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if entry.access != Access::Const || entry.default.is_some() || entry.data_type == DataType::Domain {
             continue;
         }
-        let help = match object.profile.as_ref().filter(|_| entry.is_only_standard(Fact::Access)) {
+        // The library says that it is constant, and the file describes the object.
+        let is_described = object.span.file == subject.device.span.file;
+        let is_taken = entry.is_only_standard(Fact::Access);
+        let help = match object.profile.as_ref().filter(|_| is_taken && !is_described) {
             Some(library) => {
                 format!("write it among the objects: `0x{:04X}: {{from: {library}, default: …}}`", id.index.0)
             }
@@ -42,6 +45,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         };
         let message =
             format!("{id} ({}) of `{}` is constant, but has no value", object.name, subject.device.key);
-        findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Access), message).help(help));
+        let place = if is_taken { subject.object_place(object) } else { subject.place(entry, Fact::Access) };
+        findings.push(Diagnostic::new(CODE, place, message).help(help));
     }
 }

@@ -5,7 +5,7 @@ use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{EntryId, Fact, Object, PdoMapping, Role, SubIndex};
+use crate::model::{Fact, Object, PdoMapping, Role, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
 
@@ -32,7 +32,7 @@ fn is_told(object: &Object) -> bool {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| object.is_structured()) {
         let Some(count) = object.entry(SubIndex(0)) else { continue };
-        let id = EntryId { index: object.index, sub: SubIndex(0) };
+        let id = format!("{}: sub-index 0", object.index);
         let told = is_told(object);
         let problem = if count.access.is_writable() && !told {
             let what =

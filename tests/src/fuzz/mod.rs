@@ -1,6 +1,6 @@
 //! Mutants of texts, and what is demanded of every one of them.
 //!
-//! [`mutant`] changes texts by chance; a [`Subject`] says what must hold for whatever comes out; [`hunt`] tries one mutant after
+//! [`mutant()`] changes texts by chance; a [`Subject`] says what must hold for whatever comes out; [`hunt()`] tries one mutant after
 //! the other, and makes what fails as small as it can. Nothing here depends on the language of the texts but [`EDS`] and
 //! [`EdsFiles`].
 

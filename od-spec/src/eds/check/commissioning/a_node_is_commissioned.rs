@@ -27,7 +27,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     if is_dcf(view.facts.name) && view.section(Topic::Commissioning).is_none() {
         diagnostics.push(
             Diagnostic::new(CODE, view.start(), "there is no section `[DeviceComissioning]`")
-                .help("add it with `NodeID` and `Baudrate`, or call the file `.eds`"),
+                .help("add it with `NodeID` and `Baudrate`; a file without a node and its values is an EDS"),
         );
     }
 }
