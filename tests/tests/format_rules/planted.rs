@@ -182,6 +182,44 @@ const LISTS: &[Fault] = &[
     fault("EDS709", "[1000]\r\n", "[1000]\r\nParameterValue=5\r\n", "ParameterValue=5", Left),
 ];
 
+/// What the device is, and no matter of form: the rules of specifications judge it.
+const MEANING: &[Fault] = &[
+    fault(
+        "OD0313",
+        "DefaultValue=4\r\nPDOMapping=0\r\n\r\n; Number of the manufacturer",
+        "DefaultValue=3\r\nPDOMapping=0\r\n\r\n; Number of the manufacturer",
+        "DefaultValue=3\r\nPDOMapping=0\r\n\r\n; Number of the manufacturer",
+        Left,
+    ),
+    // More than 64 bits, an entry that cannot be mapped, and one of the other direction.
+    fault(
+        "OD0507",
+        "=0x60410010",
+        "=0x60410048",
+        "DefaultValue=1\r\nPDOMapping=0\r\n\r\n; bits 31..16 index, 15..8 sub-index, 7..0 length in bits\r\n; stored with the communication parameters\r\n[1A00sub1]",
+        Left,
+    ),
+    fault("OD0502", "=0x60410010", "=0x60650020", "=0x60650020", Left),
+    fault("OD0502", "=0x60410010", "=0x60400008", "=0x60400008", Left),
+    // RPDO 1 has the identifier.
+    fault("OD0504", "=$NODEID+0x40000180", "=$NODEID+0x40000200", "=$NODEID+0x40000200", Left),
+    fault(
+        "OD0303",
+        "ParameterName=Statusword",
+        "ParameterName=Controlword",
+        "[6041]\r\nParameterName=Controlword",
+        Left,
+    ),
+    fault(
+        "OD0318",
+        "ParameterName=Statusword",
+        "ParameterName=very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very very long",
+        "[6041]\r\nParameterName=very",
+        Left,
+    ),
+    fault("EDS101", "ParameterName=Statusword", "ParameterName=Statuswört", "ParameterName=Statuswört", Left),
+];
+
 /// The sections with their keys, in an order that does not depend on the text's.
 fn facts(text: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut sources = SourceMap::new();
@@ -206,7 +244,7 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
     let name = "pmc.eds";
     let clean = std::fs::read_to_string(root().join("generated/eds").join(name)).unwrap();
     let mut wrong = Vec::new();
-    for fault in LINES.iter().chain(INFORMATION).chain(LISTS) {
+    for fault in LINES.iter().chain(INFORMATION).chain(LISTS).chain(MEANING) {
         let what = format!("{} {:?}", fault.code, fault.new.chars().take(40).collect::<String>());
         assert!(clean.contains(fault.old), "{what}: the file holds no such text");
         let text = clean.replacen(fault.old, fault.new, 1);
