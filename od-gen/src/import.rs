@@ -80,7 +80,7 @@ pub fn import(
             options.comments.entry(place).or_default().push(text);
         }
     }
-    let values = node_values(compiled, system, device);
+    let values = node_values(compiled, sources, system, device);
     let count = without_place.len() + values.settings.len() + values.refused.len() + values.texts.len();
     options.foot = foot(without_place, values, base_name(file.name()));
     // What follows takes the most memory.
@@ -155,11 +155,12 @@ struct NodeValues {
     texts: Vec<String>,
 }
 
-fn node_values(compiled: &Compiled, system: &System, device: &Dictionary) -> NodeValues {
+fn node_values(compiled: &Compiled, sources: &SourceMap, system: &System, device: &Dictionary) -> NodeValues {
     let mut values = NodeValues::default();
     let Some(node) = &compiled.node else { return values };
     let words = Wording::english(Notation::Diagnostic);
-    let mut sources = SourceMap::new();
+    // Places in the settings are none in the file.
+    let mut sources = sources.clone();
     let mut settings = Vec::new();
     for (id, value) in &node.values {
         let Some(entry) = device.entry(*id) else { continue };

@@ -48,9 +48,8 @@ const SETTINGS: [(&str, &str); 29] = [
 ];
 
 /// A DCF with every setting, and the list of what it must say.
-pub(crate) fn write_configured(system: &System) -> Result<(), Failure> {
+pub(crate) fn write_configured(system: &System, mut sources: SourceMap) -> Result<(), Failure> {
     let device = system.devices.first().ok_or("everything.od.yaml has no device")?;
-    let mut sources = SourceMap::new();
     let settings = SETTINGS.map(|(setting, _)| {
         let file = sources.add("SETTINGS", setting);
         Spanned::new(setting.to_owned(), sources.whole(file))

@@ -6,8 +6,9 @@ use std::process::Command;
 use od_gen::files::write_all;
 use od_gen::{Selection, artifacts};
 use od_spec::model::System;
+use od_spec::source::SourceMap;
 use od_tests::generate::SPECS;
-use od_tests::{Failure, compile_clean, root};
+use od_tests::{Failure, compile_clean, compile_with_sources, root};
 
 use crate::configured::{CONFIGURED, write_configured};
 use crate::runner::Runner;
@@ -24,17 +25,18 @@ pub(crate) fn every_feature(runner: &mut Runner) -> Result<(), Failure> {
 }
 
 pub(crate) fn configured(runner: &mut Runner) -> Result<(), Failure> {
-    write_configured(&write_everything()?)?;
+    let (system, sources) = write_everything()?;
+    write_configured(&system, sources)?;
     let values = ["--eds-dir", CONFIGURED, "--values", "target/everything/configured/values.txt"];
     runner.python("tests/readers/run.py", &[&values[..], &EVERYTHING].concat())
 }
 
 /// Writes the EDS, DCF and dump of `everything.od.yaml`.
-fn write_everything() -> Result<System, Failure> {
-    let system = compile_clean("tests/readers/everything.od.yaml")?;
+fn write_everything() -> Result<(System, SourceMap), Failure> {
+    let (system, sources) = compile_with_sources("tests/readers/everything.od.yaml")?;
     let set = artifacts(&system, "everything", &Selection { node: Some(5), ..Selection::default() });
     write_all(&root().join("target/everything"), &set)?;
-    Ok(system)
+    Ok((system, sources))
 }
 
 /// The drive of the README, and what `odgen new` starts with, read by every foreign reader.
