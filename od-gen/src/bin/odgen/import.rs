@@ -93,7 +93,7 @@ fn describe(name: &str, objects: usize, imported: &Imported) -> String {
     let mut line = format!("{name}: {}", counted(objects, "object"));
     for (count, what, how) in [
         (imported.allowed.len(), "rule", "broken (see `allow:`)"),
-        (imported.repairs.len(), "fact", "changed, as a specification cannot have it (see the comments)"),
+        (imported.repairs.len(), "fact", "changed, as the language takes no other (see the comments)"),
         (imported.without_place, "fact", "without a place in a specification (see the end)"),
     ] {
         if count > 0 {
