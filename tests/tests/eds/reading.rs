@@ -217,3 +217,17 @@ fn meanings_in_comments_are_read_only_where_they_fit() {
     assert_eq!(object("; How it\n;   works.\n; -----\n;AccessType=ro\n", ""), "None None [] How it works.");
     assert_eq!(object("; Far away.\n\n", ""), "None None [] ");
 }
+
+/// A comment of ours says that an entry is locked, and an EDS shows that as `ro`. Who then writes another access says it of the EDS.
+#[test]
+fn a_comment_about_a_lock_does_not_change_the_access_that_the_file_states() {
+    let shown = |access: &str| {
+        let keys = format!("DataType=5\nAccessType={access}\nDefaultValue=1\nPDOMapping=0\n");
+        let text = format!("; writable only when unlocked for service; factory default 1\n{}", var(&keys));
+        let entry = device("level.eds", &text).objects[&Index(0x2000)].entries[0].clone();
+        (entry.eds.access.word(), entry.locked)
+    };
+    for access in ["ro", "rw", "rww", "rwr", "wo"] {
+        assert_eq!(shown(access), (access, true), "{access}");
+    }
+}

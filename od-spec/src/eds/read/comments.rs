@@ -301,20 +301,31 @@ fn step_text(text: &str) -> Option<StepText> {
     })
 }
 
-/// An EDS shows a locked entry as read-only.
+/// An EDS shows a locked entry as read-only. One that shows it otherwise keeps what it shows: tools obey the key, not the comment.
 fn locked(entry: EntryDecl, access: Spanned<AccessRight>, place: Span) -> EntryDecl {
     let shown = access.value.access;
     let writable = if shown == Access::Ro { Access::Rw } else { shown };
     let right = AccessRight { access: writable, locked: true };
-    // What keeps tools from writing it follows from the lock.
-    let eds = entry.eds.clone().map(|eds| eds.map(|eds| EdsDecl { no_write: false, ..eds }));
-    EntryDecl { access: Some(Spanned::new(right, place)), eds: eds.filter(|eds| eds.value.no_scan), ..entry }
+    let stated = entry.eds.as_ref().map(|eds| &eds.value);
+    let eds = EdsDecl {
+        default: stated.and_then(|eds| eds.default),
+        access: (shown != Access::Ro).then_some(shown),
+        // What keeps tools from writing it follows from the lock.
+        no_write: false,
+        no_scan: stated.is_some_and(|eds| eds.no_scan),
+    };
+    EntryDecl { access: Some(Spanned::new(right, place)), eds: Some(Spanned::new(eds, place)), ..entry }
 }
 
 /// A default that the file does not show to tools.
 fn withheld(entry: EntryDecl, text: &str, data_type: DataType, place: Span) -> EntryDecl {
-    let flags = entry.eds.as_ref().map(|eds| (eds.no_write, eds.no_scan)).unwrap_or_default();
-    let eds = EdsDecl { default: Some(false), access: None, no_write: flags.0, no_scan: flags.1 };
+    let stated = entry.eds.as_ref().map(|eds| &eds.value);
+    let eds = EdsDecl {
+        default: Some(false),
+        access: stated.and_then(|eds| eds.access),
+        no_write: stated.is_some_and(|eds| eds.no_write),
+        no_scan: stated.is_some_and(|eds| eds.no_scan),
+    };
     let eds = Some(Spanned::new(eds, place));
     if formula(text).is_some() && data_type.is_integer() {
         return EntryDecl { default: Some(made(text, place)), eds, ..entry };
