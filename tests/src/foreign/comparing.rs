@@ -114,7 +114,12 @@ fn sections(text: &str) -> Vec<(Index, Vec<(usize, &str)>)> {
     let is_single = |name: &str| {
         names.iter().filter(|one| one.trim_start_matches("0x").eq_ignore_ascii_case(name)).count() == 1
     };
-    let of_entry = |(name, lines): (&str, _)| Some((entry_of(name).filter(|_| is_single(name))?, lines));
+    // What stands at an object with sub-indices, its sub-indices say.
+    let has_subs =
+        |name: &str| names.iter().any(|one| one.starts_with(&format!("{}sub", name.to_ascii_lowercase())));
+    let of_entry = |(name, lines): (&str, _)| {
+        Some((entry_of(name).filter(|_| is_single(name) && !has_subs(name))?, lines))
+    };
     sections.into_iter().filter_map(of_entry).collect()
 }
 
@@ -148,10 +153,16 @@ fn key_lines<'t>(index: Index, lines: Vec<(usize, &'t str)>) -> Vec<KeyLine<'t>>
         return Vec::new();
     }
     let is_number = matches!(value("DataType"), Some(Some(2..=7)));
-    let count = |key: &str| keys.iter().filter(|one| one.key.eq_ignore_ascii_case(key)).count();
+    // A key that stands twice, once with a character too many, is one key.
+    let count = |key: &str| keys.iter().filter(|one| letters(one.key) == letters(key)).count();
     let single: Vec<bool> = keys.iter().map(|one| count(one.key) == 1).collect();
     let lines = keys.into_iter().zip(single).filter_map(|(line, is_single)| is_single.then_some(line));
     lines.filter(|line| is_number || !line.key.eq_ignore_ascii_case("DefaultValue")).collect()
+}
+
+/// The letters and digits of a key, without capitals.
+fn letters(key: &str) -> String {
+    key.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
 }
 
 fn number(text: &str) -> Option<i64> {
