@@ -232,7 +232,6 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0414", comment("writable only when unlocked for service", var(0x2000, "level", 5, "const", &default("1")))),
         ("OD0415", comment("stored with the application parameters", var(0x2000, "level", 5, "const", &default("1")))),
         ("OD0416", var(0x2000, "label", 9, "ro", in_pdo)),
-        ("OD0417", comment("writable only when unlocked for service", var(0x2001, "level", 5, "rww", in_pdo))),
         ("OD0502", level("") + &TPDO.text()),
         ("OD0502", level("") + &Pdo { mapped: &[("rw", "0x20000008")], ..RPDO }.text()),
         ("OD0502", pdo(Pdo { mapped: &[("rw", "0x20000010")], ..TPDO })),

@@ -5,7 +5,7 @@ use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Access, Author, Direction, Entry, EntryId, Fact, PdoMapping, SystemSource};
+use crate::model::{Access, Author, Direction, Entry, EntryId, Fact, PdoMapping};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
@@ -97,15 +97,13 @@ fn against_eds(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<Diag
     let contradicted = [Direction::Receive, Direction::Transmit]
         .into_iter()
         .find(|direction| entry.pdo.allows(*direction) && !permits(*direction))?;
-    let but = match subject.system.source {
-        SystemSource::Specification => format!("the EDS shows `{}`", shown.word()),
-        SystemSource::Eds => format!("a locked entry is `{}`", shown.word()),
-    };
-    let message = format!("{id} ({}): mappable into {}s, but {but}", entry.name, contradicted.pdo());
-    let help = subject.help(Help {
-        specification: "remove `pdo:`, or let the EDS show the access; a locked entry is `ro` in the EDS",
-        eds: "write `PDOMapping=0`, or remove the comment that the entry is writable when unlocked",
-        setting: "the mapping or the access has to be corrected",
-    });
+    // Only a specification says what its EDS shows: an EDS that is read shows the access it states.
+    let message = format!(
+        "{id} ({}): mappable into {}s, but the EDS shows `{}`",
+        entry.name,
+        contradicted.pdo(),
+        shown.word()
+    );
+    let help = "remove `pdo:`, or let the EDS show the access; a locked entry is `ro` in the EDS";
     Some(Diagnostic::new(CODE, place, message).help(help))
 }
