@@ -199,13 +199,19 @@ impl Templates {
         let name = inner.name().unwrap_or(template).to_owned();
         let source = self.files.get(&name).cloned().unwrap_or_default();
         let range = inner.range().or_else(|| line_range(&source, inner.line()?)).unwrap_or(0..0);
-        let range = range.start.min(source.len())..range.end.min(source.len());
+        // Places may lie inside a character.
+        let range = boundary(&source, range.start)..boundary(&source, range.end);
         let message = match inner.detail() {
             Some(detail) => format!("{}: {detail}", inner.kind()),
             None => inner.kind().to_string(),
         };
         TemplateError { template: name, source, range, message }
     }
+}
+
+/// The start of the character at a place, or the end of the text.
+fn boundary(text: &str, at: usize) -> usize {
+    (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or_default()
 }
 
 /// Where a line lies in a text; lines are counted from 1.

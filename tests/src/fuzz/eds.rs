@@ -1,14 +1,11 @@
 //! What is demanded of every EDS and DCF, however broken.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use od_gen::import::import;
 use od_spec::eds::Document;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Compiled, NoFiles, Strictness, add_source, compile_as, fix};
 
-use super::bounds::{Bound, Bounds, Meter};
+use super::bounds::{Bound, Bounds, Meter, caught};
 use super::findings;
 use super::notation::{EDS, Notation};
 use super::{Complaint, Subject};
@@ -46,15 +43,7 @@ impl Subject for EdsFiles {
         let size = size_in_full(name, bytes);
         let is_small = size <= LARGEST;
         for (bounds, step) in STEPS.into_iter().filter(|(bounds, _)| is_small || bounds.step != TURN) {
-            let mut outcome = Ok(());
-            // A panic must not leave the meter running.
-            let used = (self.meter)(&mut || {
-                outcome = caught(|| step(name, bytes));
-            });
-            match outcome {
-                Ok(()) => complaints.extend(bounds.complaint(size, used)),
-                Err(what) => complaints.push(Complaint { step: bounds.step.to_owned(), what }),
-            }
+            complaints.extend(bounds.of_step(self.meter, size, || step(name, bytes)));
         }
         if complaints.is_empty() && is_small {
             let wrong = caught(|| formats(name, bytes));
@@ -70,12 +59,6 @@ impl Subject for EdsFiles {
         }
         complaints
     }
-}
-
-/// What a step gives, or that it panics.
-fn caught<T>(step: impl FnOnce() -> T) -> Result<T, String> {
-    let told = |panic: Box<dyn Any + Send>| format!("panicked: {}", foreign::message(panic.as_ref()));
-    catch_unwind(AssertUnwindSafe(step)).map_err(told)
 }
 
 fn formats(name: &str, bytes: &[u8]) -> Vec<Complaint> {
@@ -116,33 +99,35 @@ fn size_in_full(name: &str, bytes: &[u8]) -> usize {
 
 type Step = fn(&str, &[u8]);
 
-const fn bound(base: u64, per_byte: u64) -> Bound {
-    Bound { base, per_byte }
-}
-
 /// What is measured. The numbers are what mutants of all seeds, and of two hundred files from the field, have needed at most,
 /// and about a third more: one line may be a few bytes, a finding about it is a hundred or two; a section of some lines makes
 /// an entry with the places of all its facts.
 const STEPS: [(Bounds, Step); 5] = [
     // At most 11 for each byte: a line is an item of 40 bytes.
-    (Bounds { step: "scan", peak: bound(20_000, 16), total: bound(20_000, 24) }, scan),
+    (Bounds { step: "scan", peak: Bound::new(20_000, 16), total: Bound::new(20_000, 24) }, scan),
     // At most 48 in a file that says everything, 70 in one of empty sections, with a finding for each thing that is missing.
     // In all: what CiA 301 says about objects is read again for each file.
-    (Bounds { step: "model", peak: bound(100_000, 80), total: bound(2_000_000, 300) }, |name, bytes| {
-        drop(compiled(name, bytes, Strictness::Foreign));
-    }),
-    (Bounds { step: "check", peak: bound(100_000, 80), total: bound(2_000_000, 300) }, |name, bytes| {
-        drop(compiled(name, bytes, Strictness::Standard));
-    }),
+    (
+        Bounds { step: "model", peak: Bound::new(100_000, 80), total: Bound::new(2_000_000, 300) },
+        |name, bytes| {
+            drop(compiled(name, bytes, Strictness::Foreign));
+        },
+    ),
+    (
+        Bounds { step: "check", peak: Bound::new(100_000, 80), total: Bound::new(2_000_000, 300) },
+        |name, bytes| {
+            drop(compiled(name, bytes, Strictness::Standard));
+        },
+    ),
     // At most 61: two texts, and what was found in each. In all: as many rounds as changes wait for others.
     (
-        Bounds { step: "put right", peak: bound(150_000, 96), total: bound(20_000_000, 1500) },
+        Bounds { step: "put right", peak: Bound::new(150_000, 96), total: Bound::new(20_000_000, 1500) },
         |name, bytes| {
             drop(fix(name, bytes));
         },
     ),
     // At most 45: the model three times – of the file, as it is mended, as the specification gives it – and what is compiled.
-    (Bounds { step: TURN, peak: bound(2_500_000, 80), total: bound(10_000_000, 2500) }, turn),
+    (Bounds { step: TURN, peak: Bound::new(2_500_000, 80), total: Bound::new(10_000_000, 2500) }, turn),
 ];
 
 fn scan(name: &str, bytes: &[u8]) {

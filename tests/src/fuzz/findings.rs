@@ -2,7 +2,7 @@
 
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Findings, Format, render, sarif};
-use od_spec::source::SourceMap;
+use od_spec::source::{SourceMap, Span};
 use serde_json::Value;
 
 /// What is wrong with the texts of findings.
@@ -16,7 +16,7 @@ pub(super) fn wrong(
     let human = text(Format::Human);
     let [short, json, github] = [Format::Short, Format::Json, Format::Github].map(text);
     let document = sarif("0.0.0", &[Findings { name, diagnostics, sources }]);
-    let mut wrong = Vec::new();
+    let mut wrong = places(diagnostics, sources);
     for (format, text) in
         [("human", &human), ("short", &short), ("json", &json), ("github", &github), ("sarif", &document)]
     {
@@ -46,4 +46,16 @@ pub(super) fn wrong(
         Err(error) => wrong.push(("sarif", format!("cannot be read: {error}"))),
     }
     wrong
+}
+
+/// A place is a part of its file, from character to character.
+fn places(diagnostics: &Diagnostics, sources: &SourceMap) -> Vec<(&'static str, String)> {
+    let spans = diagnostics.iter().flat_map(|one| one.labels.iter().map(move |label| (one, label.span)));
+    let outside = |span: Span| {
+        let bytes = usize::try_from(span.start).ok().zip(usize::try_from(span.end).ok());
+        let part = bytes.and_then(|(start, end)| sources.file(span.file).text().get(start..end));
+        part.is_none().then_some((span.start, span.end))
+    };
+    let wrong = spans.filter_map(|(one, span)| Some((one, outside(span)?)));
+    wrong.map(|(one, (start, end))| ("places", format!("{} is at {start} to {end}", one.code.id))).collect()
 }

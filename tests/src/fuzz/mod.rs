@@ -1,8 +1,8 @@
 //! Mutants of texts, and what is demanded of every one of them.
 //!
 //! [`mutant()`] changes texts by chance; a [`Subject`] says what must hold for whatever comes out; [`hunt()`] tries one mutant after
-//! the other, and makes what fails as small as it can. Nothing here depends on the language of the texts but [`EDS`] and
-//! [`EdsFiles`].
+//! the other, and makes what fails as small as it can. What a language looks like is a [`Notation`], what is demanded of its texts a
+//! [`Subject`]; nothing else depends on one.
 
 mod bounds;
 mod eds;
@@ -11,16 +11,22 @@ mod hunt;
 mod mutate;
 mod notation;
 mod random;
+mod settings;
 mod shrink;
+mod specifications;
+mod templates;
 mod values;
 
 pub use bounds::{Meter, Used};
 pub use eds::EdsFiles;
 pub use hunt::{Caught, Hunt, Outcome, hunt};
 pub use mutate::{Seed, mutant};
-pub use notation::{EDS, Notation};
+pub use notation::{EDS, Layout, Notation, SETTINGS, TEMPLATES, YAML};
 pub use random::Random;
+pub use settings::Settings;
 pub use shrink::shrink;
+pub use specifications::Specifications;
+pub use templates::TemplateFiles;
 
 /// A demand that a text does not meet.
 #[derive(Debug, Clone, PartialEq, Eq)]

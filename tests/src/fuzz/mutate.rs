@@ -1,5 +1,6 @@
 //! Mutants: texts that were changed by chance, as a seed decides.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use od_spec::encoding::{Encoding, decode, encode};
@@ -17,8 +18,6 @@ pub struct Seed {
     pub bytes: Vec<u8>,
 }
 
-/// Most changes of one mutant.
-const MOST_CHANGES: usize = 12;
 /// Of a text that is longer, so many bytes are taken at most.
 const LONGEST_PART: usize = 12_000;
 /// Of what grows, a mutant has at most so many bytes.
@@ -45,7 +44,7 @@ pub(super) struct Page<'n> {
 type Change = fn(&mut Page<'_>, other: &Page<'_>, random: &mut Random);
 
 /// All changes of lines, each as likely as any other.
-const CHANGES: [Change; 19] = [
+const CHANGES: [Change; 21] = [
     delete_lines,
     double_lines,
     move_lines,
@@ -58,7 +57,9 @@ const CHANGES: [Change; 19] = [
     continue_as_other,
     put_line,
     put_header,
+    indent_lines,
     values::replace,
+    values::replace_word,
     values::swap,
     values::nudge,
     values::lengthen,
@@ -72,7 +73,7 @@ pub fn mutant(seeds: &[Seed], notation: &Notation, random: &mut Random) -> Optio
     let seed = random.pick(seeds)?;
     let (text, encoding) = decode(seed.bytes.clone());
     let mut page = part(Page::new(&text, notation), random);
-    for _ in 0..random.small(MOST_CHANGES) {
+    for _ in 0..random.small(notation.most_changes) {
         let other = random.pick(seeds).map(|other| decode(other.bytes.clone()).0).unwrap_or_default();
         let other = Page::new(&other, notation);
         if let Some(change) = random.pick(&CHANGES) {
@@ -84,7 +85,7 @@ pub fn mutant(seeds: &[Seed], notation: &Notation, random: &mut Random) -> Optio
     let encoded = encode(&text, encoding.unwrap_or(Encoding::Utf8));
     let mut bytes = encoded.unwrap_or_else(|_| text.into_bytes());
     if random.chance(20) {
-        for _ in 0..random.small(MOST_CHANGES) {
+        for _ in 0..random.small(notation.most_changes) {
             change_byte(&mut bytes, random);
         }
     }
@@ -99,20 +100,27 @@ fn part<'n>(whole: Page<'n>, random: &mut Random) -> Page<'n> {
     }
     let sections = whole.sections();
     let head = if random.chance(80) { sections.len().min(3) } else { 0 };
-    let mut from = head + random.below(sections.len() - head);
-    let mut lines: Vec<String> = Vec::new();
-    let mut size = 0;
-    let mut take = |section: &Range<usize>| {
-        let section = whole.lines.get(section.clone()).unwrap_or_default();
-        size += section.iter().map(String::len).sum::<usize>();
-        lines.extend_from_slice(section);
-        size < limit
+    let start = head + random.below(sections.len() - head);
+    let mut from = start;
+    let mut taken: BTreeSet<usize> = (0..head).collect();
+    let is_frame = |section: &Range<usize>| {
+        whole.lines.get(section.start).is_some_and(|line| whole.notation.is_frame(line))
     };
-    sections.iter().take(head).all(&mut take);
-    while sections.get(from).is_some_and(&mut take) {
+    taken.extend((0..sections.len()).filter(|at| sections.get(*at).is_some_and(is_frame)));
+    let size = |at: usize| {
+        let lines = sections.get(at).and_then(|section| whole.lines.get(section.clone()));
+        lines.unwrap_or_default().iter().map(String::len).sum::<usize>()
+    };
+    let mut room = limit.saturating_sub(taken.iter().map(|at| size(*at)).sum());
+    while from < sections.len() && room > 0 {
+        if taken.insert(from) {
+            room = room.saturating_sub(size(from));
+        }
         // Mostly neighbours, now and then a gap.
         from += if random.chance(90) { 1 } else { random.small(40) };
     }
+    let lines = taken.iter().filter_map(|at| whole.lines.get(sections.get(*at)?.clone()));
+    let lines = lines.flatten().cloned().collect();
     Page { lines, ..whole }
 }
 
@@ -128,7 +136,7 @@ impl<'n> Page<'n> {
 
     /// The sections; what stands before the first is a section too.
     fn sections(&self) -> Vec<Range<usize>> {
-        let is_start = |(at, line): &(usize, &String)| *at == 0 || line.starts_with(self.notation.header);
+        let is_start = |(at, line): &(usize, &String)| *at == 0 || self.notation.is_header(line);
         let starts: Vec<usize> = self.lines.iter().enumerate().filter(is_start).map(|(at, _)| at).collect();
         let ends = starts.iter().skip(1).copied().chain([self.lines.len()]);
         starts.iter().zip(ends).map(|(start, end)| *start..end).collect()
@@ -233,7 +241,7 @@ fn many_sections(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
     for _ in 0..times {
         let mut lines = lines.clone();
         if let Some(header) = lines.first_mut().filter(|_| !same) {
-            *header = format!("{}{number:04X}]{}", page.notation.header, page.line_break());
+            *header = page.notation.numbered(header, number);
             number += 1;
         }
         more.append(&mut lines);
@@ -266,11 +274,23 @@ fn put_line(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
 
 fn put_header(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
     let name = random.pick(page.notation.headers).copied().unwrap_or_default();
-    let header = format!("{}{name}]{}", page.notation.header, page.line_break());
+    let header = page.notation.header(name) + page.line_break();
     let at = page.gap(random);
-    match page.lines.get_mut(at).filter(|line| line.starts_with('[')) {
+    match page.lines.get_mut(at).filter(|line| page.notation.is_header(line)) {
         Some(line) => *line = header,
         None => page.insert(at, vec![header]),
+    }
+}
+
+/// Lines move to the right or to the left: what belongs together changes where indentation says it.
+fn indent_lines(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
+    let range = page.range(random);
+    let to_the_right = random.chance(50);
+    for line in page.lines.get_mut(range).unwrap_or_default() {
+        match line.strip_prefix("  ") {
+            Some(rest) if !to_the_right => *line = rest.to_owned(),
+            Some(_) | None => line.insert_str(0, "  "),
+        }
     }
 }
 

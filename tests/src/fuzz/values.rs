@@ -1,5 +1,7 @@
 //! Changes of what stands in a line: keys, values, numbers, and the places that headers name.
 
+use std::ops::Range;
+
 use super::mutate::{LARGEST, Page};
 use super::random::Random;
 
@@ -40,6 +42,45 @@ pub(super) fn replace(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
         let value = random.pick(page.notation.values).copied().unwrap_or_default();
         page.rewrite(at, |parts| (parts.key.to_owned(), value.to_owned()));
     }
+}
+
+/// A word becomes one of another line, or a value.
+pub(super) fn replace_word(page: &mut Page<'_>, other: &Page<'_>, random: &mut Random) {
+    for _ in 0..random.small(4) {
+        let at = random.below(page.lines.len());
+        let Some(place) = page.lines.get(at).and_then(|line| random.pick(&words(line)).cloned()) else {
+            continue;
+        };
+        let source = if random.chance(50) { other } else { &*page };
+        let found = source.lines.get(random.below(source.lines.len())).and_then(|line| {
+            let place = random.pick(&words(line)).cloned()?;
+            line.get(place).map(str::to_owned)
+        });
+        let value = random.pick(page.notation.values).map(ToString::to_string);
+        let new = if random.chance(70) { found.or(value) } else { value };
+        if let Some((line, new)) = page.lines.get_mut(at).zip(new) {
+            line.replace_range(place, &new);
+        }
+    }
+}
+
+/// Where the words of a line stand.
+fn words(line: &str) -> Vec<Range<usize>> {
+    let is_part =
+        |character: char| character.is_alphanumeric() || matches!(character, '_' | '-' | '.' | '$' | '%');
+    let mut found = Vec::new();
+    let mut begun = None;
+    for (at, character) in line.char_indices().chain([(line.len(), '\n')]) {
+        match begun {
+            None if is_part(character) => begun = Some(at),
+            Some(start) if !is_part(character) => {
+                found.push(start..at);
+                begun = None;
+            }
+            None | Some(_) => (),
+        }
+    }
+    found
 }
 
 /// The values of two keys change places.
@@ -113,9 +154,9 @@ pub(super) fn misspell(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
 
 /// A header gets another index or sub-index: a digit becomes another, or a part of its name goes or comes.
 pub(super) fn move_place(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random) {
-    let header = page.notation.header;
+    let notation = page.notation;
     let mut found = (0..20).map(|_| random.below(page.lines.len()));
-    let Some(at) = found.find(|at| page.lines.get(*at).is_some_and(|line| line.starts_with(header))) else {
+    let Some(at) = found.find(|at| page.lines.get(*at).is_some_and(|line| notation.is_header(line))) else {
         return;
     };
     let Some(line) = page.lines.get_mut(at) else { return };
@@ -128,7 +169,7 @@ pub(super) fn move_place(page: &mut Page<'_>, _: &Page<'_>, random: &mut Random)
     match random.pick(&digits) {
         Some(place) if random.chance(80) => line.replace_range(*place..=*place, digit),
         Some(place) => line.insert_str(*place, digit),
-        None => line.insert_str(header.len_utf8(), digit),
+        None => line.insert_str(notation.name_start(line), digit),
     }
 }
 
@@ -143,6 +184,13 @@ mod tests {
         page.rewrite(0, |parts| (parts.key.to_owned(), format!("<{}>", parts.value)));
         page.rewrite(1, |_| unreachable!("it has no key"));
         assert_eq!(page.lines.concat(), "Key=<1>\r\nno key\r\n");
+    }
+
+    #[test]
+    fn words_end_at_signs() {
+        let line = "  0x2000: {name: set-point, unit: m/s, default: $NODEID+1.5}";
+        let found: Vec<&str> = words(line).into_iter().map(|place| &line[place]).collect();
+        assert_eq!(found, ["0x2000", "name", "set-point", "unit", "m", "s", "default", "$NODEID", "1.5"]);
     }
 
     #[test]

@@ -3,9 +3,42 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// The texts of which mutants are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Texts {
+    Eds,
+    Specifications,
+    Settings,
+    Templates,
+}
+
+impl Texts {
+    pub(crate) const ALL: [Texts; 4] = [Texts::Eds, Texts::Specifications, Texts::Settings, Texts::Templates];
+
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Texts::Eds => "eds",
+            Texts::Specifications => "specifications",
+            Texts::Settings => "settings",
+            Texts::Templates => "templates",
+        }
+    }
+
+    /// Of all the time, so many hundredths are for these: there is more to break in some than in others.
+    pub(crate) const fn share(self) -> u32 {
+        match self {
+            Texts::Eds => 45,
+            Texts::Specifications => 35,
+            Texts::Settings | Texts::Templates => 10,
+        }
+    }
+}
+
 /// What is to be done.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Options {
+    /// `None` for all, one after the other.
+    pub(crate) texts: Option<Texts>,
     pub(crate) time: Duration,
     pub(crate) seed: u64,
     pub(crate) mutants: u64,
@@ -15,10 +48,20 @@ pub(crate) struct Options {
 
 /// Reads the arguments, or says what is wrong with them.
 pub(crate) fn parse(arguments: &[String]) -> Result<Options, String> {
-    let mut options =
-        Options { time: Duration::from_secs(60), seed: 1, mutants: u64::MAX, failures: 1, paths: Vec::new() };
+    let mut options = Options {
+        texts: None,
+        time: Duration::from_secs(60),
+        seed: 1,
+        mutants: u64::MAX,
+        failures: 1,
+        paths: Vec::new(),
+    };
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
+        if argument == "--of" {
+            options.texts = Some(texts(rest.next())?);
+            continue;
+        }
         let mut number = || {
             let value = rest.next().ok_or_else(|| format!("`{argument}` wants a number"))?;
             value.parse::<u64>().map_err(|_| format!("`{argument}` wants a number, not `{value}`"))
@@ -32,7 +75,19 @@ pub(crate) fn parse(arguments: &[String]) -> Result<Options, String> {
             path => options.paths.push(PathBuf::from(path)),
         }
     }
-    Ok(options)
+    match options.texts {
+        Some(Texts::Eds | Texts::Specifications) => Ok(options),
+        _ if options.paths.is_empty() => Ok(options),
+        _ => Err("files go with `--of eds` or `--of specifications`".to_owned()),
+    }
+}
+
+fn texts(word: Option<&String>) -> Result<Texts, String> {
+    let known = Texts::ALL.into_iter().find(|texts| word.is_some_and(|word| word == texts.word()));
+    known.ok_or_else(|| {
+        let words = Texts::ALL.map(|texts| format!("`{}`", texts.word())).join(", ");
+        format!("`--of` wants one of {words}")
+    })
 }
 
 #[cfg(test)]
@@ -45,9 +100,22 @@ mod tests {
 
     #[test]
     fn options_and_paths_are_understood() {
-        let options =
-            parsed(&["--seconds", "5", "a.eds", "--seed", "7", "--mutants", "3", "--failures", "9", "b"]);
+        let options = parsed(&[
+            "--of",
+            "eds",
+            "--seconds",
+            "5",
+            "a.eds",
+            "--seed",
+            "7",
+            "--mutants",
+            "3",
+            "--failures",
+            "9",
+            "b",
+        ]);
         let expected = Options {
+            texts: Some(Texts::Eds),
             time: Duration::from_secs(5),
             seed: 7,
             mutants: 3,
@@ -57,6 +125,9 @@ mod tests {
         assert_eq!(options, Ok(expected));
         assert_eq!(parsed(&["--sed", "7"]).unwrap_err(), "`fuzz` does not take `--sed`");
         assert_eq!(parsed(&["--seed"]).unwrap_err(), "`--seed` wants a number");
+        assert_eq!(parsed(&["a.eds"]).unwrap_err(), "files go with `--of eds` or `--of specifications`");
+        assert!(parsed(&["--of", "xml"]).unwrap_err().ends_with("`settings`, `templates`"));
+        assert_eq!(Texts::ALL.map(Texts::share).iter().sum::<u32>(), 100);
         assert_eq!(parsed(&["--seed", "x"]).unwrap_err(), "`--seed` wants a number, not `x`");
     }
 }

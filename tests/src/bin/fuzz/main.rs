@@ -1,4 +1,4 @@
-//! Tries mutants of EDS and DCF files: `cargo xtask help fuzz`.
+//! Tries mutants of EDS and DCF files, specifications, settings and templates: `cargo xtask help fuzz`.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 
@@ -11,8 +11,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use arguments::Options;
-use od_tests::fuzz::{Caught, EdsFiles, Hunt, Outcome, Seed, Used, hunt};
+use arguments::{Options, Texts};
+use od_tests::fuzz::{
+    Caught, EdsFiles, Hunt, Outcome, Seed, Settings, Specifications, Subject, TemplateFiles, Used, hunt,
+};
 use od_tests::{Failure, root};
 
 /// The command line cannot be understood.
@@ -39,31 +41,54 @@ fn main() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), Failure> {
-    let seeds = seeds::read(&options.paths)?;
-    println!("{} seeds, mutants from {}", seeds.len(), options.seed);
+    let mut caught = 0;
+    for texts in Texts::ALL.into_iter().filter(|texts| options.texts.is_none_or(|wanted| wanted == *texts)) {
+        let time = if options.texts.is_some() { options.time } else { options.time * texts.share() / 100 };
+        caught += hunted(texts, time, options)?;
+    }
+    if caught == 0 { Ok(()) } else { Err("a mutant does not meet what is demanded of every text".into()) }
+}
+
+/// How many mutants of these texts fail.
+fn hunted(texts: Texts, time: Duration, options: &Options) -> Result<usize, Failure> {
+    let (subject, seeds): (Box<dyn Subject>, Vec<Seed>) = match texts {
+        Texts::Eds => (Box::new(EdsFiles::new(meter)), seeds::eds(&options.paths)?),
+        Texts::Specifications => {
+            (Box::new(Specifications::new(meter)?), seeds::specifications(&options.paths)?)
+        }
+        Texts::Settings => {
+            let settings = Settings::new()?;
+            let seeds = settings.seeds();
+            (Box::new(settings), seeds)
+        }
+        Texts::Templates => (Box::new(TemplateFiles::new()?), TemplateFiles::seeds()),
+    };
+    let word = texts.word();
+    println!("{word}: {} seeds, mutants from {}", seeds.len(), options.seed);
     // What panics is told with its mutant; the usual report would stand between the lines.
     std::panic::set_hook(Box::new(|_| {}));
     let plan = Hunt {
         seeds: &seeds,
         first: options.seed,
-        time: options.time,
+        time,
         mutants: options.mutants,
         failures: options.failures,
         patience: PATIENCE,
     };
-    let Outcome { tried, caught } = hunt(&EdsFiles::new(meter), plan, stuck);
+    let Outcome { tried, caught } = hunt(&*subject, plan, stuck);
     drop(std::panic::take_hook());
-    println!("{tried} mutants, {} failures", caught.len());
+    println!("{word}: {tried} mutants, {} failures", caught.len());
     for (at, one) in caught.iter().enumerate() {
         let path = write(&format!("{}-{at}", one.number), &one.name, &one.bytes)?;
         let Caught { number, complaint, .. } = one;
-        println!("--seed {number}: {}: {}\n    smallest: {}", complaint.step, complaint.what, path.display());
+        println!(
+            "--of {word} --seed {number}: {}: {}\n    smallest: {}",
+            complaint.step,
+            complaint.what,
+            path.display()
+        );
     }
-    if caught.is_empty() {
-        Ok(())
-    } else {
-        Err("a mutant does not meet what is demanded of every file".into())
-    }
+    Ok(caught.len())
 }
 
 /// What a step uses of the heap, in the thread that runs it.
@@ -83,8 +108,7 @@ fn stuck(number: u64, seed: &Seed) {
 fn write(stem: &str, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
     let directory = root().join("target/fuzz");
     std::fs::create_dir_all(&directory)?;
-    let ending = name.rsplit('.').next().unwrap_or("eds");
-    let path = directory.join(format!("{stem}.{ending}"));
+    let path = directory.join(format!("{stem}-{}", name.replace('/', "-")));
     std::fs::write(&path, bytes)?;
     Ok(path)
 }

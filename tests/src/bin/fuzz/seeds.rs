@@ -1,4 +1,4 @@
-//! The texts to begin with.
+//! The texts to begin with, by what they are.
 
 use std::path::{Path, PathBuf};
 
@@ -6,14 +6,42 @@ use od_tests::foreign::find;
 use od_tests::fuzz::Seed;
 use od_tests::{Failure, root};
 
-/// The files of this repository: those that try the rules, those of the shipped devices, and what the commands are shown with.
-const OWN: [&str; 3] = ["tests/eds", "generated/eds", "od-gen/tests/cli/eds"];
+/// The EDS and DCF of this repository: those that try the rules, those of the shipped devices, and what the commands are shown with.
+const EDS: [&str; 3] = ["tests/eds", "generated/eds", "od-gen/tests/cli/eds"];
+/// Its specifications and libraries.
+const SPECIFICATIONS: [&str; 4] = ["od-spec/devices", "od-spec/profiles", "tests/ui", "tests/shared"];
 
 /// Every EDS and DCF of the repository, and of the files and directories that are named, in the order of their names.
-pub(crate) fn read(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
-    let own = OWN.iter().map(|directory| root().join(directory));
+pub(crate) fn eds(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
+    read(&EDS, more, |directory, paths| {
+        find(directory, paths)?;
+        Ok(())
+    })
+}
+
+/// The same for specifications and libraries.
+pub(crate) fn specifications(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
+    read(&SPECIFICATIONS, more, |directory, paths| {
+        for entry in
+            std::fs::read_dir(directory).map_err(|error| format!("{}: {error}", directory.display()))?
+        {
+            let path = entry?.path();
+            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            // What is refused as it stands is refused after nearly every change.
+            if name.ends_with(".od.yaml") && !name.starts_with("err_") {
+                paths.push(path);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Finds files of a kind in a directory.
+type Find = fn(&Path, &mut Vec<PathBuf>) -> Result<(), Failure>;
+
+fn read(directories: &[&str], more: &[PathBuf], find: Find) -> Result<Vec<Seed>, Failure> {
     let mut seeds = Vec::new();
-    for path in own.chain(more.iter().cloned()) {
+    for path in directories.iter().map(|directory| root().join(directory)).chain(more.iter().cloned()) {
         let mut paths = Vec::new();
         if path.is_dir() {
             find(&path, &mut paths)?;

@@ -56,8 +56,8 @@ cargo xtask TASK
   generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
   package             package the crates that users depend on, and build each from its package
   corpus DIR          take the EDS and DCF files of a directory through everything
-  fuzz [--seconds N] [--seed N] [FILE|DIR…]
-                      change EDS and DCF files by chance, and see whether anything breaks
+  fuzz [--of TEXTS] [--seconds N] [--seed N] [FILE|DIR…]
+                      change files by chance, and see whether anything breaks
   bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
   bench eds [ARGUMENT…]
                       measure the reading of EDS files beside other readers; `bench eds --help` lists the arguments
@@ -67,7 +67,7 @@ cargo xtask TASK
 const TEST: &str = "\
 cargo xtask test [--all] [--without-browser] [--without-emulator]
 
-Runs the Rust tests, the fuzzer for a minute, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
+Runs the Rust tests, the fuzzer for a minute and a half, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
 emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then it runs every part
 whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
 
@@ -113,15 +113,21 @@ Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong comma
 ";
 
 const FUZZ: &str = "\
-cargo xtask fuzz [--seconds N] [--seed N] [--mutants N] [--failures N] [FILE|DIR…]
+cargo xtask fuzz [--of TEXTS] [--seconds N] [--seed N] [--mutants N] [--failures N] [FILE|DIR…]
 
-Changes EDS and DCF files by chance, as the seed decides, and demands of every mutant: no panic; its bytes come back; a model
-comes out; every place of a finding is in the file; findings read well in every format; what is put right says the same, has no
-more errors than before and is not changed by a second time; an import compiles and has the same facts, but for those with a
-reason in tests/src/foreign/exceptions.rs; memory stays within the bounds of tests/src/fuzz/eds.rs. It begins with the files of
-this repository, and with those that are named.
+Changes texts by chance, as the seed decides, and holds every mutant to what is promised of all texts. Of each: no panic; every
+place of a finding is in the file; findings read well in every format; memory stays within the bounds of tests/src/fuzz. And of
+  eds             EDS and DCF files: their bytes come back; a model comes out; what is put right says the same, has no more errors than
+                  before and is not changed by a second time; an import compiles and has the same facts, but for those with a
+                  reason in tests/src/foreign/exceptions.rs
+  specifications  specifications and libraries: there is a model or an error with a place; the EDS and DCF of a model keep the
+                  standard and have its objects; its Rust is Rust, its JSON is JSON, its documents are printed
+  settings        settings of a node: the DCF of what is accepted keeps the standard, and has every value
+  templates       templates of documents: a mistake is told with its place
+It begins with the files of this repository, and with those that are named.
 
-  --seconds N         how long (60)
+  --of TEXTS          only these; without it, all one after the other
+  --seconds N         how long in all (60)
   --seed N            the number of the first mutant (1); the next have the numbers behind it
   --mutants N         at most so many
   --failures N        end after so many failures of different kinds (1)

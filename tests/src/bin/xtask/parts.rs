@@ -12,7 +12,7 @@ use crate::{browser, readers};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
     Rust,
-    /// Mutants of EDS and DCF files, the same in every run.
+    /// Mutants of EDS and DCF files, specifications, settings and templates, from the same seed in every run.
     Mutants,
     /// The foreign readers notice what is wrong.
     ReadersSelfTest,
@@ -71,7 +71,7 @@ impl Part {
     pub(crate) const fn title(self) -> &'static str {
         match self {
             Part::Rust => "Rust tests",
-            Part::Mutants => "mutants of EDS files",
+            Part::Mutants => "mutants of files",
             Part::ReadersSelfTest => "EDS readers notice mistakes",
             Part::EveryFeature => "EDS readers: every feature",
             Part::Configured => "EDS readers: a DCF with settings",
@@ -153,7 +153,7 @@ impl Part {
     pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
         match self {
             Part::Rust => runner.cargo(&["test", "--workspace", "--no-fail-fast"]),
-            Part::Mutants => runner.fuzz(&["--seconds", "60", "--seed", "1"]),
+            Part::Mutants => runner.fuzz(&["--seconds", "90", "--seed", "1"]),
             Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
             Part::EveryFeature => readers::every_feature(runner),
             Part::Configured => readers::configured(runner),

@@ -1,24 +1,12 @@
-//! How texts of a language are built, as far as it takes to change them with effect.
+//! EDS and DCF (CiA 306).
 
-/// What a text is made of.
-#[derive(Debug, Clone, Copy)]
-pub struct Notation {
-    /// What the first line of a section begins with.
-    pub header: char,
-    /// What stands between a key and its value.
-    pub sign: char,
-    /// Lines that mean something, to put anywhere.
-    pub lines: &'static [&'static str],
-    /// Values at the edge of what is allowed, and beyond.
-    pub values: &'static [&'static str],
-    /// Names of sections.
-    pub headers: &'static [&'static str],
-}
+use super::{Layout, Notation};
 
 /// EDS and DCF (CiA 306).
 pub const EDS: Notation = Notation {
-    header: '[',
+    layout: Layout::Bracketed,
     sign: '=',
+    most_changes: 12,
     lines: &[
         "ObjectType=0x8",
         "ObjectType=9",

@@ -1,0 +1,14 @@
+//! Mistakes in a user's templates are told with a place.
+
+use docs_gen::{Format, Templates};
+
+/// The parser counts bytes, and stops inside a character.
+#[test]
+fn a_place_holds_whole_characters() {
+    for text in ["{{ li\u{FFFD}ne }}", "{{ ä }}", "{% if ä %}", "ä{{ 'ä"] {
+        let user = [("device.md".to_owned(), text.to_owned())];
+        let error = Templates::new(Some(Format::Markdown), &user).err();
+        let place = error.as_ref().and_then(|error| error.source.get(error.range.clone()));
+        assert!(place.is_some(), "{text}: {error:?}");
+    }
+}
