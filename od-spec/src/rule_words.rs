@@ -301,8 +301,8 @@ fn faults() -> Vec<(&'static str, String)> {
 fn faults_of_services() -> Vec<(&'static str, String)> {
     let drive = "DefaultValue=0x20192";
     vec![
-        ("OD0324", var(0x1000, "device type", 7, "ro", drive) + &var(0x607A, "target position", 7, "rw", "")),
-        ("OD0324", var(0x1000, "device type", 7, "ro", drive) + &var(0x6041, "statusword", 6, "rw", "")),
+        ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x607A, "target position", 7, "rw", "")),
+        ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x6041, "statusword", 6, "rw", "")),
         ("OD0319", var(0x2000, "label", 9, "rw", "DefaultValue=$NODEID+1")),
         (
             "OD0510",

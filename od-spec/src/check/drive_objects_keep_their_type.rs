@@ -13,7 +13,7 @@ use crate::model::{Access, Entry, EntryId, Fact, Index, Object};
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
 const CODE: &Code = &Code {
-    id: "OD0324",
+    id: "OD0831",
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an object of a drive that is not as CiA 402 has it",

@@ -109,7 +109,7 @@ fn access() -> Vec<Case> {
 }
 
 fn drives() -> Vec<Case> {
-    let object = |name, object| case::wrong(name, drive(object), "OD0324");
+    let object = |name, object| case::wrong(name, drive(object), "OD0831");
     let alone = |device_type: &str, objects: &str| {
         format!(
             "devices:\n  io: {{name: Example, bit-rates: [125], device-type: {device_type}, features: [heartbeat producer]}}\nobjects:\n{objects}"
