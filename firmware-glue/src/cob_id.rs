@@ -26,9 +26,11 @@ pub(crate) fn check_cob_id(old: u32, new: u32) -> Result<(), AbortCode> {
     if old & NOT_VALID == 0 { Ok(()) } else { check_usable(new) }
 }
 
-/// A COB-ID of a channel to the SDO server of another node: the first channel of that node has identifiers that are kept for it.
-pub(crate) fn check_client_cob_id(old: u32, new: u32) -> Result<(), AbortCode> {
-    let is_first_channel = new & EXTENDED == 0 && matches!(new & CAN_ID, 0x581..=0x5FF | 0x601..=0x67F);
+/// A COB-ID of a channel to the SDO server of another node: the first channel of that node has identifiers that are kept for it, for
+/// requests to it (sub-index 1) and answers of it (2).
+pub(crate) fn check_client_cob_id(sub: u8, old: u32, new: u32) -> Result<(), AbortCode> {
+    let is_first_channel =
+        new & EXTENDED == 0 && matches!((sub, new & CAN_ID), (1, 0x601..=0x67F) | (2, 0x581..=0x5FF));
     if is_first_channel && old & NOT_VALID != 0 { Ok(()) } else { check_cob_id(old, new) }
 }
 

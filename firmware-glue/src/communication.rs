@@ -27,7 +27,10 @@ pub(crate) fn check(table: &Table<'_>, image: &[u8], row: Row, data: &[u8]) -> R
         (0x1010, 1..) => return command(new, SAVE),
         (0x1011, 1..) => return command(new, LOAD),
         (0x1014, 0) | (0x1028, 1..) | (0x1200..0x1280, 1 | 2) => check_cob_id(old(), new)?,
-        (0x1280..0x1300, 1 | 2) => check_client_cob_id(old(), new)?,
+        (0x1280..0x1300, 1 | 2) => check_client_cob_id(sub, old(), new)?,
+        // The node-ID of the other side of an SDO channel, and reactions that CiA 301 reserves.
+        (0x1201..0x1300, 3) if new > 127 => return Err(AbortCode::INVALID_VALUE),
+        (0x1029, 1..) if matches!(new, 3..=127) => return Err(AbortCode::INVALID_VALUE),
         (0x1016, 1..) => check_heartbeat(table, image, sub, new)?,
         (0x1019, 0) => check_counter(table, image, new)?,
         (0x1400..0x1600 | 0x1800..0x1A00, _) => {

@@ -297,6 +297,41 @@ fn faults() -> Vec<(&'static str, String)> {
     ]
 }
 
+/// Faults of services and of profiles.
+fn faults_of_services() -> Vec<(&'static str, String)> {
+    let drive = "DefaultValue=0x20192";
+    vec![
+        ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x607A, "target position", 7, "rw", "")),
+        ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x6041, "statusword", 6, "rw", "")),
+        ("OD0319", var(0x2000, "label", 9, "rw", "DefaultValue=$NODEID+1")),
+        (
+            "OD0510",
+            structured(
+                0x1010,
+                8,
+                ("const", "DefaultValue=1"),
+                &[(7, "rw", "DefaultValue=0x65766173\nObjFlags=1")],
+            ),
+        ),
+        ("OD0510", structured(0x1029, 8, ("const", "DefaultValue=1"), &[(5, "rw", "DefaultValue=7")])),
+        ("OD0828", structured(0x1016, 8, ("const", "DefaultValue=1"), &[(7, "rw", "DefaultValue=1000")])),
+        (
+            "OD0829",
+            structured(
+                0x1280,
+                9,
+                ("const", "DefaultValue=3"),
+                &[
+                    (7, "rw", "DefaultValue=0x606"),
+                    (7, "rw", "DefaultValue=0x587"),
+                    (5, "rw", "DefaultValue=6"),
+                ],
+            ),
+        ),
+        ("OD0830", var(0x2000, "gain", 8, "rw", "DefaultValue=16777217")),
+    ]
+}
+
 /// The same for DCF texts: what is set.
 fn faults_of_nodes() -> Vec<(&'static str, String)> {
     let set =
@@ -332,7 +367,8 @@ fn faults_of_nodes() -> Vec<(&'static str, String)> {
 }
 
 /// Rules that nothing in an EDS or DCF can break, and why.
-const OUT_OF_REACH: [(&str, &str); 4] = [
+const OUT_OF_REACH: [(&str, &str); 5] = [
+    ("OD0420", "it has no views of other entries"),
     ("OD0601", "an EDS has keys for the bit rates of CiA 301 alone"),
     ("OD0606", "it has no conditions between entries"),
     ("OD0806", "it defines units and types where entries have them"),
@@ -342,7 +378,8 @@ const OUT_OF_REACH: [(&str, &str); 4] = [
 #[test]
 fn an_eds_is_spoken_of_in_its_own_words() {
     let mut wrong = String::new();
-    let eds = faults().into_iter().map(|(code, text)| (Language::Eds, code, text));
+    let eds =
+        faults().into_iter().chain(faults_of_services()).map(|(code, text)| (Language::Eds, code, text));
     let dcf = faults_of_nodes().into_iter().map(|(code, text)| (Language::Dcf, code, text));
     for (language, code, text) in eds.chain(dcf) {
         let mut sources = SourceMap::new();
@@ -358,7 +395,8 @@ fn an_eds_is_spoken_of_in_its_own_words() {
 
 #[test]
 fn every_rule_is_tried_with_an_eds() {
-    let tried: BTreeSet<&str> = faults().into_iter().chain(faults_of_nodes()).map(|(code, _)| code).collect();
+    let all = faults().into_iter().chain(faults_of_services()).chain(faults_of_nodes());
+    let tried: BTreeSet<&str> = all.map(|(code, _)| code).collect();
     for rule in RULES {
         let is_out_of_reach = OUT_OF_REACH.iter().any(|(code, _)| *code == rule.code.id);
         assert_ne!(tried.contains(rule.code.id), is_out_of_reach, "{}", rule.code);

@@ -37,8 +37,8 @@ const RESTRICTED: [std::ops::RangeInclusive<i128>; 8] = [
     0x780..=0x7FF,
 ];
 
-/// CAN identifiers of the first SDO channel of a node: answers and requests (CiA 301 table 34).
-const FIRST_CHANNEL: [std::ops::RangeInclusive<i128>; 2] = [0x581..=0x5FF, 0x601..=0x67F];
+/// CAN identifiers of the first SDO channel of a node: requests and answers, as sub-index 1 and 2 have them (CiA 301 table 34).
+const FIRST_CHANNEL: [std::ops::RangeInclusive<i128>; 2] = [0x601..=0x67F, 0x581..=0x5FF];
 
 /// What bit 31 of a COB-ID says.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -104,10 +104,17 @@ fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node
     }
     // A client talks to the first channel of another node on the identifiers that are kept for that.
     let is_client = matches!(parameter.id.index.0, 0x1280..=0x12FF);
-    if is_client && FIRST_CHANNEL.iter().any(|range| range.contains(&id)) {
-        return None;
+    let kept = FIRST_CHANNEL.iter().position(|range| is_client && range.contains(&id));
+    match (kept, parameter.id.sub.0) {
+        (Some(0), 1) | (Some(1), 2) => None,
+        (Some(0), _) => {
+            Some(format!("{id:03X}h{on_node} is kept for requests to a server, not for its answers"))
+        }
+        (Some(_), _) => {
+            Some(format!("{id:03X}h{on_node} is kept for answers of a server, not for requests to it"))
+        }
+        (None, _) => is_restricted(id).then(|| format!("{id:03X}h{on_node} is kept for another service")),
     }
-    is_restricted(id).then(|| format!("{id:03X}h{on_node} is kept for another service"))
 }
 
 /// Whether an identifier is kept for a service that cannot be moved.

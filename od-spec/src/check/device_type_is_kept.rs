@@ -30,37 +30,60 @@ const DRIVES: i128 = 402;
 const OF_EVERY_DRIVE: [u16; 4] = [0x6040, 0x6041, 0x6060, 0x6061];
 /// The type of the first of several profiles; the others follow each 800h.
 const FIRST_TYPE: u16 = 0x67FF;
+/// How far the objects of two axes are apart.
+const AXIS: u16 = 0x800;
+/// How many profiles a device can unite.
+const AXES: u16 = 8;
+
+/// Whether a device type says that several profiles are united.
+const fn is_united(device_type: i128) -> bool {
+    device_type >> 16 == 0xFFFF
+}
+
+/// The first index of each axis that is a drive.
+pub(super) fn axes_of_drives(subject: &Subject<'_>) -> Vec<Index> {
+    let Some(device_type) = subject.parameter(0x1000, 0).map(|parameter| parameter.raw()) else {
+        return Vec::new();
+    };
+    let is_drive = |device_type: i128| device_type & 0xFFFF == DRIVES;
+    let is_axis = |axis: &u16| {
+        if is_united(device_type) {
+            let of_axis = subject.parameter(FIRST_TYPE + axis * AXIS, 0);
+            of_axis.is_some_and(|parameter| is_drive(parameter.raw()))
+        } else {
+            *axis == 0 && is_drive(device_type)
+        }
+    };
+    (0..AXES).filter(is_axis).map(|axis| Index(0x6000 + axis * AXIS)).collect()
+}
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let device = subject.device;
     let Some(parameter) = subject.parameter(0x1000, 0) else { return };
-    let device_type = parameter.raw();
-    let is_united = device_type >> 16 == 0xFFFF;
     let lacks = |index: &Index| !device.objects.contains_key(index);
-    let missing: Vec<String> = match device_type & 0xFFFF {
-        _ if is_united => {
-            let types: Vec<Index> = (0..8).map(|axis| Index(FIRST_TYPE + axis * 0x800)).collect();
-            let first = types.first().filter(|_| types.iter().all(lacks));
-            first.map(ToString::to_string).into_iter().collect()
-        }
-        DRIVES => {
-            OF_EVERY_DRIVE.map(Index).iter().filter(|index| lacks(index)).map(ToString::to_string).collect()
-        }
-        _ => Vec::new(),
+    let mut types = (0..AXES).map(|axis| Index(FIRST_TYPE + axis * AXIS));
+    let lacks_types = is_united(parameter.raw()) && types.all(|index| lacks(&index));
+    let missing: Vec<String> = if lacks_types {
+        vec![Index(FIRST_TYPE).to_string()]
+    } else {
+        let of_axis = |first: Index| OF_EVERY_DRIVE.map(|index| Index(index - 0x6000 + first.0));
+        let demanded = axes_of_drives(subject).into_iter().flat_map(of_axis);
+        demanded.filter(lacks).map(|index| index.to_string()).collect()
     };
     if missing.is_empty() {
         return;
     }
-    let what = if is_united { "several profiles".to_owned() } else { format!("profile {DRIVES}") };
-    let message =
-        format!("the device type of `{}` names {what}, but there is no {}", device.key, missing.join(", "));
-    findings.push(Diagnostic::new(CODE, parameter.place, message).help(if is_united {
-        "add the types of the profiles, or correct the device type"
+    let (what, help) = if lacks_types {
+        ("several profiles".to_owned(), "add the types of the profiles, or correct the device type")
     } else {
-        subject.help(Help {
+        let help = subject.help(Help {
             specification: "add the feature `drive` of `cia402`, or correct the device type",
             eds: "add these objects, or correct the device type",
             setting: "the device has to have these objects, or another device type",
-        })
-    }));
+        });
+        (format!("profile {DRIVES}"), help)
+    };
+    let message =
+        format!("the device type of `{}` names {what}, but there is no {}", device.key, missing.join(", "));
+    findings.push(Diagnostic::new(CODE, parameter.place, message).help(help));
 }

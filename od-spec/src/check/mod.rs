@@ -29,10 +29,12 @@ mod counts_agree;
 mod counts_are_constant;
 mod definitions_are_used;
 mod device_type_is_kept;
+mod drive_objects_keep_their_type;
 mod elements_are_alike;
 mod error_codes_are_listed;
 mod error_control_exists;
 mod granularity_fits_mapping;
+mod heartbeats_of_others_are_watched;
 mod identity_agrees;
 mod indices_in_object_areas;
 mod integers_have_common_widths;
@@ -60,7 +62,9 @@ mod pdos_map_each_entry_once;
 mod placeholders_are_accepted;
 mod predefined_cob_ids_are_kept;
 mod real_defaults;
+mod real_values_are_kept;
 mod reserved_bits_are_zero;
+mod sdo_clients_talk_to_one_server;
 mod services_have_their_objects;
 mod set_entries_are_writable;
 mod standard_access_is_kept;
@@ -76,6 +80,7 @@ mod value_in_enum;
 mod value_within_limits;
 mod values_can_be_read_back;
 mod vendor_has_a_number;
+mod views_show_values;
 mod write_conditions_are_met;
 
 /// Codes of rules that reading and looking up report as well.
@@ -167,6 +172,11 @@ pub(crate) static RULES: &[Rule] = &[
     values_can_be_read_back::RULE,
     integers_have_common_widths::RULE,
     multiplexed_pdos_are_possible::RULE,
+    heartbeats_of_others_are_watched::RULE,
+    sdo_clients_talk_to_one_server::RULE,
+    drive_objects_keep_their_type::RULE,
+    real_values_are_kept::RULE,
+    views_show_values::RULE,
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.

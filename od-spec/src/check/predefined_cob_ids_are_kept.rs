@@ -1,7 +1,7 @@
 //! EMCY and the first SDO channel of a type have the identifiers of the pre-defined connection set.
 
 use super::findings::Findings;
-use super::pdo::NOT_VALID;
+use super::pdo::{NO_REMOTE_FRAMES, NOT_VALID};
 use super::rule::{Check, Needs, Rule};
 use super::subject::{Subject, entry_id};
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -46,13 +46,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for service in SERVICES {
         let Some(parameter) = subject.parameter(service.index, service.sub) else { continue };
         let other = |node: &u8| {
-            let raw = parameter.value.integer_for(*node)?;
+            // Bit 30 is reserved; that it is set is said by itself.
+            let raw = parameter.value.integer_for(*node)? & !NO_REMOTE_FRAMES;
             let is_off = service.index == 0x1014 && raw & NOT_VALID != 0;
             (!is_off && raw != i128::from(service.base) + i128::from(*node)).then_some(raw)
         };
         let Some(node) = subject.nodes().find(|node| other(node).is_some()) else { continue };
-        let (raw, on_node) =
-            (parameter.value.integer_for(node).unwrap_or_default(), format!(" on node {node}"));
+        let (raw, on_node) = (other(&node).unwrap_or_default(), format!(" on node {node}"));
         let (id, expected) = (parameter.id, i128::from(service.base) + i128::from(node));
         let message = format!("{id}: {} {raw:X}h{on_node}, masters expect {expected:X}h", uses(service.name));
         let help = format!("write `$NODEID+0x{:X}`, or remove the default", service.base);

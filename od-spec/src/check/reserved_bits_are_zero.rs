@@ -40,15 +40,17 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let Some(TypeKind::Bits(fields)) = defined.named_type.as_ref().map(|named| &named.kind) else {
             continue;
         };
-        let Some(raw) = value.integer().filter(|raw| !defined.special.iter().any(|one| one.value == *raw))
-        else {
-            continue;
+        let set = |node: u8| {
+            let raw = value.integer_for(node)?;
+            let is_special = defined.special.iter().any(|one| one.value == raw);
+            let set = |bit: &u8| raw.checked_shr(u32::from(*bit)).unwrap_or(0) & 1 == 1;
+            let mut reserved = fields.iter().filter(|field| field.usage == BitUsage::Reserved && !is_special);
+            Some((node, reserved.find_map(|field| (field.first..=field.last).find(set))?))
         };
-        let reserved = fields.iter().filter(|field| field.usage == BitUsage::Reserved);
-        let set = |bit: &u8| raw.checked_shr(u32::from(*bit)).unwrap_or(0) & 1 == 1;
-        if let Some(bit) = reserved.flat_map(|field| field.first..=field.last).find(set) {
+        if let Some((node, bit)) = subject.nodes_of(value).find_map(set) {
             let what = if entry.is_set() { "value" } else { "default" };
-            let message = format!("the {what} of {id} sets bit {bit}, which is reserved");
+            let on_node = subject.on_node(value, node);
+            let message = format!("the {what} of {id} sets bit {bit}{on_node}, which is reserved");
             findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(
                 subject.help(Help {
                     specification: "correct the default, or say what the bit means",

@@ -1,7 +1,8 @@
-//! The objects of CiA 301 can be read, written and mapped as it says, also where a device writes them in full.
+//! The objects of CiA 301 can be read, written and mapped as it says, also where a device writes them in full or takes them
+//! from the library and says otherwise.
 
 use super::findings::Findings;
-use super::from_library::{help, is_from_library};
+use super::from_library::{CIA301, help, says_itself};
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
@@ -24,8 +25,11 @@ const CODE: &Code = &Code {
     )),
 };
 
+/// What the rule looks at.
+const FACTS: [Fact; 2] = [Fact::Access, Fact::Mapping];
+
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
+    for object in subject.device.objects.values().filter(|object| says_itself(object, CIA301, &FACTS)) {
         for entry in &object.entries {
             let Some(known) = subject.standard.entry(object.index, entry.sub) else { continue };
             for (problem, fact) in

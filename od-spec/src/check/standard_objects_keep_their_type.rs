@@ -1,7 +1,8 @@
-//! The objects of CiA 301 have the shape and the data types that it gives them, also where a device writes them in full.
+//! The objects of CiA 301 have the shape and the data types that it gives them, also where a device writes them in full or
+//! takes them from the library and says otherwise.
 
 use super::findings::{Findings, others};
-use super::from_library::{help, is_from_library};
+use super::from_library::{CIA301, help, says_itself};
 use super::rule::{Check, Needs, Rule};
 use super::standard::continued;
 use super::subject::Subject;
@@ -26,8 +27,11 @@ const CODE: &Code = &Code {
     )),
 };
 
+/// What the rule looks at.
+const FACTS: [Fact; 2] = [Fact::ObjectType, Fact::Type];
+
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
+    for object in subject.device.objects.values().filter(|object| says_itself(object, CIA301, &FACTS)) {
         let Some(defined) = (subject.standard.object)(object.index) else { continue };
         if let Some(finding) = shape(subject, object, defined) {
             findings.push(finding);

@@ -18,8 +18,8 @@ pub const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a value that a line of an EDS cannot hold",
     explanation: "A string or octet string that an EDS or DCF shows stands on one line of 255 characters, without quotes and in ASCII. Blanks at its ends \
-        are lost, `;`, `#` and `=` are misread by several readers, and an empty text reads as no value: a PLC would write something else than \
-        what is meant. Choose another value, or withhold the default from the EDS with `eds: {default: withheld}`.",
+        are lost, `;`, `#` and `=` are misread by several readers, an empty text reads as no value, and `$NODEID`, which is a formula of an integer alone, as \
+        the node-ID: a PLC would write something else than what is meant. Choose another value, or withhold the default from the EDS with `eds: {default: withheld}`.",
     clause: Some("CiA 306, 4.2"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: label, type: visible-string, access: rw, default: a;b}",
@@ -67,6 +67,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 entry.is_set().then(|| "is empty, which reads as no value".to_owned())
             }
             Value::Text(text) => problem(text, longest)
+                .or_else(|| {
+                    is_formula(text)
+                        .then(|| "holds `$NODEID`, which EDS readers take for the node-ID".to_owned())
+                })
                 .or_else(|| (!text.is_ascii()).then(|| "has characters that an EDS cannot hold".to_owned())),
             Value::Bytes(bytes) if bytes.is_empty() => {
                 entry.is_set().then(|| "is empty, which reads as no value".to_owned())
@@ -91,6 +95,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help));
         }
     }
+}
+
+/// Whether a text reads as a formula: only an integer has one, and a text stands as it is.
+fn is_formula(text: &str) -> bool {
+    text.to_ascii_uppercase().contains("$NODEID")
 }
 
 /// The key under which a value is written; `None` for one that no file shows.

@@ -163,12 +163,20 @@ fn completed(decl: &EntryDecl, target: &Target<'_>, diagnostics: &mut Diagnostic
     let mut whole = decl.clone();
     let follows = AccessRight { access: entry.access, locked: entry.locked };
     let right = whole.access.get_or_insert(Spanned::new(follows, place));
-    if right.value.access.is_writable() && !entry.access.is_writable() {
+    let (access, of_target) = (right.value.access, entry.access);
+    let lacking = if access.is_writable() && !of_target.is_writable() {
+        Some("written")
+    } else if access.is_readable() && !of_target.is_readable() {
+        Some("read")
+    } else {
+        None
+    };
+    if let Some(lacking) = lacking {
         diagnostics.push(
             Diagnostic::new(
                 codes::BAD_ALIAS,
                 right.span,
-                format!("{id} is `{}`: its alias cannot be written", entry.access.word()),
+                format!("{id} is `{}`: its alias cannot be {lacking}", of_target.word()),
             )
             .with(entry.span, "the target")
             .help("remove `access:`; an alias follows its target"),

@@ -23,12 +23,16 @@ pub const LIBRARIES: &[(&str, &str)] = &[
 /// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
 const RUNS: &str = include_str!("runs.od.yaml");
 
-static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| {
-    let library = LIBRARIES.iter().find(|(library, _)| *library == "cia301");
-    library.and_then(|(_, text)| read(text))
-});
+static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia301"));
+/// Asked only for a drive with an object that is not the library's.
+static OF_DRIVES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia402"));
 /// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
 static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| read(RUNS));
+
+fn shipped(name: &str) -> Option<Dictionary> {
+    let library = LIBRARIES.iter().find(|(library, _)| *library == name);
+    library.and_then(|(_, text)| read(text))
+}
 
 fn read(text: &str) -> Option<Dictionary> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
@@ -60,9 +64,14 @@ fn is_in_library(index: Index) -> bool {
     IN_LIBRARY.as_ref().is_some_and(|library| library.objects.contains_key(&index))
 }
 
+/// The object that CiA 402 defines at an index, as the first axis has it.
+fn of_drives(index: Index) -> Option<&'static Object> {
+    OF_DRIVES.as_ref()?.objects.get(&index)
+}
+
 /// All rules or some of them, with this standard to hold objects against.
 pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
-    Rules { list, standard: Standard { object, is_in_library } }
+    Rules { list, standard: Standard { object, is_in_library, of_drives } }
 }
 
 #[cfg(test)]
@@ -73,7 +82,7 @@ mod tests {
 
     #[test]
     fn the_standards_are_read_without_a_remark() {
-        assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some());
+        assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some() && OF_DRIVES.is_some());
     }
 
     #[test]

@@ -58,7 +58,8 @@ fn flags() -> Vec<Case> {
         refused("switched off, with a restricted identifier", &receive(NOT_VALID | 0x601), UNUSABLE, invalid)
             .but(Device, Said::Accepted, Reason::NoPdoYet),
         clash("the identifier of SYNC", &receive(0x080)),
-        clash("the identifier of TIME", &receive(0x100)),
+        clash("the identifier of TIME", &[number(0x1400, 1, 0x100), number(0x1012, 0, NOT_VALID | 0x100)]),
+        of_its_own(accepted("the identifier of a TIME that the device does not use", &receive(0x100))),
         clash("the identifier of EMCY", &receive(0x085)),
         clash("the identifier of a TPDO", &receive(0x185)),
     ]
@@ -105,11 +106,22 @@ fn services() -> Vec<Case> {
         let cob_id = |id| [number(0x1280, sub, id)];
         cases.extend(first_channel.map(|id| accepted("SDO client of a first channel", &cob_id(id))));
         cases.push(accepted("SDO client", &cob_id(0x6E1)));
-        cases.push(accepted("no SDO client", &cob_id(NOT_VALID | 0x601)));
+        cases.push(accepted("no SDO client", &cob_id(NOT_VALID | first_channel[0])));
         for id in [0x000, 0x101, 0x6E0, 0x701, 0x800, EXTENDED | 0x601] {
             cases.push(refused("SDO client", &cob_id(id), UNUSABLE, invalid));
         }
     }
+    for (sub, other_way) in [(1, 0x586), (2, 0x606)] {
+        cases.push(refused(
+            "SDO client, the other way round",
+            &[number(0x1280, sub, other_way)],
+            UNUSABLE,
+            invalid,
+        ));
+    }
+    let server = |node| [number(0x1280, 3, node)];
+    cases.push(accepted("server of a client channel", &server(127)));
+    cases.push(refused("server of a client channel", &server(128), "OD0510", invalid));
     cases.push(accepted("SYNC of a producer", &[number(0x1005, 0, 1 << 30 | 0x6E1)]));
     cases.push(accepted("SYNC, bit 31 of any value", &[number(0x1005, 0, NOT_VALID | 0x6E1)]));
     cases.push(accepted("TIME of a consumer", &[number(0x1012, 0, 1 << 31 | 0x6E1)]));
@@ -163,9 +175,12 @@ fn heartbeats() -> Vec<Case> {
     let watch = |raw| [number(0x1016, 1, raw)];
     let twice = |first, second| [number(0x1016, 2, second), number(0x1016, 1, first)];
     let invalid = AbortCode::INVALID_VALUE;
+    let nobody = || Said::Warned("OD0828".to_owned());
     vec![
         accepted("the last node", &watch(0x007F_03E8)),
-        accepted("no node", &watch(0x0000_03E8)),
+        accepted("no node", &watch(0x0000_03E8))
+            .but(Specification, nobody(), Reason::WatchingNobodyIsHarmless)
+            .but(Settings, nobody(), Reason::WatchingNobodyIsHarmless),
         refused("a node that cannot be", &watch(0x0080_03E8), "OD0510", invalid),
         refused("a reserved bit", &watch(0x0106_03E8), "OD0510", invalid),
         accepted("two nodes", &twice(0x0006_03E8, 0x0007_03E8)),

@@ -19,6 +19,7 @@ macro_rules! reasons {
 reasons! {
     DefaultNeedsNoWrite: "a specification states the value that the entry has; nothing writes it";
     ReservedBitIsHarmless: "a reserved bit is a warning to who writes it; a device ignores it (CiA 301: reserved bits are not checked)";
+    WatchingNobodyIsHarmless: "an entry of 1016h that watches nobody is a warning to who writes it; a device leaves it unused";
     DefaultIsPredefined: "masters listen where the pre-defined connection set says: a warning to who makes a device, not to who configures one";
     TwiceIsHarmless: "an entry twice in one PDO wastes room, and breaks nothing: a warning";
     OnlyWhileConditionHolds: "a DCF cannot know in which state the device will be: a warning";

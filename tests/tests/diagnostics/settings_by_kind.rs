@@ -159,7 +159,7 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         1400.1=$NODEID+0x180: error[OD0504]: RPDO 1 and TPDO 1 of `views` have one COB-ID
         1400.1=$NODEID+0x80: 1400h.1 = NodeId(128)
         1400.1=$NODEID+0x300: 1400h.1 = NodeId(768)
-        1401.1=$NODEID+0x200: error[OD0504]: RPDO 1 and RPDO 2 of `views` have one COB-ID
+        1401.1=$NODEID+0x200: 1401h.1 = NodeId(512)
         1401.1=$NODEID+0x200, 1400.1=0x80000000: 1400h.1 = Integer(2147483648)
         1400.2=245: error[OD0505]: 1400h.2: transmission type 245 is reserved for RPDO 1
         1400.2=252: error[OD0505]: 1400h.2: transmission type 252 is reserved for RPDO 1
