@@ -4,9 +4,9 @@ use crate::Commissioning;
 use crate::ast::Spec;
 use crate::check::allowed::Allowed;
 use crate::check::{self, codes as rule_codes};
-use crate::decode::{decode, nearest};
+use crate::decode::decode;
 use crate::diag::shorten;
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
 use crate::eds;
 use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
@@ -235,7 +235,8 @@ fn load(
 ) -> Result<FileId, Box<Diagnostic>> {
     let missing = |reason: &str| {
         let known = LIBRARIES.iter().map(|(name, _)| *name);
-        let help = match nearest(path, known)
+        let help = match Suggestions::default()
+            .nearest(path, known)
             .filter(|word| !path.starts_with("cia") || path.len() != word.len())
         {
             Some(word) => format!("did you mean `{word}`?"),

@@ -39,6 +39,7 @@ mod fix;
 mod json_schema;
 pub mod keys;
 mod library;
+mod limits;
 pub mod model;
 pub mod name_pattern;
 mod parameters;
@@ -62,8 +63,9 @@ pub use check::codes as rule_codes;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues};
 pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
-pub use decode::{is_device_key, nearest};
+pub use decode::is_device_key;
 pub use departures::departures;
+pub use diag::nearest;
 pub use explain::{all_codes, code, explanation};
 pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]

@@ -4,6 +4,7 @@ pub mod access_cases;
 pub mod foreign;
 pub mod fuzz;
 pub mod generate;
+pub mod patterns;
 
 use std::path::{Path, PathBuf};
 

@@ -245,6 +245,8 @@ pub(crate) struct FeatureDecl {
 #[derive(Debug, Clone)]
 pub(crate) struct ObjectDecl {
     pub index: Spanned<Index>,
+    /// Bytes that its entries take, about: what is written once for all elements counts for each.
+    pub weight: usize,
     pub on: Option<Vec<Name>>,
     pub from: Option<Name>,
     pub alias: Option<Name>,
@@ -256,6 +258,20 @@ pub(crate) struct ObjectDecl {
     pub omit: Vec<Spanned<i128>>,
     pub links: Option<Vec<Spanned<Index>>>,
     pub entry: EntryDecl,
+}
+
+impl ObjectDecl {
+    /// How many entries it has, sub-index 0 among them, if all of them are right.
+    pub(crate) fn entries(&self) -> usize {
+        let elements = self.array.as_ref().map(|array| {
+            let count = array.count.map_or(0, |count| count.value);
+            let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
+            // What is beyond the sub-indices is refused as a number.
+            usize::try_from(count.max(highest).clamp(0, 254)).unwrap_or(0)
+        });
+        let members = self.record.as_ref().map(|record| record.members.len());
+        1 + elements.or(members).unwrap_or(0)
+    }
 }
 
 #[derive(Debug, Clone)]

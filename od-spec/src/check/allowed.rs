@@ -4,16 +4,43 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::RULES;
 use crate::ast::{AllowDecl, Spec};
-use crate::decode::nearest;
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity, codes, shorten};
 use crate::model::Index;
-use crate::source::{Span, Spanned};
+use crate::source::{FileId, Spanned};
 
 /// The codes that a specification allows, each with the reason.
 pub(crate) struct Allowed<'a> {
-    by_code: BTreeMap<&'a str, &'a AllowDecl>,
+    by_code: BTreeMap<&'a str, Allow<'a>>,
     /// Those that a rule has found something for.
     used: BTreeSet<(&'a str, Covered)>,
+}
+
+/// A code that is allowed.
+struct Allow<'a> {
+    decl: &'a AllowDecl,
+    /// Where the objects stand at which alone it is allowed, by where they begin: their ends, and which they are.
+    objects: Option<BTreeMap<(FileId, u32), (u32, Index)>>,
+}
+
+impl<'a> Allow<'a> {
+    fn of(decl: &'a AllowDecl) -> Self {
+        let objects = decl.at.as_ref().map(|at| {
+            let places = at.iter().flat_map(|object| {
+                object.places.iter().map(|place| ((place.file, place.start), (place.end, object.index.value)))
+            });
+            // Of an object that is named twice, the first counts.
+            places.rev().collect()
+        });
+        Self { decl, objects }
+    }
+
+    /// Whether a finding is allowed, and by what.
+    fn covers(&self, finding: &Diagnostic) -> Option<Covered> {
+        let Some(objects) = &self.objects else { return Some(Covered::Everywhere) };
+        let place = finding.labels.first()?.span;
+        let ((file, _), (end, index)) = objects.range(..=(place.file, place.start)).next_back()?;
+        (*file == place.file && place.start < *end).then_some(Covered::At(*index))
+    }
 }
 
 /// Where a rule may be broken.
@@ -43,7 +70,7 @@ impl<'a> Allowed<'a> {
         for allow in &spec.allow {
             let code = &allow.code;
             if RULES.iter().any(|rule| rule.code.id == code.value) {
-                by_code.insert(code.value.as_str(), allow);
+                by_code.insert(code.value.as_str(), Allow::of(allow));
                 for object in allow.at.iter().flatten().filter(|object| object.places.is_empty()) {
                     let message =
                         format!("{} stands neither under `objects:` nor under `pdos:`", object.index.value);
@@ -56,12 +83,12 @@ impl<'a> Allowed<'a> {
             }
             let message = format!("found `{}`, expected the code of a rule", shorten(&code.value));
             let known = RULES.iter().map(|rule| rule.code.id);
-            let help = match (code.value.starts_with("OD"), nearest(&code.value, known)) {
-                (false, Some(id)) => format!("did you mean `{id}`?"),
-                (_, _) => {
-                    "write a code of `odgen explain all`; what cannot be read cannot be allowed".to_owned()
-                }
-            };
+            let help =
+                match (code.value.starts_with("OD"), diagnostics.suggestions.nearest(&code.value, known)) {
+                    (false, Some(id)) => format!("did you mean `{id}`?"),
+                    (_, _) => "write a code of `odgen explain all`; what cannot be read cannot be allowed"
+                        .to_owned(),
+                };
             diagnostics.push(Diagnostic::new(codes::UNKNOWN_WORD, code.span, message).help(help));
         }
         Self { by_code, used: BTreeSet::new() }
@@ -74,8 +101,8 @@ impl<'a> Allowed<'a> {
         }
         let mut softened = Diagnostics::new();
         for finding in found.iter().cloned() {
-            let allow = self.by_code.get(finding.code.id).copied();
-            softened.push(match allow.and_then(|allow| Some((allow, covers(allow, &finding)?))) {
+            let allow = self.by_code.get(finding.code.id);
+            softened.push(match allow.and_then(|allow| Some((allow.decl, allow.covers(&finding)?))) {
                 Some((allow, covered)) => {
                     self.used.insert((allow.code.value.as_str(), covered));
                     let reason = allow.reason.get("en").unwrap_or_default();
@@ -92,7 +119,7 @@ impl<'a> Allowed<'a> {
 
     /// Reports the codes and objects that nothing was found for.
     pub(crate) fn report_unused(&self, diagnostics: &mut Diagnostics) {
-        for (code, allow) in &self.by_code {
+        for (code, Allow { decl: allow, .. }) in &self.by_code {
             let mut report = |span, what: String| {
                 diagnostics.push(
                     Diagnostic::new(super::definitions_are_used::CODE, span, what)
@@ -112,13 +139,4 @@ impl<'a> Allowed<'a> {
             }
         }
     }
-}
-
-/// Whether a finding is allowed, and by what.
-fn covers(allow: &AllowDecl, finding: &Diagnostic) -> Option<Covered> {
-    let Some(objects) = &allow.at else { return Some(Covered::Everywhere) };
-    let place = finding.labels.first()?.span;
-    let holds = |span: &Span| span.file == place.file && (span.start..span.end).contains(&place.start);
-    let object = objects.iter().find(|object| object.places.iter().any(holds))?;
-    Some(Covered::At(object.index.value))
 }

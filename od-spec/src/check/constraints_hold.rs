@@ -26,7 +26,7 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for constraint in &subject.system.constraints {
+    for constraint in subject.system.constraints_about(&subject.device.key) {
         // A value outside its limits is said by itself.
         let broken = views(subject, constraint)
             .into_iter()
@@ -52,6 +52,8 @@ fn views<'a>(subject: &Subject<'a>, constraint: &'a Constraint) -> Vec<View<'a>>
     let view = |from: &'a String| View { subject: *subject, from };
     let is_seen_from = constraint.seen_from.contains(key);
     match subject.node {
+        // Where it holds, the devices before do not matter.
+        None if is_seen_from && view(key).broken(constraint).is_none() => Vec::new(),
         None if is_seen_from => {
             let mut before = constraint.seen_from.iter().take_while(|from| *from != key).map(view);
             let said_before = before.any(|view| view.broken(constraint).is_some());

@@ -1,9 +1,11 @@
 //! Every unit and type that the maker defines is used by an entry or a table.
 
+use std::collections::BTreeSet;
+
 use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Author, Statement, System, TableContent};
+use crate::model::{Author, Dictionary, Statement, System, TableContent};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::System(check) };
 
@@ -27,8 +29,7 @@ fn check(system: &System, findings: &mut Findings) {
     if system.devices.is_empty() {
         return;
     }
-    let entries = || system.devices.iter().flat_map(|device| device.entries().map(|(.., entry)| entry));
-    let tables = || system.document.tables().map(|(.., table)| &table.content);
+    let Used { units, types } = used(system);
     let mut unused = |what: &str, name: &str, stated: Statement| {
         if stated.author == Author::Maker {
             findings.push(
@@ -38,18 +39,33 @@ fn check(system: &System, findings: &mut Findings) {
         }
     };
     for unit in system.units.values() {
-        if !entries().any(|entry| entry.unit.as_ref().is_some_and(|used| used.name == unit.name)) {
+        if !units.contains(unit.name.as_str()) {
             unused("unit", &unit.name, unit.stated);
         }
     }
     for named in system.types.values() {
-        let by_entry =
-            entries().any(|entry| entry.named_type.as_ref().is_some_and(|used| used.name == named.name));
-        let by_table = tables().any(
-            |content| matches!(content, TableContent::Bits(name) | TableContent::Values(name) if *name == named.name),
-        );
-        if !by_entry && !by_table {
+        if !types.contains(named.name.as_str()) {
             unused("type", &named.name, named.stated);
         }
     }
+}
+
+/// The names of what is used.
+struct Used<'a> {
+    units: BTreeSet<&'a str>,
+    types: BTreeSet<&'a str>,
+}
+
+fn used(system: &System) -> Used<'_> {
+    let mut used = Used { units: BTreeSet::new(), types: BTreeSet::new() };
+    for (.., entry) in system.devices.iter().flat_map(Dictionary::entries) {
+        used.units.extend(entry.unit.as_ref().map(|unit| unit.name.as_str()));
+        used.types.extend(entry.named_type.as_ref().map(|named| named.name.as_str()));
+    }
+    for (.., table) in system.document.tables() {
+        if let TableContent::Bits(name) | TableContent::Values(name) = &table.content {
+            used.types.insert(name);
+        }
+    }
+    used
 }

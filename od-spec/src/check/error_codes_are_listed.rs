@@ -37,7 +37,7 @@ fn check(system: &System, findings: &mut Findings) {
         lists.filter(|code| code.span.file == device.span.file)
     });
     for code in of_types.chain(of_entries) {
-        if !system.errors.iter().any(|error| error.code == code.value) {
+        if system.errors.binary_search_by_key(&code.value, |error| error.code).is_err() {
             findings.push(
                 Diagnostic::new(CODE, code.span, format!("`errors:` does not list {:04X}h", code.value))
                     .help("add the code to `errors:`, or correct it"),

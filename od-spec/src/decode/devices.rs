@@ -1,11 +1,14 @@
 //! Devices, where they take network variables, and what their EDS files say about themselves.
 
+use std::collections::BTreeMap;
+
 use super::lexical;
 use super::numbered::twice;
 use super::read::{Field, Reader, reader};
 use crate::ast::{ChannelDecl, DeviceDecl, FileDecl, IndexRange, Name};
 use crate::diag::{Diagnostics, codes};
 use crate::keys::{channel_keys, device_keys, file_keys};
+use crate::model::Index;
 use crate::source::Spanned;
 
 device_keys! { reader pub(super) fn device(key: Name) -> DeviceDecl }
@@ -21,21 +24,23 @@ impl Field for Option<FileDecl> {
 /// Segments of indices, each index in one of them.
 impl Field for Vec<ChannelDecl> {
     fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
-        let mut channels: Vec<(Spanned<&str>, ChannelDecl)> = Vec::new();
+        let mut channels: Vec<ChannelDecl> = Vec::new();
+        // The segments by where they begin: they have no index in common.
+        let mut before: BTreeMap<Index, (Index, Spanned<&str>)> = BTreeMap::new();
         for (name, r) in reader.entries(key) {
             let Some(range) = lexical::indices(name.value) else { continue };
-            let shared = channels.iter().find_map(|(before, other)| {
-                let other = other.range.value;
-                (other.first <= range.last && range.first <= other.last)
-                    .then(|| (other.first.max(range.first), *before))
-            });
+            let other = before.range(..=range.last).next_back().filter(|(_, (last, _))| range.first <= *last);
+            let shared = other.map(|(first, (_, name))| ((*first).max(range.first), *name));
             match shared {
                 Some((index, before)) => {
                     diagnostics.push(twice(codes::DUPLICATE_INDEX, &index.to_string(), name, before));
                 }
-                None => channels.push((name, channel(Spanned::new(range, name.span), r, diagnostics))),
+                None => {
+                    before.insert(range.first, (range.last, name));
+                    channels.push(channel(Spanned::new(range, name.span), r, diagnostics));
+                }
             }
         }
-        channels.into_iter().map(|(_, channel)| channel).collect()
+        channels
     }
 }

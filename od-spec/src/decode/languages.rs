@@ -1,6 +1,5 @@
 //! Texts are in the languages that the specification lists: a text in another one would never be shown.
 
-use super::nearest;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::keys::{Keys, Shape};
 use crate::yaml::{Node, NodeKind};
@@ -34,7 +33,8 @@ fn in_value(node: &Node, shape: Shape, listed: &[&str], diagnostics: &mut Diagno
                     name.span,
                     format!("`languages:` does not list `{}`", shorten(&name.value)),
                 );
-                diagnostics.push(match nearest(&name.value, listed.iter().copied()) {
+                let meant = diagnostics.suggestions.nearest(&name.value, listed.iter().copied());
+                diagnostics.push(match meant {
                     Some(word) => {
                         diagnostic.help(format!("add it to `languages:`, or did you mean `{word}`?"))
                     }

@@ -9,7 +9,6 @@ mod languages;
 pub(crate) mod lexical;
 mod machines;
 mod manual;
-mod nearest;
 mod numbered;
 mod objects;
 mod pdos;
@@ -19,7 +18,6 @@ mod spec;
 mod types;
 
 pub use lexical::is_device_key;
-pub use nearest::nearest;
 pub(crate) use shape::inside;
 
 use crate::ast::Spec;

@@ -9,9 +9,11 @@ use super::read::Reader;
 use crate::ast::{ArrayDecl, EntryDecl, IndexRange, Name, ObjectDecl, RecordDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys;
+use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{Index, Outside, Rounding, SubIndex};
 use crate::scalar;
 use crate::source::{Span, Spanned};
+use crate::yaml::Node;
 
 /// Reads the objects; a run of indices makes one object for each of them.
 pub(super) fn objects<'a>(
@@ -22,6 +24,7 @@ pub(super) fn objects<'a>(
     // A declaration is large: the list has room for as many as there are, and no more.
     let entries: Vec<_> = entries.collect();
     let mut list = Vec::with_capacity(entries.len());
+    let mut room = Room::new(ENTRIES_OF_FILE);
     for (key, r) in entries {
         let Some(IndexRange { first, last }) = lexical::indices(key.value) else { continue };
         if let Some((index, earlier)) = before.range(first..=last).next() {
@@ -30,6 +33,19 @@ pub(super) fn objects<'a>(
         }
         before.extend((first.0..=last.0).map(|index| (Index(index), key)));
         let one = object(Spanned::new(first, key.span), r, diagnostics);
+        let objects = usize::from(last.0 - first.0) + 1;
+        let repeated = if objects > 1 { one.weight } else { one.weight - r.node.weight().min(one.weight) };
+        if let Err(full) = room.take(one.entries() * objects, repeated * objects) {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::TOO_MUCH,
+                    key.span,
+                    format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
+                )
+                .help("correct the run or the `count`, or describe the objects in several files"),
+            );
+            continue;
+        }
         if first == last {
             list.push(one);
             continue;
@@ -70,8 +86,10 @@ fn run(
 }
 
 fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
-    ObjectDecl {
+    let written = r.node.weight();
+    let decl = ObjectDecl {
         index,
+        weight: written,
         on: r.optional_texts("on"),
         from: r.text("from"),
         alias: r.text("alias"),
@@ -90,7 +108,13 @@ fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -
         omit: r.integers("omit"),
         links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
-    }
+    };
+    // What stands beside `elements:` or `record:` is about each of them.
+    let of = |key: &str| r.node.get(key).map_or(0, Node::weight);
+    let elements = r.child("array").and_then(|child| child.node.get("elements")).map_or(0, Node::weight);
+    let common = written.saturating_sub(of("record")).saturating_sub(elements);
+    let weight = written.saturating_add(common.saturating_mul(decl.entries() - 1));
+    ObjectDecl { weight, ..decl }
 }
 
 fn members<'a>(

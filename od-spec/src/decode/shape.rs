@@ -1,6 +1,6 @@
 //! Compares a YAML tree with the key tables.
 
-use super::{lexical, nearest};
+use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{ConditionError, Expr, Parsed};
 use crate::keys::{Key, KeyKind, Keys, NumberedName, Shape};
@@ -25,7 +25,8 @@ pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut
             Some(key) => check(value, key.shape, name.span, diagnostics),
             None if name.value == MERGE => {}
             None => {
-                misspelt.extend(nearest(&name.value, missing.iter().map(|key| key.name)));
+                let meant = diagnostics.suggestions.nearest(&name.value, missing.iter().map(|key| key.name));
+                misspelt.extend(meant);
                 unknown_key(name, value, keys, diagnostics);
             }
         }
@@ -46,7 +47,8 @@ fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &
         name.span,
         format!("{} has no key `{}`", keys.name, shorten(&name.value)),
     );
-    diagnostics.push(match nearest(&name.value, known.clone()) {
+    let meant = diagnostics.suggestions.nearest(&name.value, known.clone());
+    diagnostics.push(match meant {
         Some(word) => diagnostic.label("unknown").help(format!("did you mean `{word}`?")),
         None if value.kind == NodeKind::Null => diagnostic
             .label("a key without a value")
@@ -347,7 +349,8 @@ fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnosti
         text.span,
         format!("found `{}`, expected one of {list}", shorten(text.value)),
     );
-    diagnostics.push(match nearest(text.value, words.iter().copied()) {
+    let meant = diagnostics.suggestions.nearest(text.value, words.iter().copied());
+    diagnostics.push(match meant {
         Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
         None => diagnostic.help(format!("write one of {list}")),
     });

@@ -1,5 +1,7 @@
 //! The top level of a file.
 
+use std::collections::BTreeMap;
+
 use super::devices::device;
 use super::lexical;
 use super::machines::machine;
@@ -9,8 +11,8 @@ use super::pdos::pdos;
 use super::read::{Field, Reader, owned, reader};
 use super::types::{named_type, unit};
 use crate::ast::{
-    AllowDecl, AllowedObject, Axes, CodeRange, ConstraintDecl, ErrorDecl, FeatureDecl, FrontEnd, Name, Spec,
-    VendorDecl,
+    AllowDecl, AllowedObject, Axes, CodeRange, ConstraintDecl, ErrorDecl, FeatureDecl, FrontEnd, IndexRange,
+    Name, Spec, VendorDecl,
 };
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys::{self, constraint_keys, error_keys, vendor_keys};
@@ -41,7 +43,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         history: top.items("history").map(|r| issue(r, diagnostics)).collect(),
         vendor: top.child("vendor").map(|r| vendor(r, diagnostics)),
         uses: top.texts("uses"),
-        allow: top.entries("allow").filter_map(|(code, r)| allowed(owned(code), r, top)).collect(),
+        allow: allows(top),
         glossary: top
             .entries("glossary")
             .filter_map(|(name, r)| Some((owned(name), r.translated()?)))
@@ -66,32 +68,56 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     }
 }
 
-fn allowed(code: Name, r: Reader<'_>, top: Reader<'_>) -> Option<AllowDecl> {
+fn allows(top: Reader<'_>) -> Vec<AllowDecl> {
+    let mut written = top.entries("allow").peekable();
+    if written.peek().is_none() {
+        return Vec::new();
+    }
+    let places = places(top);
+    written.filter_map(|(code, r)| allowed(owned(code), r, &places)).collect()
+}
+
+fn allowed(code: Name, r: Reader<'_>, places: &Places) -> Option<AllowDecl> {
     let is_map = matches!(r.node.kind, NodeKind::Map(_));
     let reason = if is_map { r.child("about")?.translated()? } else { r.translated()? };
-    let object = |index: Spanned<Index>| AllowedObject { places: places(index.value, top), index };
+    let object = |index: Spanned<Index>| AllowedObject {
+        places: places.get(&index.value).cloned().unwrap_or_default(),
+        index,
+    };
     let at = r.child("at").map(|_| r.indices("at").into_iter().map(object).collect());
     Some(AllowDecl { code, reason, at })
 }
 
-/// What a file says of an object, each with its key.
-fn places(index: Index, top: Reader<'_>) -> Vec<Span> {
-    let objects = top.entries("objects").filter(|(key, _)| {
-        lexical::indices(key.value).is_some_and(|range| (range.first..=range.last).contains(&index))
-    });
-    let pdos = top.entries("pdos").flat_map(|(_, r)| {
-        [Direction::Receive, Direction::Transmit].into_iter().flat_map(move |direction| {
-            r.entries(direction.word()).filter(move |(key, _)| {
+/// What a file says of objects, each with its key.
+type Places = BTreeMap<Index, Vec<Span>>;
+
+fn places(top: Reader<'_>) -> Places {
+    let mut places = Places::new();
+    let has_any =
+        |places: &Places, range: IndexRange| places.range(range.first..=range.last).next().is_some();
+    for (key, r) in top.entries("objects") {
+        // Of two objects with one index, the second is refused.
+        let range = lexical::indices(key.value);
+        if let Some(IndexRange { first, last }) = range.filter(|range| !has_any(&places, *range)) {
+            let place = key.span.to(r.node.span);
+            places.extend((first.0..=last.0).map(|index| (Index(index), vec![place])));
+        }
+    }
+    for (_, r) in top.entries("pdos") {
+        for direction in [Direction::Receive, Direction::Transmit] {
+            for (key, r) in r.entries(direction.word()) {
                 let number = scalar::integer(key.value).ok().and_then(|number| u16::try_from(number).ok());
-                number.and_then(|number| number.checked_sub(1)).is_some_and(|offset| {
-                    let communication = direction.first_communication_index().checked_add(offset);
-                    let mapping = communication.and_then(|index| index.checked_add(0x200));
-                    [communication, mapping].contains(&Some(index.0))
-                })
-            })
-        })
-    });
-    objects.chain(pdos).map(|(key, r)| key.span.to(r.node.span)).collect()
+                let offset = number.and_then(|number| number.checked_sub(1));
+                let first = direction.first_communication_index();
+                let communication = offset.and_then(|offset| first.checked_add(offset));
+                let mapping = communication.and_then(|index| index.checked_add(0x200));
+                for index in communication.into_iter().chain(mapping) {
+                    places.entry(Index(index)).or_default().push(key.span.to(r.node.span));
+                }
+            }
+        }
+    }
+    places
 }
 
 fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes> {

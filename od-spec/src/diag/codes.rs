@@ -39,7 +39,7 @@ codes! {
     UNKNOWN_ANCHOR Error "OD0106" "an alias refers to nothing":
         "A YAML alias `*name` repeats the value that carries the anchor `&name` before it. There is no such anchor, or the alias stands inside the very value it would repeat."
     ALIAS_BOMB Error "OD0107" "aliases expand to too much":
-        "Aliases of aliases multiply: a few lines can stand for billions of values. Expansion stops at 200,000 values. Name a type once under `types:` instead of repeating values by alias."
+        "Aliases of aliases multiply: a few lines can stand for billions of values. Expansion stops at 16 MiB, with 64 bytes for each value beside its text. Name a type once under `types:` instead of repeating values by alias."
     TOO_DEEP Error "OD0108" "lists and maps are nested too deep":
         "More than 64 levels of nesting. No specification needs that depth; usually a bracket is missing."
     YAML_TAG Error "OD0109" "a YAML tag":
@@ -54,6 +54,8 @@ codes! {
         "`uses:` names a built-in library (`cia301`, `cia402`) or the path of a library file, relative to the file that names it. There is no such library."
     NOT_A_LIBRARY Error "OD0114" "a used file is no library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
+    TOO_MUCH Error "OD0116" "a file describes too much":
+        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or an `on:` wrong? A family of devices that is really larger goes into several files."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":

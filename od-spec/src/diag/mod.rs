@@ -2,12 +2,17 @@
 
 mod code;
 pub mod codes;
+mod nearest;
 pub mod readers;
 pub mod render;
 mod repeated;
 
 pub use code::{Code, Example, Language};
+pub(crate) use nearest::Suggestions;
+pub use nearest::nearest;
 pub(crate) use repeated::Repeated;
+
+use std::collections::BTreeSet;
 
 use crate::source::Span;
 use readers::Readers;
@@ -165,20 +170,35 @@ impl Diagnostic {
 }
 
 /// The messages of one run.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// Errors that were added or said again.
+    errors: usize,
+    /// What was said of a place that stands for many things.
+    said: BTreeSet<(&'static Code, Span)>,
+    /// What is left for suggestions.
+    pub(crate) suggestions: Suggestions,
 }
 
 impl Diagnostics {
     /// No messages.
     pub const fn new() -> Self {
-        Self { list: Vec::new() }
+        Self { list: Vec::new(), errors: 0, said: BTreeSet::new(), suggestions: Suggestions::new() }
     }
 
     /// Adds a message.
     pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.errors += usize::from(diagnostic.severity == Severity::Error);
         self.list.push(diagnostic);
+    }
+
+    /// Whether a place is told for the first time that it breaks a rule: a name in a run of objects is looked up for each of
+    /// them, and wrong once.
+    pub(crate) fn is_new(&mut self, code: &'static Code, span: Span) -> bool {
+        let is_new = self.said.insert((code, span));
+        self.errors += usize::from(!is_new && code.severity == Severity::Error);
+        is_new
     }
 
     /// Sorts by file, place and code, and drops repetitions.
@@ -196,9 +216,9 @@ impl Diagnostics {
         self.list.iter().any(|d| d.severity() == Severity::Error)
     }
 
-    /// Whether an error is among the messages behind the first `count`.
-    pub(crate) fn has_errors_behind(&self, count: usize) -> bool {
-        self.list.iter().skip(count).any(|d| d.severity() == Severity::Error)
+    /// How many errors were found so far, those that were said before among them.
+    pub(crate) const fn errors_found(&self) -> usize {
+        self.errors
     }
 
     /// Number of errors and of warnings.
@@ -238,9 +258,19 @@ impl Diagnostics {
 
     /// Takes the messages of another run.
     pub fn append(&mut self, more: Diagnostics) {
+        self.errors += more.errors;
         self.list.extend(more.list);
     }
 }
+
+/// Two runs are alike when they have the same messages.
+impl PartialEq for Diagnostics {
+    fn eq(&self, other: &Self) -> bool {
+        self.list == other.list
+    }
+}
+
+impl Eq for Diagnostics {}
 
 impl<'a> IntoIterator for &'a Diagnostics {
     type Item = &'a Diagnostic;

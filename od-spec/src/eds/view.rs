@@ -181,6 +181,12 @@ impl<'d> Part<'d> {
         self.name().span
     }
 
+    /// The length of its values and of the comments above it.
+    pub(crate) fn size(&self) -> usize {
+        let values = self.entries().map(|entry| entry.value.value.len());
+        values.sum::<usize>() + self.comments_at_header().map(str::len).sum::<usize>()
+    }
+
     /// All keys in order, also those that stand twice.
     pub(crate) fn entries(&self) -> impl Iterator<Item = Entry<'d>> + use<'d> {
         let file = self.file;

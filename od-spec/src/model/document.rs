@@ -40,16 +40,6 @@ impl Document {
             section.tables.iter().enumerate().map(move |(table, content)| (id(table), section, content))
         })
     }
-
-    /// The table with this number.
-    pub fn numbered(&self, number: u32) -> Option<TableId> {
-        self.tables().find(|(.., table)| table.number.map(u32::from) == Some(number)).map(|(id, ..)| id)
-    }
-
-    /// The position of the section with this number.
-    pub fn section_position(&self, number: &str) -> Option<usize> {
-        self.sections.iter().position(|section| !number.is_empty() && section.number == number)
-    }
 }
 
 /// One issue of the manual.

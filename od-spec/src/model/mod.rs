@@ -22,7 +22,7 @@ mod unit;
 mod value;
 mod views;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 pub use condition::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outcome, Term, Values};
@@ -88,9 +88,30 @@ pub struct System {
     pub errata: Vec<Erratum>,
     /// One dictionary per device, in the order of the specification.
     pub devices: Vec<Dictionary>,
+    /// The positions of the constraints that a device can break.
+    pub(crate) constraints_by_device: BTreeMap<String, Vec<usize>>,
 }
 
 impl System {
+    /// The constraints that a device can break, in order.
+    pub(crate) fn constraints_about(&self, key: &str) -> impl Iterator<Item = &Constraint> {
+        let positions = self.constraints_by_device.get(key).map_or(&[][..], Vec::as_slice);
+        positions.iter().filter_map(|position| self.constraints.get(*position))
+    }
+
+    /// Takes the constraints, which the devices can break.
+    pub(crate) fn constrain(&mut self, constraints: Vec<Constraint>) {
+        self.constraints_by_device.clear();
+        for (position, constraint) in constraints.iter().enumerate() {
+            let keys: BTreeSet<&String> =
+                constraint.seen_from.iter().chain(constraint.devices.keys()).collect();
+            for key in keys {
+                self.constraints_by_device.entry(key.clone()).or_default().push(position);
+            }
+        }
+        self.constraints = constraints;
+    }
+
     /// The device with this key.
     pub fn device(&self, key: &str) -> Option<&Dictionary> {
         self.devices.iter().find(|device| device.key == key)

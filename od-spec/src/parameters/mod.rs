@@ -4,6 +4,8 @@
 mod overlay;
 mod read;
 
+use std::collections::BTreeMap;
+
 use crate::check;
 use crate::commissioning::{Commissioning, ParameterValues};
 use crate::diag::{Diagnostic, Diagnostics, codes};
@@ -85,11 +87,16 @@ pub(crate) fn assign_with(
     diagnostics: &mut Diagnostics,
 ) -> ParameterValues {
     let mut settings: Vec<Setting> = Vec::new();
+    let mut held: BTreeMap<EntryId, usize> = BTreeMap::new();
+    let entries = read::Entries::of(device);
     for assignment in assignments {
-        match read::setting(device, node, assignment) {
-            Ok(setting) => match settings.iter().find(|before| before.holder == setting.holder) {
+        match read::setting(&entries, node, assignment, &mut diagnostics.suggestions) {
+            Ok(setting) => match held.get(&setting.holder).and_then(|at| settings.get(*at)) {
                 Some(before) => diagnostics.push(set_twice(&setting, before)),
-                None => settings.push(setting),
+                None => {
+                    held.insert(setting.holder, settings.len());
+                    settings.push(setting);
+                }
             },
             // What cannot be set at all needs no better value.
             Err(unread) => match refused(rules, system, device, node, assignment, &unread) {
@@ -136,7 +143,7 @@ pub(crate) fn of_node(
     let mut values = ParameterValues::new();
     for (id, text) in decl.values {
         let Some(entry) = overlay::entry_mut(&mut configured, id) else { continue };
-        match read::parameter(entry, &text) {
+        match read::parameter(entry, &text, &mut diagnostics.suggestions) {
             // What the file repeats is not set by it.
             Ok(value) if entry.default.as_ref() == Some(&value) => drop(values.insert(id, value)),
             Ok(value) => {

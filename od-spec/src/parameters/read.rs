@@ -1,7 +1,7 @@
 //! One setting as it is written: `607D.2=9000`, `target position = 90.00 °`.
 
 use super::{Assignment, Setting};
-use crate::diag::{Diagnostic, codes};
+use crate::diag::{Diagnostic, Suggestions, codes};
 use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value};
 use crate::resolve::{self, values};
 use crate::source::{Span, Spanned};
@@ -22,7 +22,13 @@ impl From<Box<Diagnostic>> for Unread {
 }
 
 /// Reads a setting: which entry, and which value of its type.
-pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) -> Result<Setting, Unread> {
+pub(super) fn setting(
+    entries: &Entries<'_>,
+    node: u8,
+    assignment: &Assignment,
+    suggestions: &mut Suggestions,
+) -> Result<Setting, Unread> {
+    let device = entries.device;
     let span = assignment.span;
     let Some((name, text)) = assignment.value.split_once('=') else {
         return Err(Box::new(
@@ -36,7 +42,7 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
         .into());
     };
     let value_span = span.part(name.len() + 1, assignment.value.len());
-    let (id, entry) = find(device, name.trim(), span.part(0, name.len()))?;
+    let (id, entry) = entries.find(name.trim(), span.part(0, name.len()), suggestions)?;
     // Blanks around a number are no part of it, but a text may not lose them unnoticed.
     let text = if matches!(entry.data_type, DataType::VisibleString | DataType::UnicodeString) {
         text
@@ -45,8 +51,8 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
     };
     let unit = entry.unit.as_deref();
     let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
-    let value =
-        values::read(text, value_span, expected).map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
+    let value = values::read(text, value_span, expected, suggestions)
+        .map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
     let holder = match &entry.alias {
         Some(alias) => {
             let raw = value.integer_for(node);
@@ -62,27 +68,53 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
 }
 
 /// Reads the value of a known entry.
-pub(super) fn parameter(entry: &Entry, text: &Spanned<String>) -> Result<Value, Box<Diagnostic>> {
+pub(super) fn parameter(
+    entry: &Entry,
+    text: &Spanned<String>,
+    suggestions: &mut Suggestions,
+) -> Result<Value, Box<Diagnostic>> {
     let unit = entry.unit.as_deref();
     let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
-    values::read(&text.value, text.span, expected)
+    values::read(&text.value, text.span, expected, suggestions)
 }
 
-fn find<'a>(device: &'a Dictionary, name: &str, span: Span) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {
-    let id = resolve::lookup(device, name).map_err(|nearest| {
-        let diagnostic =
-            Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("`{}` has no entry `{name}`", device.key));
-        Box::new(match nearest {
-            Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-            None => diagnostic
-                .help("write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"),
+/// The entries of a device, as settings name them.
+pub(super) struct Entries<'a> {
+    device: &'a Dictionary,
+    lookup: resolve::Lookup<'a>,
+}
+
+impl<'a> Entries<'a> {
+    pub(super) const fn of(device: &'a Dictionary) -> Self {
+        Self { device, lookup: resolve::Lookup::new(device) }
+    }
+
+    fn find(
+        &self,
+        name: &str,
+        span: Span,
+        suggestions: &mut Suggestions,
+    ) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {
+        let device = self.device;
+        let id = self.lookup.find(name, suggestions).map_err(|nearest| {
+            let diagnostic = Diagnostic::new(
+                codes::UNKNOWN_ENTRY,
+                span,
+                format!("`{}` has no entry `{name}`", device.key),
+            );
+            Box::new(match nearest {
+                Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+                None => diagnostic
+                    .help("write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"),
+            })
+        })?;
+        device.entry(id).map(|entry| (id, entry)).ok_or_else(|| {
+            Box::new(
+                Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("there is no entry {id}"))
+                    .help("correct it"),
+            )
         })
-    })?;
-    device.entry(id).map(|entry| (id, entry)).ok_or_else(|| {
-        Box::new(
-            Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("there is no entry {id}")).help("correct it"),
-        )
-    })
+    }
 }
 
 /// The raw value that the target of an alias gets; `None` when it would have to be rounded.

@@ -23,16 +23,51 @@ pub(super) fn resolve(
     broken: &mut Broken,
     diagnostics: &mut Diagnostics,
 ) {
-    let names = Names::new(objects.values());
+    let known = Known::of(declared, objects);
+    let mut made = Vec::new();
     for (index, one) in declared {
         let Some(reference) = &one.decl.alias else { continue };
-        let object = target(reference, declared, &names, objects, broken, diagnostics)
+        let object = target(reference, &known, broken, diagnostics)
             .and_then(|target| alias(one, &target, around, diagnostics));
         match object {
-            Some(object) => {
-                objects.insert(*index, object);
-            }
+            Some(object) => made.push((*index, object)),
             None => broken.add(*index, one.decl.entry.name.as_ref()),
+        }
+    }
+    objects.extend(made);
+}
+
+/// What a reference can name.
+struct Known<'a> {
+    objects: &'a BTreeMap<Index, Object>,
+    names: Names<'a>,
+    /// The aliases, which it may not name.
+    aliases: BTreeMap<Index, Spanned<Index>>,
+    aliases_by_name: BTreeMap<&'a str, Spanned<Index>>,
+}
+
+impl<'a> Known<'a> {
+    fn of(declared: &'a BTreeMap<Index, Declared<'_>>, objects: &'a BTreeMap<Index, Object>) -> Self {
+        let mut known = Self {
+            objects,
+            names: Names::new(objects.values()),
+            aliases: BTreeMap::new(),
+            aliases_by_name: BTreeMap::new(),
+        };
+        for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_some()) {
+            known.aliases.insert(*index, one.decl.index);
+            if let Some(name) = &one.decl.entry.name {
+                known.aliases_by_name.entry(name.value.as_str()).or_insert(one.decl.index);
+            }
+        }
+        known
+    }
+
+    /// The alias that a reference names, by index or by name.
+    fn alias(&self, reference: &Name) -> Option<Spanned<Index>> {
+        match crate::decode::lexical::entry_by_index(&reference.value) {
+            Some(entry) => self.aliases.get(&entry.index).copied(),
+            None => self.aliases_by_name.get(reference.value.as_str()).copied(),
         }
     }
 }
@@ -60,13 +95,11 @@ impl Target<'_> {
 /// Finds what a reference names, which may be no alias itself.
 fn target<'a>(
     reference: &'a Name,
-    declared: &BTreeMap<Index, Declared<'_>>,
-    names: &Names,
-    objects: &'a BTreeMap<Index, Object>,
+    known: &Known<'a>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Target<'a>> {
-    if let Some(alias) = alias_named(reference, declared) {
+    if let Some(alias) = known.alias(reference) {
         diagnostics.push(
             Diagnostic::new(
                 codes::ALIAS_OF_ALIAS,
@@ -78,20 +111,11 @@ fn target<'a>(
         );
         return None;
     }
-    let find = |id: EntryId| objects.get(&id.index).and_then(|object| Some((object, object.entry(id.sub)?)));
-    let id = names.find(reference, |id| find(id).is_some(), broken, diagnostics)?;
+    let find =
+        |id: EntryId| known.objects.get(&id.index).and_then(|object| Some((object, object.entry(id.sub)?)));
+    let id = known.names.find(reference, |id| find(id).is_some(), broken, diagnostics)?;
     let (object, entry) = find(id)?;
     Some(Target { reference, id, object, entry })
-}
-
-/// The alias that a reference names, by index or by name.
-fn alias_named(reference: &Name, declared: &BTreeMap<Index, Declared<'_>>) -> Option<Spanned<Index>> {
-    let by_index = crate::decode::lexical::entry_by_index(&reference.value).map(|entry| entry.index);
-    let mut aliases = declared.values().map(|one| &one.decl).filter(|decl| decl.alias.is_some());
-    let is_named = |name: &Option<Name>| name.as_ref().is_some_and(|name| name.value == reference.value);
-    let named =
-        aliases.find(|decl| by_index.map_or(is_named(&decl.entry.name), |index| decl.index.value == index));
-    named.map(|decl| decl.index)
 }
 
 /// The object that a declaration makes with its target.

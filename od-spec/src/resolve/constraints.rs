@@ -1,10 +1,12 @@
 //! Conditions between entries, tried on the defaults.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::ast::{ConstraintDecl, Name, Spec};
-use crate::decode::{inside, nearest};
+use crate::decode::inside;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::{Comparison, EntryRef, Expr, Term};
-use crate::model::{Constraint, Devices, Dictionary};
+use crate::model::{Constraint, Devices, Dictionary, Entry, Index};
 use crate::source::{Span, Spanned};
 
 use super::refs::Broken;
@@ -16,21 +18,87 @@ pub(super) fn resolve(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Constraint> {
+    let known = Known::of(devices);
     for decl in &root.objects {
-        check_write_conditions(decl, devices, broken, diagnostics);
+        check_write_conditions(decl, &known, broken, diagnostics);
     }
     for formula in root.units.iter().filter_map(|unit| unit.formula.clone()) {
         let formula = formula.map(|formula| formula.0);
-        check_known(&formula, &devices.iter().collect::<Vec<_>>(), broken, diagnostics);
-        check_operands(&formula, devices, diagnostics);
+        check_known(&formula, Meant::Any(&known), broken, diagnostics);
+        check_operands(&formula, &known, diagnostics);
     }
-    root.constraints.iter().filter_map(|decl| constraint(decl, devices, broken, diagnostics)).collect()
+    root.constraints.iter().filter_map(|decl| constraint(decl, &known, broken, diagnostics)).collect()
+}
+
+/// The devices, by what conditions name.
+struct Known<'a> {
+    devices: &'a [Dictionary],
+    by_key: BTreeMap<&'a str, &'a Dictionary>,
+    /// The devices that have an object, in their order.
+    with: BTreeMap<Index, Vec<&'a Dictionary>>,
+}
+
+impl<'a> Known<'a> {
+    fn of(devices: &'a [Dictionary]) -> Self {
+        let by_key = devices.iter().map(|device| (device.key.as_str(), device)).collect();
+        let mut with: BTreeMap<Index, Vec<&'a Dictionary>> = BTreeMap::new();
+        for device in devices {
+            for index in device.objects.keys() {
+                with.entry(*index).or_default().push(device);
+            }
+        }
+        Self { devices, by_key, with }
+    }
+
+    /// The devices that have an object.
+    fn with(&self, index: Index) -> &[&'a Dictionary] {
+        self.with.get(&index).map_or(&[], Vec::as_slice)
+    }
+
+    /// What an operand is on the first device that has it, of those that are meant.
+    fn entry(&self, operand: &EntryRef) -> Option<&'a Entry> {
+        match &operand.device {
+            Some(key) => self.by_key.get(key.as_str())?.entry(operand.id),
+            None => self.with(operand.id.index).iter().find_map(|device| device.entry(operand.id)),
+        }
+    }
+}
+
+/// The devices that a condition may name.
+#[derive(Clone, Copy)]
+enum Meant<'a> {
+    One(&'a Dictionary),
+    Any(&'a Known<'a>),
+}
+
+impl<'a> Meant<'a> {
+    fn has(self, key: &str) -> bool {
+        match self {
+            Self::One(device) => device.key == key,
+            Self::Any(devices) => devices.by_key.contains_key(key),
+        }
+    }
+
+    fn keys(self) -> impl Iterator<Item = &'a str> {
+        let (one, any) = match self {
+            Self::One(device) => (Some(device.key.as_str()), None),
+            Self::Any(devices) => (None, Some(devices.by_key.keys().copied())),
+        };
+        one.into_iter().chain(any.into_iter().flatten())
+    }
+
+    fn entry(self, operand: &EntryRef) -> Option<&'a Entry> {
+        match self {
+            Self::One(device) => device.entry(operand.id),
+            Self::Any(devices) => devices.entry(operand),
+        }
+    }
 }
 
 /// `writable-when` names entries of the same device.
 fn check_write_conditions(
     decl: &crate::ast::ObjectDecl,
-    devices: &[Dictionary],
+    devices: &Known<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) {
@@ -39,9 +107,8 @@ fn check_write_conditions(
     let common = decl.array.iter().map(|array| &array.entry);
     let entries = members.chain(elements).map(|(_, entry)| entry).chain(common).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
-        let has_object = |device: &&Dictionary| device.objects.contains_key(&decl.index.value);
-        for device in devices.iter().filter(has_object) {
-            check_known(condition, std::slice::from_ref(&device), broken, diagnostics);
+        for device in devices.with(decl.index.value) {
+            check_known(condition, Meant::One(device), broken, diagnostics);
         }
         check_names_entries(condition, diagnostics);
         check_operands(condition, devices, diagnostics);
@@ -52,27 +119,29 @@ fn check_write_conditions(
 /// Reports entries that none of the devices has; `true` when there are none such.
 fn check_known(
     condition: &Spanned<Expr>,
-    devices: &[&Dictionary],
+    devices: Meant<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> bool {
     let mut known = true;
     for (entry, range) in condition.value.entries().into_iter().zip(&condition.value.places) {
         let place = inside(Spanned::new(condition.value.text.as_str(), condition.span), range);
-        let named = |device: &&&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
         if let Some(key) = &entry.device
-            && !devices.iter().any(|device| device.key == *key)
+            && !devices.has(key)
         {
-            let keys = devices.iter().map(|device| device.key.as_str());
-            let help = nearest(key, keys).map_or("name a device of the specification".to_owned(), |word| {
-                format!("did you mean `{word}`?")
-            });
+            let keys = devices.keys();
+            let help = diagnostics
+                .suggestions
+                .nearest(key, keys)
+                .map_or("name a device of the specification".to_owned(), |word| {
+                    format!("did you mean `{word}`?")
+                });
             diagnostics.push(
                 Diagnostic::new(codes::UNKNOWN_DEVICE, place, format!("there is no device `{key}`"))
                     .help(help),
             );
             known = false;
-        } else if !devices.iter().filter(named).any(|device| device.entry(entry.id).is_some()) {
+        } else if devices.entry(entry).is_none() {
             if !broken.has(entry.id.index) {
                 diagnostics.push(
                     Diagnostic::new(codes::UNKNOWN_ENTRY, place, format!("there is no entry {entry}"))
@@ -100,12 +169,9 @@ fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics)
 }
 
 /// Conditions compute with integers, and ask for bits that exist.
-fn check_operands(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &mut Diagnostics) {
+fn check_operands(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut Diagnostics) {
     for (entry, bit) in condition.value.operands() {
-        let named = |device: &&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
-        let Some(found) = devices.iter().filter(named).find_map(|device| device.entry(entry.id)) else {
-            continue;
-        };
+        let Some(found) = devices.entry(&entry) else { continue };
         let problem = match (found.data_type.range(), found.data_type.bits(), bit) {
             (None, ..) => format!("{entry} is {}: conditions compute with integers", found.data_type),
             (_, Some(width), Some(bit)) if u16::from(bit) >= width => format!("{entry} has no bit {bit}"),
@@ -119,12 +185,10 @@ fn check_operands(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics
 }
 
 /// Entries that are compared directly are measured in one base unit. Products and quotients are left to the author.
-fn check_units(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &mut Diagnostics) {
+fn check_units(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut Diagnostics) {
     let unit = |term: &Term| {
         let Term::Entry(entry) = term else { return None };
-        let named = |device: &&Dictionary| entry.device.as_ref().is_none_or(|key| *key == device.key);
-        let found = devices.iter().filter(named).find_map(|device| device.entry(entry.id))?;
-        found.unit.clone().map(|unit| (term.to_string(), unit))
+        devices.entry(entry)?.unit.clone().map(|unit| (term.to_string(), unit))
     };
     for comparison in &condition.value.comparisons {
         let mut left = unit(&comparison.first);
@@ -153,35 +217,40 @@ fn check_units(condition: &Spanned<Expr>, devices: &[Dictionary], diagnostics: &
 
 fn constraint(
     decl: &ConstraintDecl,
-    devices: &[Dictionary],
+    devices: &Known<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraint> {
     let require = decl.require.as_ref()?;
-    let all: Vec<&Dictionary> = devices.iter().collect();
     let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
-    if !conditions.iter().all(|condition| check_known(condition, &all, broken, diagnostics)) {
+    if !conditions.iter().all(|condition| check_known(condition, Meant::Any(devices), broken, diagnostics)) {
         return None;
     }
-    let before = diagnostics.iter().len();
+    let before = diagnostics.errors_found();
     for condition in &conditions {
         check_names_entries(condition, diagnostics);
         check_operands(condition, devices, diagnostics);
         check_units(condition, devices, diagnostics);
     }
-    if diagnostics.has_errors_behind(before) {
+    if diagnostics.errors_found() > before {
         return None;
     }
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();
     let unprefixed = || entries.iter().filter(|entry| entry.device.is_none());
     // Entries without a device are those of each device that has all of them.
-    let with_all_entries: Vec<&Dictionary> = devices
-        .iter()
-        .filter(|device| decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key)))
+    let on = decl.on.as_ref();
+    let on: Option<BTreeSet<&str>> = on.map(|on| on.iter().map(|key| key.value.as_str()).collect());
+    let may_have_all: Vec<&Dictionary> = match unprefixed().next() {
+        Some(first) => devices.with(first.id.index).to_vec(),
+        None => devices.devices.iter().collect(),
+    };
+    let with_all_entries: Vec<&Dictionary> = may_have_all
+        .into_iter()
+        .filter(|device| on.as_ref().is_none_or(|on| on.contains(device.key.as_str())))
         .filter(|device| unprefixed().all(|entry| device.entry(entry.id).is_some()))
         .collect();
     if with_all_entries.is_empty() && unprefixed().next().is_some() {
-        let known = |key: &Name| devices.iter().any(|device| device.key == key.value);
+        let known = |key: &Name| devices.by_key.contains_key(key.value.as_str());
         let unknown_device = decl.on.as_ref().is_some_and(|on| !on.iter().all(known));
         if unknown_device || unprefixed().any(|entry| broken.has(entry.id.index)) {
             return None;
@@ -203,7 +272,8 @@ fn constraint(
     }
     keys.sort();
     keys.dedup();
-    let seen_from = if with_all_entries.is_empty() { vec![*all.first()?] } else { with_all_entries };
+    let seen_from =
+        if with_all_entries.is_empty() { vec![devices.devices.first()?] } else { with_all_entries };
     Some(Constraint {
         name: decl.name.value.clone(),
         about: words(&decl.about),

@@ -4,8 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 
+use super::keys_have_effect;
+use super::libraries::{self, Libraries};
 use super::scope::{Scope, unknown};
-use super::{keys_have_effect, libraries};
 use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{DataType, Departure, Fact, Index, Origin, Part, SubIndex};
@@ -40,19 +41,16 @@ impl Deref for Decl<'_> {
 
 /// All declarations of a device by index.
 pub(super) fn of_device<'a>(
-    root: &'a Spec,
-    libraries: &'a [Spec],
+    written: &[&'a ObjectDecl],
+    libraries: &Libraries<'a>,
     device: &DeviceDecl,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    let is_for_device = |decl: &ObjectDecl| {
-        decl.on.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key.value))
-    };
-    let mut declared = of_specification(root, libraries, is_for_device, scope, diagnostics);
+    let mut declared = of_specification(written, libraries, scope, diagnostics);
     for (library, feature, axis) in features(libraries, device, diagnostics) {
         for index in &feature.objects {
-            let Some(decl) = library.objects.iter().find(|decl| decl.index == *index) else {
+            let Some(decl) = libraries.written(library, index.value) else {
                 diagnostics.push(
                     Diagnostic::new(
                         codes::NOT_IN_LIBRARY,
@@ -85,23 +83,22 @@ pub(super) fn of_device<'a>(
 /// All declarations of a library that is compiled by itself.
 pub(super) fn of_library<'a>(
     root: &'a Spec,
-    libraries: &'a [Spec],
+    libraries: &Libraries<'a>,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    of_specification(root, libraries, |_| true, scope, diagnostics)
+    of_specification(&root.objects.iter().collect::<Vec<_>>(), libraries, scope, diagnostics)
 }
 
 /// The declarations that stand in the specification itself.
 fn of_specification<'a>(
-    root: &'a Spec,
-    libraries: &'a [Spec],
-    wanted: impl Fn(&ObjectDecl) -> bool,
+    written: &[&'a ObjectDecl],
+    libraries: &Libraries<'a>,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
     let mut declared = BTreeMap::new();
-    for decl in root.objects.iter().filter(|decl| wanted(decl)) {
+    for decl in written.iter().copied() {
         let one = match &decl.from {
             Some(from) => from_library(decl, from, libraries, scope, diagnostics),
             None => {
@@ -121,17 +118,11 @@ fn of_specification<'a>(
 
 /// The features of a device: those that every device has, those it names, and those they need; each with its axis.
 fn features<'a>(
-    libraries: &'a [Spec],
+    libraries: &Libraries<'a>,
     device: &DeviceDecl,
     diagnostics: &mut Diagnostics,
 ) -> Vec<(&'a Spec, &'a FeatureDecl, u16)> {
-    let all = || {
-        libraries.iter().flat_map(|library| library.features.iter().map(move |feature| (library, feature)))
-    };
-    let mut wanted: Vec<Name> = Vec::new();
-    for (_, feature) in all().filter(|(_, feature)| feature.implied) {
-        wanted.push(feature.name.clone());
-    }
+    let mut wanted: Vec<Name> = libraries.implied().iter().map(|feature| feature.name.clone()).collect();
     wanted.extend(device.features.iter().cloned());
     let mut seen: BTreeSet<String> = BTreeSet::new();
     let mut found = Vec::new();
@@ -139,13 +130,13 @@ fn features<'a>(
         if !seen.insert(name.value.clone()) {
             continue;
         }
-        let named = |name: &str| all().find(|(_, feature)| feature.name.value == name);
         let on_axis = || {
             let (plain, axis) = axis_of(&name.value)?;
-            let (library, feature) = named(plain)?;
+            let (library, feature) = libraries.feature(plain)?;
             library.axes.filter(|axes| axis <= axes.count).map(|_| (library, feature, axis))
         };
-        match named(&name.value).map(|(library, feature)| (library, feature, 1)).or_else(on_axis) {
+        let plain = libraries.feature(&name.value).map(|(library, feature)| (library, feature, 1));
+        match plain.or_else(on_axis) {
             Some((library, feature, axis)) => {
                 // What a feature of a further axis needs, it needs on that axis.
                 wanted.extend(feature.needs.iter().map(|need| match axis {
@@ -155,13 +146,8 @@ fn features<'a>(
                 found.push((library, feature, axis));
             }
             None => {
-                let known = all().map(|(_, feature)| feature.name.value.as_str());
-                let word = name.value.to_lowercase();
-                let alike: Vec<String> = known
-                    .clone()
-                    .filter(|known| known.to_lowercase().split(' ').any(|part| part == word))
-                    .map(|known| format!("`{known}`"))
-                    .collect();
+                let alike: Vec<String> =
+                    libraries.features_with(&name.value).iter().map(|known| format!("`{known}`")).collect();
                 let otherwise = if libraries.is_empty() {
                     "add `uses: [cia301]` to the specification; features come from libraries".to_owned()
                 } else if alike.is_empty() {
@@ -169,7 +155,8 @@ fn features<'a>(
                 } else {
                     format!("did you mean {}?", alike.join(" or "))
                 };
-                diagnostics.push(unknown(codes::UNKNOWN_FEATURE, &name, "feature", known, &otherwise));
+                let known = libraries.features();
+                unknown(codes::UNKNOWN_FEATURE, &name, "feature", known, &otherwise, diagnostics);
             }
         }
     }
@@ -185,12 +172,12 @@ fn axis_of(name: &str) -> Option<(&str, u16)> {
 fn from_library<'a>(
     decl: &ObjectDecl,
     from: &Name,
-    libraries: &[Spec],
+    libraries: &Libraries<'_>,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> Option<Declared<'a>> {
-    let library = libraries::library(from, libraries, diagnostics)?;
-    let Some(below) = libraries::object(library, decl.index.value) else {
+    let library = libraries.named(from, diagnostics)?;
+    let Some(below) = libraries.object(library, decl.index.value) else {
         let what = decl.index.value.to_string();
         diagnostics.push(libraries::not_there(from, &what).help("write the object in full, without `from:`"));
         return None;
@@ -309,6 +296,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
     }
     let merged = ObjectDecl {
         index: over.index,
+        weight: over.weight,
         on: over.on.clone(),
         from: over.from.clone(),
         alias: over.alias.clone(),

@@ -48,7 +48,7 @@ pub(super) fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> Device
             None => {
                 let known = DataType::ALL.into_iter().filter(|t| t.is_dummy()).map(DataType::name);
                 let otherwise = "placeholders are boolean, integer8/16/32 and unsigned8/16/32";
-                diagnostics.push(unknown(codes::UNKNOWN_TYPE, name, "placeholder type", known, otherwise));
+                unknown(codes::UNKNOWN_TYPE, name, "placeholder type", known, otherwise, diagnostics);
             }
         }
     }
@@ -79,7 +79,7 @@ fn channels(list: &[ChannelDecl], diagnostics: &mut Diagnostics) -> Vec<DynamicC
         let Some(data_type) = DataType::from_name(&name.value) else {
             let known = DataType::ALL.into_iter().map(DataType::name);
             let otherwise = "write a data type of CiA 301, such as `unsigned8`";
-            diagnostics.push(unknown(codes::UNKNOWN_TYPE, name, "data type", known, otherwise));
+            unknown(codes::UNKNOWN_TYPE, name, "data type", known, otherwise, diagnostics);
             continue;
         };
         let (Some(access), Some(offset)) = (&decl.access, &decl.offset) else { continue };

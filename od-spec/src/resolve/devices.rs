@@ -1,29 +1,49 @@
 //! Devices and their dictionaries.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::assigned::Assigned;
 use super::decls::{self, Declared};
 use super::entries::{EdsDefaults, Surroundings};
+use super::libraries::Libraries;
 use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::{aliases, device_info, objects, pdos};
-use crate::ast::{DeviceDecl, FrontEnd, Name, PdosDecl, Spec};
-use crate::diag::{Diagnostics, codes};
+use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::limits::{DEVICES, ENTRIES_OF_DEVICE, ENTRIES_OF_FILE, Room};
 use crate::model::{DeviceInfo, Dictionary, Facts, Index, Object, Statement, SubIndex, Text, Value, Vendor};
 
-pub(super) fn resolve(
-    root: &Spec,
-    libraries: &[Spec],
+pub(super) fn resolve<'a>(
+    root: &'a Spec,
+    libraries: &Libraries<'a>,
     scope: &Scope,
     vendor: &Vendor,
     diagnostics: &mut Diagnostics,
 ) -> (Vec<Dictionary>, Broken) {
     check_device_keys(root, diagnostics);
-    let mut broken = Broken::default();
+    let assigned = Assigned::of(root);
+    let mut pdos = BTreeMap::new();
+    for (key, decl) in &root.pdos {
+        pdos.entry(key.value.as_str()).or_insert(decl);
+    }
+    let mut broken = Broken::over(assigned.for_nobody());
+    let mut room = Room::new(ENTRIES_OF_FILE);
+    if let Some(device) = root.devices.get(DEVICES) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::TOO_MUCH,
+                device.key.span,
+                format!("{} devices; a file describes at most {DEVICES}", root.devices.len()),
+            )
+            .help("describe a family of products in several files that use one library"),
+        );
+    }
     let dictionaries = root
         .devices
         .iter()
+        .take(DEVICES)
         .map(|device| {
             let mut built = Builder {
                 around: Surroundings {
@@ -32,10 +52,15 @@ pub(super) fn resolve(
                     eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
                 objects: BTreeMap::new(),
-                broken: Broken::default(),
+                broken: Broken::over(assigned.for_nobody()),
             };
-            let declared = decls::of_device(root, libraries, device, scope, diagnostics);
-            built.left_out(root, device, &declared);
+            let written = assigned.to(&device.key.value);
+            let mut declared = decls::of_device(&written, libraries, device, scope, diagnostics);
+            if let Err(refusal) = take_room(&declared, device, &mut room) {
+                diagnostics.push(*refusal);
+                declared.clear();
+            }
+            built.left_out(&written, &declared);
             built.plain_objects(&declared, diagnostics);
             aliases::resolve(&declared, built.around, &mut built.objects, &mut built.broken, diagnostics);
             let info = device_info::info(device, diagnostics);
@@ -44,8 +69,7 @@ pub(super) fn resolve(
                 built.identity(device, &info, vendor);
             }
             let none = PdosDecl::default();
-            let decl = root.pdos.iter().find(|(key, _)| key.value == device.key.value);
-            let decl = decl.map_or(&none, |(_, decl)| decl);
+            let decl = pdos.get(device.key.value.as_str()).copied().unwrap_or(&none);
             let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
             let pdos =
                 pdos::resolve(decl, &info, written, &mut built.objects, &mut built.broken, diagnostics);
@@ -67,9 +91,9 @@ pub(super) fn resolve(
 }
 
 /// The objects of a library that is compiled by itself, as if a device had all of them: for the rules about objects.
-pub(super) fn of_library(
-    root: &Spec,
-    libraries: &[Spec],
+pub(super) fn of_library<'a>(
+    root: &'a Spec,
+    libraries: &Libraries<'a>,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> Option<Dictionary> {
@@ -93,7 +117,7 @@ pub(super) fn of_library(
 
 /// Every device key that is used must be declared.
 fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
-    let known: Vec<&str> = root.devices.iter().map(|device| device.key.value.as_str()).collect();
+    let known: BTreeSet<&str> = root.devices.iter().map(|device| device.key.value.as_str()).collect();
     let lists = [
         root.objects.iter().filter_map(|decl| decl.on.as_ref()).collect::<Vec<_>>(),
         root.errors.iter().filter_map(|decl| decl.on.as_ref()).collect(),
@@ -102,15 +126,32 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
         root.errata.iter().filter_map(|decl| decl.on.as_ref()).collect(),
     ];
     let used = lists.into_iter().flatten().flatten().chain(root.pdos.iter().map(|(key, _)| key));
-    for key in used.filter(|key| !known.contains(&key.value.as_str())) {
-        diagnostics.push(unknown(
-            codes::UNKNOWN_DEVICE,
-            key,
-            "device",
-            known.iter().copied(),
-            "define it under `devices:`",
-        ));
+    for key in used.filter(|key| !known.contains(key.value.as_str())) {
+        let (names, otherwise) = (known.iter().copied(), "define it under `devices:`");
+        unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
     }
+}
+
+/// Takes the room of a device, if there is enough.
+fn take_room(
+    declared: &BTreeMap<Index, Declared<'_>>,
+    device: &DeviceDecl,
+    room: &mut Room,
+) -> Result<(), Box<Diagnostic>> {
+    let entries = declared.values().map(|one| one.decl.entries()).sum();
+    let text = declared.values().map(|one| one.decl.weight).sum();
+    let Name { value: key, span } = &device.key;
+    let message = if entries > ENTRIES_OF_DEVICE {
+        format!("`{key}` has {entries} entries; a device has at most {ENTRIES_OF_DEVICE}")
+    } else {
+        match room.take(entries, text) {
+            Ok(()) => return Ok(()),
+            Err(full) => format!("{} with `{key}`; a file describes less", full.words(ENTRIES_OF_FILE)),
+        }
+    };
+    Err(Box::new(Diagnostic::new(codes::TOO_MUCH, *span, message).help(
+        "correct runs and counts, name the devices of an object in `on:`, or describe the devices in several files",
+    )))
 }
 
 struct Builder<'a> {
@@ -120,26 +161,21 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Remembers the objects that may be meant for the device, but whose library or device is unknown.
-    fn left_out(&mut self, root: &Spec, device: &DeviceDecl, declared: &BTreeMap<Index, Declared<'_>>) {
-        let known = |key: &Name| root.devices.iter().any(|device| device.key.value == key.value);
-        for decl in root.objects.iter().filter(|decl| !declared.contains_key(&decl.index.value)) {
-            let may_be_for_it =
-                |on: &Vec<Name>| on.iter().any(|key| key.value == device.key.value || !known(key));
-            if decl.on.as_ref().is_none_or(may_be_for_it) {
-                self.broken.add(decl.index.value, decl.entry.name.as_ref());
-            }
+    /// Remembers the objects that are meant for the device, but whose library is unknown.
+    fn left_out(&mut self, written: &[&ObjectDecl], declared: &BTreeMap<Index, Declared<'_>>) {
+        for decl in written.iter().filter(|decl| !declared.contains_key(&decl.index.value)) {
+            self.broken.add(decl.index.value, decl.entry.name.as_ref());
         }
     }
 
     fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
-            let before = diagnostics.iter().len();
+            let before = diagnostics.errors_found();
             if let Some(object) = objects::resolve(one, self.around, diagnostics) {
                 self.objects.insert(*index, object);
             }
             // An object may stand there without the entries that are wrong.
-            if diagnostics.has_errors_behind(before) || !self.objects.contains_key(index) {
+            if diagnostics.errors_found() > before || !self.objects.contains_key(index) {
                 self.broken.add(*index, one.decl.entry.name.as_ref());
             }
         }

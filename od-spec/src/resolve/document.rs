@@ -3,16 +3,15 @@
 use std::collections::BTreeMap;
 
 use super::numbers::to_u16;
-use super::places;
-use super::refs::{Broken, Names};
+use super::places::{self, Places};
+use super::refs::{Broken, NamesOf};
 use super::table_content::Contents;
 use super::types::words;
 use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
-    TableContent,
+    Devices, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table, TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -83,25 +82,26 @@ fn error_codes(list: &[Name]) -> Vec<u16> {
 pub(super) fn errata(
     root: &Spec,
     system: &System,
+    names: &NamesOf<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Erratum> {
     let mut errata = Vec::new();
+    let places = Places::of(&system.document);
+    // Without tables, the document is not described.
+    let is_described = system.document.tables().next().is_some();
     for decl in &root.errata {
         let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
-        let about: Vec<&Dictionary> =
-            system.devices.iter().filter(|device| on.includes(&device.key)).collect();
         let mut at = Vec::new();
         for reference in &decl.at {
-            if let Some(place) = place(reference, &about, broken, diagnostics) {
+            if let Some(place) = place(reference, &on, names, broken, diagnostics) {
                 at.push(place);
             }
         }
         let place = words(&decl.place);
-        let named = places::read(place.get(system.language()).unwrap_or_default(), &at, &system.document);
-        // Without tables, the document is not described.
-        if system.document.tables().next().is_some()
-            && let Some(number) = named.unknown.first()
+        let named = places::read(place.get(system.language()).unwrap_or_default(), &at, &places);
+        if is_described
+            && let Some(number) = named.unknown
             && let Some(span) = decl.place.as_ref().map(|place| place.span)
         {
             diagnostics.push(
@@ -126,16 +126,14 @@ pub(super) fn errata(
 
 fn place(
     reference: &Name,
-    devices: &[&Dictionary],
+    on: &Devices,
+    names: &NamesOf<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErratumPlace> {
     if let Some(entry) = lexical::entry_by_index(&reference.value) {
-        let is_known = |device: &&Dictionary| match entry.sub {
-            Some(_) => device.entry(entry.id()).is_some(),
-            None => device.objects.contains_key(&entry.index),
-        };
-        if devices.iter().any(is_known) {
+        let mut objects = names.objects(on, entry.index).into_iter();
+        if objects.any(|object| entry.sub.is_none_or(|sub| object.entry(sub).is_some())) {
             return Some(match entry.sub {
                 Some(_) => ErratumPlace::Entry(entry.id()),
                 None => ErratumPlace::Object(entry.index),
@@ -143,14 +141,14 @@ fn place(
         }
     }
     // By name, or wrong: the name lookup reports it.
-    let names = Names::new(devices.iter().flat_map(|device| device.objects.values()));
-    let id = names.find(reference, |_| false, broken, diagnostics)?;
+    let id = names.find(on, reference, broken, diagnostics)?;
     Some(if id.sub.0 == 0 { ErratumPlace::Object(id.index) } else { ErratumPlace::Entry(id) })
 }
 
 /// Checks what the tables refer to.
 pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: &mut Diagnostics) {
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
+    let contents = Contents::of(root, system, broken);
     for decl in root.sections.iter().flat_map(|section| &section.tables) {
         if let Some(number) = &decl.number
             && let Some(before) = numbers.insert(number.value, number.span)
@@ -167,7 +165,7 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
             );
         }
         match decl.contents.as_slice() {
-            [content] => Contents { root, system, broken }.check(&content.value, diagnostics),
+            [content] => contents.check(&content.value, diagnostics),
             [first, second, ..] => diagnostics.push(
                 Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a table is filled by one key only")
                     .with(first.span, "filled here")

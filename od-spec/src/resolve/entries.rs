@@ -191,13 +191,8 @@ pub(super) fn entry_type(
     if !scope.is_broken(&name.value) {
         let named = scope.types.keys().map(String::as_str);
         let known = named.chain(DataType::ALL.iter().map(|data_type| data_type.name()));
-        diagnostics.push(unknown(
-            codes::UNKNOWN_TYPE,
-            name,
-            "type",
-            known,
-            "write a data type such as `unsigned16`, or define the name under `types:`",
-        ));
+        let otherwise = "write a data type such as `unsigned16`, or define the name under `types:`";
+        unknown(codes::UNKNOWN_TYPE, name, "type", known, otherwise, diagnostics);
     }
     None
 }

@@ -2,14 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::libraries;
+use super::libraries::{self, Libraries};
 use super::types::words;
 use crate::ast::{CodeRange, ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Devices, ErrorCode, Text};
 use crate::source::Span;
 
-pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Vec<ErrorCode> {
+pub(super) fn resolve(
+    root: &Spec,
+    libraries: &Libraries<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ErrorCode> {
     let mut codes: BTreeMap<u16, (Span, ErrorCode)> = BTreeMap::new();
     for decl in &root.errors {
         let CodeRange { first, last } = decl.codes.value;
@@ -27,14 +31,15 @@ pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
             continue;
         }
         let library = match &decl.from {
-            Some(from) => match libraries::library(from, libraries, diagnostics) {
+            Some(from) => match libraries.named(from, diagnostics) {
                 Some(library) => Some(library),
                 None => continue,
             },
             None => None,
         };
         for code in first..=last {
-            let Some(error) = error(decl, code, library, diagnostics) else { break };
+            let below = library.map(|library| libraries.error(library, code));
+            let Some(error) = error(decl, code, below, diagnostics) else { break };
             codes.insert(code, (decl.codes.span, error));
         }
     }
@@ -45,12 +50,11 @@ pub(super) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
 fn error(
     decl: &ErrorDecl,
     code: u16,
-    library: Option<&Spec>,
+    library: Option<Option<&ErrorDecl>>,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErrorCode> {
-    let covers = |decl: &&ErrorDecl| decl.codes.value.codes().contains(&code);
-    let below = library.and_then(|library| library.errors.iter().find(covers));
-    if let (Some(from), Some(_), None) = (&decl.from, library, below) {
+    let below = library.flatten();
+    if let (Some(from), Some(None)) = (&decl.from, library) {
         let missing = libraries::not_there(from, &format!("error code {code:04X}h"));
         diagnostics.push(missing.help("write the code in full, without `from:`"));
         return None;

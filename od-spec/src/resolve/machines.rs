@@ -1,30 +1,31 @@
 //! State machines and command codings.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::libraries;
+use super::libraries::{self, Libraries};
 use super::numbers::{to_u8, to_u32};
-use super::refs::{Broken, Names};
+use super::refs::{Broken, NamesOf};
 use super::scope::unknown;
 use super::types::words;
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
+use crate::limits::STATES;
 use crate::model::{BitPattern, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition};
 use crate::source::{Span, Spanned};
 
 pub(super) fn resolve(
     root: &Spec,
-    libraries: &[Spec],
-    devices: &[Dictionary],
+    libraries: &Libraries<'_>,
+    names: &NamesOf<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, StateMachine> {
     let mut machines = BTreeMap::new();
     for decl in &root.machines {
         let Some(whole) = whole(decl, libraries, diagnostics) else { continue };
-        if let Some(machine) = machine(&whole, devices, broken, diagnostics) {
+        if let Some(machine) = machine(&whole, names, broken, diagnostics) {
             machines.insert(decl.name.value.clone(), machine);
         }
     }
@@ -34,7 +35,7 @@ pub(super) fn resolve(
 /// A declaration laid over the library's machine of its name, where `from:` says so.
 fn whole<'a>(
     decl: &'a MachineDecl,
-    libraries: &[Spec],
+    libraries: &Libraries<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Cow<'a, MachineDecl>> {
     let Some(from) = &decl.from else {
@@ -55,8 +56,8 @@ fn whole<'a>(
         }
         return Some(Cow::Borrowed(decl));
     };
-    let library = libraries::library(from, libraries, diagnostics)?;
-    let Some(below) = library.machines.iter().find(|below| below.name.value == decl.name.value) else {
+    let library = libraries.named(from, diagnostics)?;
+    let Some(below) = libraries.machine(library, &decl.name.value) else {
         let what = format!("the state machine `{}`", shorten(&decl.name.value));
         let known = library.machines.iter().map(|machine| format!("`{}`", machine.name.value));
         let help = format!("it defines {}", known.collect::<Vec<_>>().join(", "));
@@ -113,14 +114,13 @@ fn whole<'a>(
 
 fn machine(
     decl: &MachineDecl,
-    devices: &[Dictionary],
+    names: &NamesOf<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<StateMachine> {
     let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
     let mut found: Option<(&Dictionary, EntryId, EntryId)> = None;
-    for device in devices.iter().filter(|device| on.includes(&device.key)) {
-        let names = Names::new(device.objects.values());
+    for (device, names) in names.each(&on) {
         let mut find = |name: &Option<Name>| {
             names.find(name.as_ref()?, |id| device.entry(id).is_some(), broken, diagnostics)
         };
@@ -148,6 +148,15 @@ fn machine(
         }
     }
     let (device, status, command) = found?;
+    if decl.states.len() > STATES {
+        let message = format!("{} states; a state machine has at most {STATES}", decl.states.len());
+        diagnostics.push(
+            Diagnostic::new(codes::TOO_MUCH, decl.name.span, message).help(
+                "describe several machines, each with the states that are told apart by its status entry",
+            ),
+        );
+        return None;
+    }
     check_complete(decl, diagnostics);
     let states: Vec<State> = decl
         .states
@@ -160,12 +169,13 @@ fn machine(
         })
         .collect();
     check_states_differ(decl, &states, diagnostics);
+    let names: BTreeSet<&str> = decl.states.iter().map(|state| state.name.value.as_str()).collect();
     let known = |name: &Name, diagnostics: &mut Diagnostics| {
-        let names = decl.states.iter().map(|state| state.name.value.as_str());
-        let found = names.clone().any(|state| state == name.value);
+        let found = names.contains(name.value.as_str());
         if !found {
+            let names = names.iter().copied();
             let otherwise = "name one of the machine's states";
-            diagnostics.push(unknown(codes::UNKNOWN_STATE, name, "state", names, otherwise));
+            unknown(codes::UNKNOWN_STATE, name, "state", names, otherwise, diagnostics);
         }
         found
     };
@@ -207,6 +217,7 @@ fn commands(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
+    let known: BTreeSet<i128> = decl.transitions.iter().map(|transition| transition.number.value).collect();
     for one in &decl.commands {
         let Some(pattern) = &one.pattern else { continue };
         if check_width(pattern, entry, device, diagnostics).is_none() {
@@ -228,7 +239,7 @@ fn commands(
             );
         }
         for number in &one.transitions {
-            if !decl.transitions.iter().any(|transition| transition.number.value == number.value) {
+            if !known.contains(&number.value) {
                 diagnostics.push(
                     Diagnostic::new(
                         codes::UNKNOWN_STATE,
@@ -297,19 +308,20 @@ fn check_width(
 
 /// No value of the status entry may show two states.
 fn check_states_differ(decl: &MachineDecl, states: &[State], diagnostics: &mut Diagnostics) {
-    for (at, state) in states.iter().enumerate() {
-        let (mask, value) = state.pattern.mask_and_value();
-        for later in &states[at + 1..] {
-            let (later_mask, later_value) = later.pattern.mask_and_value();
+    let places: BTreeMap<&str, Span> =
+        decl.states.iter().rev().map(|state| (state.name.value.as_str(), state.name.span)).collect();
+    for (at, later) in states.iter().enumerate() {
+        let (later_mask, later_value) = later.pattern.mask_and_value();
+        // One other state is enough: the next message tells of another.
+        let state = states[..at].iter().find(|state| {
+            let (mask, value) = state.pattern.mask_and_value();
             let common = mask & later_mask;
-            if value & common != later_value & common {
-                continue;
-            }
-            let named = |name: &str| decl.states.iter().find(|state| state.name.value == name);
-            let span = |name: &str| named(name).map(|state| state.name.span);
-            let (Some(later_place), Some(earlier_place)) = (span(&later.name), span(&state.name)) else {
-                continue;
-            };
+            value & common == later_value & common
+        });
+        let span = |name: &str| places.get(name).copied();
+        if let Some(state) = state
+            && let (Some(later_place), Some(earlier_place)) = (span(&later.name), span(&state.name))
+        {
             diagnostics.push(
                 Diagnostic::new(
                     codes::AMBIGUOUS_STATES,

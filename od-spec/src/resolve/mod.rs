@@ -1,6 +1,7 @@
 //! From what is written to what is meant: names looked up, defaults filled in, arrays expanded, values typed.
 
 mod aliases;
+mod assigned;
 mod constraints;
 mod decls;
 mod device_info;
@@ -28,8 +29,10 @@ use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, System, SystemSource, Vendor};
 use crate::source::Span;
 
+use libraries::Libraries;
 use numbers::to_u32;
-pub(crate) use refs::lookup;
+pub(crate) use refs::Lookup;
+use refs::NamesOf;
 use scope::Scope;
 
 /// What a specification gives.
@@ -42,7 +45,7 @@ pub(crate) struct Resolved {
 
 /// Builds the model from a specification and the libraries it uses. Mistakes go to `diagnostics`; with an error
 /// among them the model is incomplete and must not be used.
-pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Resolved {
+pub(crate) fn resolve<'a>(root: &'a Spec, libraries: &'a [Spec], diagnostics: &mut Diagnostics) -> Resolved {
     keys_have_effect::check(root, diagnostics);
     let scope = Scope::new(root, libraries, diagnostics);
     let languages = match root.languages.as_slice() {
@@ -65,8 +68,9 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
                 .help("add `devices:` with at least one device, such as `drive: {name: My drive}`"),
         );
     }
-    let library = devices::of_library(root, libraries, &scope, diagnostics);
-    let (devices, broken) = devices::resolve(root, libraries, &scope, &vendor, diagnostics);
+    let libraries = Libraries::of(libraries);
+    let library = devices::of_library(root, &libraries, &scope, diagnostics);
+    let (devices, broken) = devices::resolve(root, &libraries, &scope, &vendor, diagnostics);
     let mut system = System {
         source: match root.front_end {
             FrontEnd::Specification => SystemSource::Specification,
@@ -78,15 +82,19 @@ pub(crate) fn resolve(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnos
         vendor,
         units: scope.units,
         types: scope.types,
-        errors: errors::resolve(root, libraries, diagnostics),
+        errors: errors::resolve(root, &libraries, diagnostics),
         machines: std::collections::BTreeMap::new(),
         constraints: Vec::new(),
+        constraints_by_device: std::collections::BTreeMap::new(),
         errata: Vec::new(),
         devices,
     };
-    system.machines = machines::resolve(root, libraries, &system.devices, &broken, diagnostics);
-    system.constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
-    system.errata = document::errata(root, &system, &broken, diagnostics);
+    let names = NamesOf::new(&system.devices);
+    let machines = machines::resolve(root, &libraries, &names, &broken, diagnostics);
+    let errata = document::errata(root, &system, &names, &broken, diagnostics);
+    let constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
+    system.constrain(constraints);
+    (system.machines, system.errata) = (machines, errata);
     document::check(root, &system, &broken, diagnostics);
     Resolved { system, library }
 }

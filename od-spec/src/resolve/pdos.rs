@@ -132,7 +132,7 @@ const FLAGS: i128 = 0b11 << 30;
 fn cob_id(decl: &PdoDecl, valid: bool, diagnostics: &mut Diagnostics) -> Option<Value> {
     let expected = Expected { data_type: DataType::Unsigned32, named: None, unit: None };
     let id = match &decl.cob_id {
-        Some(text) => match values::read(&text.value, text.span, expected) {
+        Some(text) => match values::read(&text.value, text.span, expected, &mut diagnostics.suggestions) {
             Ok(value) => without_flags(value, text, diagnostics)?,
             Err(diagnostic) => {
                 diagnostics.push(*diagnostic);
@@ -186,7 +186,7 @@ fn without_flags(value: Value, text: &Name, diagnostics: &mut Diagnostics) -> Op
 /// What an element of `map:` names, with its length; whether it can be mapped is for the rules to say.
 fn mapped(
     name: &Name,
-    names: &Names,
+    names: &Names<'_>,
     objects: &BTreeMap<Index, Object>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,

@@ -1,16 +1,53 @@
 //! Which tables of the manual an erratum is about, read from the words of its place: `5.1.1.1, Table 38`,
 //! `4.3.1.1, detail table`, `Tables 12 to 15`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 
-use crate::model::{Document, ErratumPlace, TableContent, TableId};
+use crate::model::{Document, ErratumPlace, Index, TableContent, TableId};
 
 /// What the words of a place name.
 pub(super) struct Named {
     /// Tables of the document.
     pub tables: Vec<TableId>,
-    /// Numbers of tables that the document does not have.
-    pub unknown: Vec<u32>,
+    /// The first number of a table that the document does not have.
+    pub unknown: Option<u32>,
+}
+
+/// Where the parts of a document are.
+#[derive(Default)]
+pub(super) struct Places<'a> {
+    /// The numbered tables; of one number, the first.
+    numbered: BTreeMap<u32, TableId>,
+    /// The tables without a number that show an object.
+    unnumbered: BTreeMap<Index, Vec<TableId>>,
+    /// The positions of the numbered sections; of one number, the first.
+    sections: BTreeMap<&'a str, usize>,
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn of(document: &'a Document) -> Self {
+        let mut places = Self::default();
+        for (position, section) in document.sections.iter().enumerate() {
+            if !section.number.is_empty() {
+                places.sections.entry(&section.number).or_insert(position);
+            }
+        }
+        for (id, _, table) in document.tables() {
+            match (table.number, &table.content) {
+                (Some(number), _) => {
+                    places.numbered.entry(number.into()).or_insert(id);
+                }
+                (None, TableContent::Overview(list) | TableContent::Objects(list)) => {
+                    for index in list {
+                        places.unnumbered.entry(*index).or_default().push(id);
+                    }
+                }
+                (None, _) => {}
+            }
+        }
+        places
+    }
 }
 
 /// Words for a numbered table, one or several.
@@ -34,19 +71,23 @@ const TO: [&str; 2] = ["to", "bis"];
 const NEAR: [&str; 2] = ["below", "unter"];
 
 /// The tables that a place names, by number or as the unnumbered tables with the erratum's objects in a named section.
-pub(super) fn read(place: &str, at: &[ErratumPlace], document: &Document) -> Named {
-    let mut named = Named { tables: Vec::new(), unknown: Vec::new() };
+pub(super) fn read(place: &str, at: &[ErratumPlace], places: &Places<'_>) -> Named {
+    let mut named = Named { tables: Vec::new(), unknown: None };
     for segment in place.split(';') {
-        let words = Words::of(segment, document);
-        for number in &words.tables {
-            match document.numbered(*number) {
-                Some(id) => named.tables.push(id),
-                None => named.unknown.push(*number),
+        let words = Words::of(segment, places);
+        for numbers in &words.tables {
+            let mut expected = *numbers.start();
+            for (number, id) in places.numbered.range(numbers.clone()) {
+                named.tables.push(*id);
+                expected = if *number == expected { number.saturating_add(1) } else { expected };
+            }
+            if expected <= *numbers.end() {
+                named.unknown = named.unknown.or(Some(expected));
             }
         }
         if words.unnumbered {
-            for section in &words.sections {
-                named.tables.extend(about(document, *section, at));
+            for sections in &words.sections {
+                named.tables.extend(about(places, sections, at));
             }
         }
     }
@@ -55,33 +96,24 @@ pub(super) fn read(place: &str, at: &[ErratumPlace], document: &Document) -> Nam
     named
 }
 
-/// The unnumbered tables of a section that show one of the objects.
-fn about<'a>(
-    document: &'a Document,
-    section: usize,
-    at: &'a [ErratumPlace],
-) -> impl Iterator<Item = TableId> + 'a {
-    let tables = document.sections.get(section).map_or(&[][..], |section| &section.tables);
-    tables.iter().enumerate().filter_map(move |(table, content)| {
-        let (TableContent::Overview(list) | TableContent::Objects(list)) = &content.content else {
-            return None;
-        };
-        let shows = at.iter().any(|place| list.contains(&place.index()));
-        (content.number.is_none() && shows).then_some(TableId { section, table })
-    })
+/// The unnumbered tables of some sections that show one of the objects, in order.
+fn about(places: &Places<'_>, sections: &RangeInclusive<usize>, at: &[ErratumPlace]) -> BTreeSet<TableId> {
+    let indices: BTreeSet<Index> = at.iter().map(|place| place.index()).collect();
+    let shown = indices.iter().filter_map(|index| places.unnumbered.get(index)).flatten();
+    shown.filter(|id| sections.contains(&id.section)).copied().collect()
 }
 
 /// What one segment of a place says.
 struct Words {
-    tables: Vec<u32>,
+    tables: Vec<RangeInclusive<u32>>,
     /// Positions of the sections.
-    sections: Vec<usize>,
+    sections: Vec<RangeInclusive<usize>>,
     /// Whether the unnumbered tables of the sections are meant.
     unnumbered: bool,
 }
 
 impl Words {
-    fn of(segment: &str, document: &Document) -> Self {
+    fn of(segment: &str, places: &Places<'_>) -> Self {
         // A run may be written `3-5`, too.
         let text =
             segment.to_lowercase().replace("table of contents", "contents").replace(['-', '–'], " to ");
@@ -99,16 +131,16 @@ impl Words {
                 let near = before.is_some_and(|before| NEAR.contains(before));
                 let used = numbers(&words[at..], |first, last| {
                     if !near {
-                        read.tables.extend(first..=last);
+                        read.tables.push(first..=last);
                     }
                 });
                 at += used;
-            } else if let Some(section) = document.section_position(word) {
+            } else if let Some(section) = places.sections.get(word).copied() {
                 let first = match (before, read.sections.last()) {
-                    (Some(before), Some(last)) if TO.contains(before) => last + 1,
+                    (Some(before), Some(last)) if TO.contains(before) => last.end() + 1,
                     _ => section,
                 };
-                read.sections.extend(first.min(section)..=section);
+                read.sections.push(first.min(section)..=section);
             } else if !AND.contains(word) && !TO.contains(word) {
                 others.push(*word);
             }
@@ -155,7 +187,7 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Index, Section, Table, Text};
+    use crate::model::{Section, Table, Text};
 
     fn document() -> Document {
         let table = |number, indices: &[u16]| Table {
@@ -177,9 +209,10 @@ mod tests {
     }
 
     fn tables(place: &str) -> String {
-        let named = read(place, &[ErratumPlace::Object(Index(0x2000))], &document());
+        let document = document();
+        let named = read(place, &[ErratumPlace::Object(Index(0x2000))], &Places::of(&document));
         let tables = named.tables.iter().map(|id| format!("{}.{}", id.section, id.table));
-        let unknown = named.unknown.iter().map(|number| format!("?{number}"));
+        let unknown = named.unknown.map(|number| format!("?{number}"));
         tables.chain(unknown).collect::<Vec<_>>().join(" ")
     }
 
@@ -190,6 +223,7 @@ mod tests {
         assert_eq!(tables("1 and Tabellen 1 bis 3"), "0.0 1.1 3.0");
         assert_eq!(tables("caption of Table 2; Table 3"), "1.1 3.0");
         assert_eq!(tables("Table 9, and 1.2, text"), "?9");
+        assert_eq!(tables("Tables 2 to 4294967295"), "1.1 3.0 ?4");
         assert_eq!(tables("Tables 1-3."), "0.0 1.1 3.0");
         assert_eq!(tables("1.1, text below Table 2"), "");
     }

@@ -1,21 +1,30 @@
 //! References to entries, by index or by name.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::ast::Name;
-use crate::decode::{lexical, nearest};
-use crate::diag::shorten;
+use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, EntryId, Index, Object, SubIndex};
+use crate::diag::{Suggestions, shorten};
+use crate::model::{Devices, Dictionary, EntryId, Index, Object, SubIndex};
 
 /// What is defined, but not well enough to be there: a reference to it says nothing new.
 #[derive(Debug, Default)]
 pub(super) struct Broken {
     indices: BTreeSet<Index>,
     names: BTreeSet<String>,
+    /// What is broken for every device.
+    everywhere: Option<Arc<Broken>>,
 }
 
 impl Broken {
+    /// Nothing but what is broken for every device.
+    pub(super) fn over(everywhere: &Arc<Broken>) -> Self {
+        Self { everywhere: Some(Arc::clone(everywhere)), ..Self::default() }
+    }
+
     pub(super) fn add(&mut self, index: Index, name: Option<&Name>) {
         self.indices.insert(index);
         self.names.extend(name.map(|name| name.value.clone()));
@@ -27,36 +36,71 @@ impl Broken {
     }
 
     pub(super) fn has(&self, index: Index) -> bool {
-        self.indices.contains(&index)
+        self.indices.contains(&index) || self.everywhere.as_ref().is_some_and(|broken| broken.has(index))
     }
 
     /// Whether a name is that of a broken object, or of an entry in one.
     fn has_name(&self, name: &str) -> bool {
-        let of = |object: &String| {
-            name.strip_prefix(object.as_str()).is_some_and(|r| r.is_empty() || r.starts_with('.'))
-        };
-        self.names.iter().any(of)
+        let mut objects = objects_in(name);
+        objects.any(|object| self.names.contains(object))
+            || self.everywhere.as_ref().is_some_and(|broken| broken.has_name(name))
     }
 }
 
-/// Entries of one device by name: `controlword`, `drive data.error mask`.
-pub(super) struct Names {
-    by_name: BTreeMap<String, EntryId>,
+/// The names of objects that a reference may hold: the whole, or what stands before a dot.
+fn objects_in(reference: &str) -> impl Iterator<Item = &str> {
+    reference.match_indices('.').map(|(dot, _)| &reference[..dot]).chain([reference])
 }
 
-impl Names {
-    pub(super) fn new<'a>(objects: impl IntoIterator<Item = &'a Object>) -> Self {
-        let mut by_name = BTreeMap::new();
-        for object in objects {
-            let id = |sub| EntryId { index: object.index, sub };
-            by_name.entry(object.name.clone()).or_insert(id(SubIndex(0)));
-            if object.is_structured() {
-                for entry in &object.entries {
-                    by_name.entry(format!("{}.{}", object.name, entry.name)).or_insert(id(entry.sub));
+/// Entries of one device by name: `controlword`, `drive data.error mask`.
+pub(super) struct Names<'a> {
+    /// By name; of one name, in the order in which they were given.
+    objects: Vec<&'a Object>,
+    /// What can be written, for suggestions.
+    all: OnceCell<Vec<String>>,
+}
+
+impl<'a> Names<'a> {
+    pub(super) fn new(objects: impl IntoIterator<Item = &'a Object>) -> Self {
+        let mut objects: Vec<&Object> = objects.into_iter().collect();
+        objects.sort_by(|one, other| one.name.cmp(&other.name));
+        Self { objects, all: OnceCell::new() }
+    }
+
+    /// The objects of a name.
+    fn named(&self, name: &str) -> impl Iterator<Item = &'a Object> {
+        let first = self.objects.partition_point(|object| object.name.as_str() < name);
+        self.objects[first..].iter().copied().take_while(move |object| object.name == name)
+    }
+
+    /// The entry of a name.
+    fn get(&self, name: &str) -> Option<EntryId> {
+        let whole = || Some(EntryId { index: self.named(name).next()?.index, sub: SubIndex(0) });
+        let member = || {
+            name.match_indices('.').find_map(|(dot, _)| {
+                let (object, entry) = (&name[..dot], &name[dot + 1..]);
+                self.named(object).filter(|object| object.is_structured()).find_map(|object| {
+                    let found = object.entries.iter().find(|one| one.name == entry)?;
+                    Some(EntryId { index: object.index, sub: found.sub })
+                })
+            })
+        };
+        whole().or_else(member)
+    }
+
+    /// All names, ascending.
+    fn all(&self) -> impl Iterator<Item = &str> {
+        let all = self.all.get_or_init(|| {
+            let mut all: Vec<String> = Vec::new();
+            for object in &self.objects {
+                all.push(object.name.clone());
+                if object.is_structured() {
+                    all.extend(object.entries.iter().map(|entry| format!("{}.{}", object.name, entry.name)));
                 }
             }
-        }
-        Self { by_name }
+            all
+        });
+        all.iter().map(String::as_str)
     }
 
     /// The entry that a reference names; what is broken is not reported as missing.
@@ -67,48 +111,173 @@ impl Names {
         broken: &Broken,
         diagnostics: &mut Diagnostics,
     ) -> Option<EntryId> {
-        let text = reference.value.as_str();
-        if lexical::looks_like_index(text) {
-            let id = lexical::entry_by_index(text)?.id();
-            if exists(id) {
-                return Some(id);
-            }
-            if !broken.has(id.index) {
-                diagnostics.push(
-                    Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, format!("there is no entry {id}"))
-                        .help("correct the index or sub-index, or define the object on this device"),
-                );
-            }
-            return None;
-        }
-        let found = self.by_name.get(text).copied();
-        if found.is_none() && !broken.has_name(text) {
-            let message = format!("there is no entry named `{}`", shorten(text));
-            let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
-            diagnostics.push(match nearest(text, self.by_name.keys().map(String::as_str)) {
-                Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-                None => diagnostic.help("write an object's name, `object.entry` for a member, or an index"),
-            });
-        }
-        found
+        find(&[self], reference, exists, broken, diagnostics)
     }
 }
 
-/// Finds an entry of a complete dictionary by the text of a reference: `607A`, `0x607Ah`, `30FA.3` (index in hexadecimal)
-/// or a name. `Err` holds the nearest name, if there is one.
-pub(crate) fn lookup(dictionary: &Dictionary, text: &str) -> Result<EntryId, Option<String>> {
-    if let Some(id) = hex_reference(text).filter(|id| dictionary.entry(*id).is_some()) {
-        return Ok(id);
+/// The entry that a reference names in the first of some devices that has it.
+fn find(
+    devices: &[&Names<'_>],
+    reference: &Name,
+    exists: impl Fn(EntryId) -> bool,
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<EntryId> {
+    let text = reference.value.as_str();
+    if lexical::looks_like_index(text) {
+        let id = lexical::entry_by_index(text)?.id();
+        if exists(id) {
+            return Some(id);
+        }
+        if !broken.has(id.index) {
+            diagnostics.push(
+                Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, format!("there is no entry {id}"))
+                    .help("correct the index or sub-index, or define the object on this device"),
+            );
+        }
+        return None;
     }
-    let names = Names::new(dictionary.objects.values());
-    if let Some(id) = names.by_name.get(text) {
-        return Ok(*id);
+    let found = devices.iter().find_map(|names| names.get(text));
+    if found.is_none() && !broken.has_name(text) && diagnostics.is_new(codes::UNKNOWN_ENTRY, reference.span) {
+        let message = format!("there is no entry named `{}`", shorten(text));
+        let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
+        let known = devices.iter().flat_map(|names| names.all());
+        let meant = diagnostics.suggestions.nearest(text, known);
+        diagnostics.push(match meant {
+            Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
+            None => diagnostic.help("write an object's name, `object.entry` for a member, or an index"),
+        });
     }
-    // A person at a command line does not care for capitals, as long as it is clear what is meant.
-    let mut alike = names.by_name.iter().filter(|(name, _)| name.to_lowercase() == text.to_lowercase());
-    match (alike.next(), alike.next()) {
-        (Some((_, id)), None) => Ok(*id),
-        _ => Err(nearest(text, names.by_name.keys().map(String::as_str)).map(ToOwned::to_owned)),
+    found
+}
+
+/// The names of devices, each worked out when it is asked for.
+pub(super) struct NamesOf<'a> {
+    devices: &'a [Dictionary],
+    all: OnceCell<Names<'a>>,
+    single: BTreeMap<&'a str, OfDevice<'a>>,
+    by_index: OnceCell<BTreeMap<Index, Vec<&'a Object>>>,
+}
+
+/// The names of one device.
+struct OfDevice<'a> {
+    position: usize,
+    names: OnceCell<Names<'a>>,
+}
+
+impl<'a> NamesOf<'a> {
+    pub(super) fn new(devices: &'a [Dictionary]) -> Self {
+        let single = devices
+            .iter()
+            .enumerate()
+            .map(|(position, device)| (device.key.as_str(), OfDevice { position, names: OnceCell::new() }));
+        Self { devices, all: OnceCell::new(), single: single.collect(), by_index: OnceCell::new() }
+    }
+
+    /// Each of some devices with its names, in the order of the devices.
+    pub(super) fn each(&self, on: &Devices) -> impl Iterator<Item = (&'a Dictionary, &Names<'a>)> {
+        self.positions(on).into_iter().filter_map(|position| {
+            let device = self.devices.get(position)?;
+            let names = &self.single.get(device.key.as_str())?.names;
+            Some((device, names.get_or_init(|| Names::new(device.objects.values()))))
+        })
+    }
+
+    fn positions(&self, on: &Devices) -> BTreeSet<usize> {
+        match on {
+            Devices::All => (0..self.devices.len()).collect(),
+            Devices::Only(keys) => {
+                keys.iter().filter_map(|key| Some(self.single.get(key.as_str())?.position)).collect()
+            }
+        }
+    }
+
+    /// The objects of an index on some devices.
+    pub(super) fn objects(&self, on: &Devices, index: Index) -> Vec<&'a Object> {
+        match on {
+            Devices::All => {
+                let by_index = self.by_index.get_or_init(|| {
+                    let mut by_index: BTreeMap<Index, Vec<&'a Object>> = BTreeMap::new();
+                    for object in self.devices.iter().flat_map(|device| device.objects.values()) {
+                        by_index.entry(object.index).or_default().push(object);
+                    }
+                    by_index
+                });
+                by_index.get(&index).cloned().unwrap_or_default()
+            }
+            Devices::Only(_) => {
+                let devices =
+                    self.positions(on).into_iter().filter_map(|position| self.devices.get(position));
+                devices.filter_map(|device| device.objects.get(&index)).collect()
+            }
+        }
+    }
+
+    /// The entry that a name stands for on the first of some devices that has it.
+    pub(super) fn find(
+        &self,
+        on: &Devices,
+        reference: &Name,
+        broken: &Broken,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<EntryId> {
+        let nothing = |_| false;
+        match on {
+            Devices::All => {
+                let objects = || self.devices.iter().flat_map(|device| device.objects.values());
+                let all = self.all.get_or_init(|| Names::new(objects()));
+                find(&[all], reference, nothing, broken, diagnostics)
+            }
+            Devices::Only(_) => {
+                let names: Vec<&Names<'_>> = self.each(on).map(|(_, names)| names).collect();
+                find(&names, reference, nothing, broken, diagnostics)
+            }
+        }
+    }
+}
+
+/// Finds entries of a complete dictionary by the text of a reference: `607A`, `0x607Ah`, `30FA.3` (index in hexadecimal)
+/// or a name.
+pub(crate) struct Lookup<'a> {
+    dictionary: &'a Dictionary,
+    names: OnceCell<Names<'a>>,
+    /// By lower-case name; `None` for one that several have.
+    alike: OnceCell<BTreeMap<String, Option<EntryId>>>,
+}
+
+impl<'a> Lookup<'a> {
+    pub(crate) const fn new(dictionary: &'a Dictionary) -> Self {
+        Self { dictionary, names: OnceCell::new(), alike: OnceCell::new() }
+    }
+
+    /// The entry; `Err` holds the nearest name, if there is one.
+    pub(crate) fn find(&self, text: &str, suggestions: &mut Suggestions) -> Result<EntryId, Option<String>> {
+        if let Some(id) = hex_reference(text).filter(|id| self.dictionary.entry(*id).is_some()) {
+            return Ok(id);
+        }
+        let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
+        if let Some(id) = names.get(text) {
+            return Ok(id);
+        }
+        // A person at a command line does not care for capitals, as long as it is clear what is meant.
+        match self.alike(names).get(&text.to_lowercase()) {
+            Some(Some(id)) => Ok(*id),
+            _ => Err(suggestions.nearest(text, names.all()).map(ToOwned::to_owned)),
+        }
+    }
+
+    fn alike(&self, names: &Names<'a>) -> &BTreeMap<String, Option<EntryId>> {
+        self.alike.get_or_init(|| {
+            let mut alike: BTreeMap<String, Option<EntryId>> = BTreeMap::new();
+            for name in names.all() {
+                let id = names.get(name);
+                alike
+                    .entry(name.to_lowercase())
+                    .and_modify(|known| *known = known.filter(|known| Some(*known) == id))
+                    .or_insert(id);
+            }
+            alike
+        })
     }
 }
 

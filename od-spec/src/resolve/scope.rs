@@ -1,12 +1,11 @@
 //! Units and named types of a specification and its libraries.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::types;
 use crate::ast::{Name, Spec, UnitDecl};
 use crate::check::codes as rule_codes;
-use crate::decode::nearest;
 use crate::diag::shorten;
 use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::model::{Base, NamedType, Ratio, Statement, Unit};
@@ -16,13 +15,20 @@ use crate::source::{FileId, Span};
 pub(super) struct Scope {
     pub units: BTreeMap<String, Arc<Unit>>,
     pub types: BTreeMap<String, Arc<NamedType>>,
+    /// The first unit of each symbol, by name.
+    symbols: BTreeMap<String, Arc<Unit>>,
     /// Declared names whose declaration was broken: a use of them says nothing new.
-    broken: Vec<String>,
+    broken: BTreeSet<String>,
 }
 
 impl Scope {
     pub(super) fn new(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Self {
-        let mut scope = Self { units: BTreeMap::new(), types: BTreeMap::new(), broken: Vec::new() };
+        let mut scope = Self {
+            units: BTreeMap::new(),
+            types: BTreeMap::new(),
+            broken: BTreeSet::new(),
+            symbols: BTreeMap::new(),
+        };
         let mut places: BTreeMap<String, Span> = BTreeMap::new();
         for spec in libraries.iter().chain([root]) {
             for decl in &spec.units {
@@ -36,9 +42,12 @@ impl Scope {
                         });
                         check_unique(&decl.name, "unit", same, &mut places, diagnostics);
                     }
-                    None => scope.broken.push(decl.name.value.clone()),
+                    None => drop(scope.broken.insert(decl.name.value.clone())),
                 }
             }
+        }
+        for unit in scope.units.values() {
+            scope.symbols.entry(unit.symbol.clone()).or_insert_with(|| Arc::clone(unit));
         }
         places.clear();
         for spec in libraries.iter().chain([root]) {
@@ -48,7 +57,7 @@ impl Scope {
                         let before = scope.types.insert(decl.name.value.clone(), Arc::new(named));
                         check_unique(&decl.name, "type", before.is_none(), &mut places, diagnostics);
                     }
-                    None => scope.broken.push(decl.name.value.clone()),
+                    None => drop(scope.broken.insert(decl.name.value.clone())),
                 }
             }
         }
@@ -57,14 +66,14 @@ impl Scope {
 
     /// Whether a name was declared, but not well enough to be used.
     pub(super) fn is_broken(&self, name: &str) -> bool {
-        self.broken.iter().any(|broken| broken == name)
+        self.broken.contains(name)
     }
 
     pub(super) fn unit(&self, name: &Name, diagnostics: &mut Diagnostics) -> Option<Arc<Unit>> {
         let unit = self.units.get(&name.value);
         if unit.is_none() && !self.is_broken(&name.value) {
-            let by_symbol = self.units.values().find(|unit| unit.symbol == name.value);
-            diagnostics.push(unknown(
+            let by_symbol = self.symbols.get(&name.value);
+            unknown(
                 codes::UNKNOWN_UNIT,
                 name,
                 "unit",
@@ -72,26 +81,32 @@ impl Scope {
                 &by_symbol.map_or("define it under `units:`".to_owned(), |unit| {
                     format!("that is the symbol of `{}`; write the unit's name", unit.name)
                 }),
-            ));
+                diagnostics,
+            );
         }
         unit.cloned()
     }
 }
 
-/// A message about a name that stands for nothing.
+/// Reports a name that stands for nothing, once where it stands.
 pub(super) fn unknown<'a>(
     code: &'static Code,
     name: &Name,
     what: &str,
     known: impl IntoIterator<Item = &'a str>,
     otherwise: &str,
-) -> Diagnostic {
+    diagnostics: &mut Diagnostics,
+) {
+    if !diagnostics.is_new(code, name.span) {
+        return;
+    }
     let diagnostic =
         Diagnostic::new(code, name.span, format!("there is no {what} `{}`", shorten(&name.value)));
-    match nearest(&name.value, known) {
+    let meant = diagnostics.suggestions.nearest(&name.value, known);
+    diagnostics.push(match meant {
         Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
         None => diagnostic.help(otherwise.to_owned()),
-    }
+    });
 }
 
 fn check_unique(

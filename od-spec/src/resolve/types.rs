@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use super::numbers::to_u16;
 use crate::ast::{BitDecl, BitRange, TypeDecl, ValueDecl, Words};
 use crate::check::codes as rule_codes;
-use crate::decode::nearest;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -19,13 +18,14 @@ pub(super) fn resolve(decl: &TypeDecl, maker: FileId, diagnostics: &mut Diagnost
     let Some(base) = DataType::from_name(&name.value).filter(|base| base.is_integer()) else {
         let integers =
             DataType::ALL.into_iter().filter(|data_type| data_type.is_integer()).map(DataType::name);
+        let meant = diagnostics.suggestions.nearest(&name.value, integers);
         diagnostics.push(
             Diagnostic::new(
                 codes::BAD_BASE_TYPE,
                 name.span,
                 format!("`{}` cannot carry values or bits", shorten(&name.value)),
             )
-            .help(match nearest(&name.value, integers) {
+            .help(match meant {
                 Some(word) if word != name.value => format!("did you mean `{word}`?"),
                 _ => "write an integer type such as `unsigned16`".to_owned(),
             }),

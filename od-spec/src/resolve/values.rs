@@ -2,9 +2,8 @@
 
 use crate::ast::Name;
 use crate::check::codes as rule_codes;
-use crate::decode::nearest;
 use crate::diag::shorten;
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
 use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
 use crate::scalar::{self, NumberError};
 use crate::source::Span;
@@ -18,7 +17,12 @@ pub(crate) struct Expected<'a> {
 }
 
 /// Reads a value that is written at `span`.
-pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
+pub(crate) fn read(
+    text: &str,
+    span: Span,
+    expected: Expected<'_>,
+    suggestions: &mut Suggestions,
+) -> Result<Value, Box<Diagnostic>> {
     let refuse = |message: String, help: &str| {
         Err(Box::new(Diagnostic::new(codes::BAD_VALUE, span, message).help(help)))
     };
@@ -61,7 +65,7 @@ pub(crate) fn read(text: &str, span: Span, expected: Expected<'_>) -> Result<Val
             format!("an entry of type {} has no value that could be written here", expected.data_type),
             "leave the key out",
         ),
-        _ => integer(text, span, expected),
+        _ => integer(text, span, expected, suggestions),
     }
 }
 
@@ -76,7 +80,12 @@ fn octets(text: &str) -> Option<Vec<u8>> {
     pairs.iter().map(|[high, low]| u8::try_from(high << 4 | low).ok()).collect()
 }
 
-fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<Diagnostic>> {
+fn integer(
+    text: &str,
+    span: Span,
+    expected: Expected<'_>,
+    suggestions: &mut Suggestions,
+) -> Result<Value, Box<Diagnostic>> {
     let shown = shorten(text);
     if text.contains("$NODEID") {
         let offset = match text.strip_prefix("$NODEID").unwrap_or("?").trim() {
@@ -111,7 +120,7 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
                     span,
                     format!("`{shown}` is not a value of this enum"),
                 );
-                return Err(Box::new(match nearest(text, names.clone()) {
+                return Err(Box::new(match suggestions.nearest(text, names.clone()) {
                     Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
                     None => diagnostic.help(format!("its values are {}", list(names))),
                 }));
@@ -247,7 +256,7 @@ pub(super) fn read_into(
     diagnostics: &mut Diagnostics,
 ) -> Option<Value> {
     let text = text?;
-    match read(&text.value, text.span, expected) {
+    match read(&text.value, text.span, expected, &mut diagnostics.suggestions) {
         Ok(value) => Some(value),
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);

@@ -15,8 +15,10 @@ use crate::source::{FileId, SourceFile, Span, Spanned};
 const MAX_DEPTH: usize = 64;
 /// The merge key of YAML 1.1, which the language does not have.
 pub(crate) const MERGE: &str = "<<";
-/// Most nodes that `*alias` references may add to a document.
-const MAX_ALIAS_NODES: usize = 200_000;
+/// Most bytes that anchors and aliases may add to a document.
+const MAX_ALIAS_BYTES: usize = 16 << 20;
+/// What a value counts beside its text.
+const BYTES_PER_VALUE: usize = 64;
 
 /// A value and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -90,12 +92,17 @@ impl Node {
         self.entries().iter().find(|(name, _)| name.value == key).map(|(_, node)| node)
     }
 
-    fn count(&self) -> usize {
-        match &self.kind {
-            NodeKind::List(items) => 1 + items.iter().map(Node::count).sum::<usize>(),
-            NodeKind::Map(entries) => 1 + entries.iter().map(|(_, node)| node.count()).sum::<usize>(),
-            _ => 1,
-        }
+    /// What it takes, about: its texts, and something for each value.
+    pub(crate) fn weight(&self) -> usize {
+        BYTES_PER_VALUE
+            + match &self.kind {
+                NodeKind::Null | NodeKind::Broken => 0,
+                NodeKind::Scalar { text, .. } => text.len(),
+                NodeKind::List(items) => items.iter().map(Node::weight).sum(),
+                NodeKind::Map(entries) => {
+                    entries.iter().map(|(name, node)| name.value.len() + node.weight()).sum()
+                }
+            }
     }
 
     fn depth(&self) -> usize {
@@ -116,7 +123,7 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
         diagnostics,
         stack: Vec::new(),
         anchors: BTreeMap::new(),
-        alias_nodes: 0,
+        alias_bytes: 0,
         root: None,
         documents: 0,
     };
@@ -189,7 +196,7 @@ struct Builder<'a> {
     diagnostics: &'a mut Diagnostics,
     stack: Vec<Open>,
     anchors: BTreeMap<usize, Node>,
-    alias_nodes: usize,
+    alias_bytes: usize,
     root: Option<Node>,
     documents: usize,
 }
@@ -218,7 +225,7 @@ impl Builder<'_> {
                     NodeKind::Scalar { text: text.into_owned(), plain }
                 };
                 let span = if plain { span } else { self.trimmed(span) };
-                self.add(Node { span, kind }, anchor);
+                return self.add(Node { span, kind }, anchor);
             }
             Event::SequenceStart(_, anchor, tag) => {
                 self.refuse_tag(tag.is_some(), span);
@@ -231,7 +238,7 @@ impl Builder<'_> {
                 self.stack.push(Open::Map { start: span, anchor, entries, seen, key: Key::Expected });
                 return self.depth_is_fine(span);
             }
-            Event::SequenceEnd | Event::MappingEnd => self.close(span),
+            Event::SequenceEnd | Event::MappingEnd => return self.close(span),
             Event::Alias(anchor) => return self.alias(anchor, span),
             Event::UnresolvedAlias(name) => {
                 self.diagnostics.push(
@@ -243,7 +250,7 @@ impl Builder<'_> {
                     .label("nothing to refer to")
                     .help(format!("write `&{name}` before the value that is to be repeated here")),
                 );
-                self.add(Node { span, kind: NodeKind::Broken }, 0);
+                return self.add(Node { span, kind: NodeKind::Broken }, 0);
             }
             _ => {}
         }
@@ -295,33 +302,40 @@ impl Builder<'_> {
                     .label("the anchored value is not complete yet")
                     .help("write the value out; it cannot be a part of itself"),
             );
-            self.add(Node { span, kind: NodeKind::Broken }, 0);
-            return true;
+            return self.add(Node { span, kind: NodeKind::Broken }, 0);
         };
-        self.alias_nodes += target.count();
-        if self.alias_nodes > MAX_ALIAS_NODES {
-            self.diagnostics.push(
-                Diagnostic::new(
-                    codes::ALIAS_BOMB,
-                    span,
-                    format!("aliases expand to more than {MAX_ALIAS_NODES} values"),
-                )
-                .label("expansion stopped here")
-                .help("aliases of aliases multiply; write the values out, or name a type once"),
-            );
-            return false;
+        self.alias_bytes += target.weight();
+        if self.alias_bytes > MAX_ALIAS_BYTES {
+            return self.too_much(span);
         }
         if self.stack.len() + target.depth() > MAX_DEPTH {
             return self.too_deep(span);
         }
         let node = Node { span, kind: target.kind.clone() };
-        self.add(node, 0);
-        true
+        self.add(node, 0)
     }
 
-    /// Hands a complete node to the collection it stands in.
-    fn add(&mut self, node: Node, anchor: usize) {
+    fn too_much(&mut self, span: Span) -> bool {
+        self.diagnostics.push(
+            Diagnostic::new(
+                codes::ALIAS_BOMB,
+                span,
+                format!("aliases expand to more than {} MiB", MAX_ALIAS_BYTES >> 20),
+            )
+            .label("expansion stopped here")
+            .help("aliases of aliases multiply; write the values out, or name a type once"),
+        );
+        false
+    }
+
+    /// Hands a complete node to the collection it stands in; `false` stops the reading.
+    fn add(&mut self, node: Node, anchor: usize) -> bool {
         if anchor != 0 {
+            // What has an anchor is kept for its aliases, and an anchor may stand in another one.
+            self.alias_bytes += node.weight();
+            if self.alias_bytes > MAX_ALIAS_BYTES {
+                return self.too_much(node.span);
+            }
             self.anchors.insert(anchor, node.clone());
         }
         match self.stack.last_mut() {
@@ -333,10 +347,11 @@ impl Builder<'_> {
                 Key::Expected => *key = read_key(node, entries, seen, self.diagnostics),
             },
         }
+        true
     }
 
-    fn close(&mut self, end: Span) {
-        let Some(open) = self.stack.pop() else { return };
+    fn close(&mut self, end: Span) -> bool {
+        let Some(open) = self.stack.pop() else { return true };
         let (start, anchor, kind, last) = match open {
             Open::List { start, anchor, items, .. } => {
                 let last = items.last().map(|node| node.span);
@@ -349,7 +364,7 @@ impl Builder<'_> {
         };
         // A block collection's end event stands at the next token; its last child tells where it really ends.
         let span = if end.end > end.start { start.to(end) } else { start.to(last.unwrap_or(start)) };
-        self.add(Node { span, kind }, anchor);
+        self.add(Node { span, kind }, anchor)
     }
 
     fn span(&self, span: granit_parser::Span) -> Span {

@@ -122,6 +122,7 @@ pub(super) fn is_no_text(key: &str) -> bool {
 }
 
 /// The keys of a section.
+#[derive(Clone, Copy)]
 pub(in crate::eds) struct Keys {
     /// Those with a name, by what they are about.
     named: &'static [&'static [&'static str]],

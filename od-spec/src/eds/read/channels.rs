@@ -1,5 +1,7 @@
 //! `[DynamicChannels]` (CiA 306-3): where a PLC can create network variables.
 
+use std::collections::BTreeMap;
+
 use super::{made, without_place};
 use crate::ast::{ChannelDecl, IndexRange};
 use crate::diag::{Diagnostics, shorten};
@@ -26,15 +28,20 @@ pub(super) fn read(view: &View<'_>, diagnostics: &mut Diagnostics) -> Vec<Channe
         return Vec::new();
     }
     let mut channels: Vec<ChannelDecl> = Vec::new();
+    // Where each segment ends, by where it begins: they have no index in common.
+    let mut ends: BTreeMap<Index, Index> = BTreeMap::new();
     for (section, number) in
         section.into_iter().flat_map(|section| numbers.iter().map(move |n| (section, *n)))
     {
-        let read = channel(section, number).and_then(|channel| match clash(&channel, &channels) {
+        let read = channel(section, number).and_then(|channel| match clash(&channel, &ends) {
             Some(why) => Err((channel.range.span, why)),
             None => Ok(channel),
         });
         match read {
-            Ok(channel) => channels.push(channel),
+            Ok(channel) => {
+                ends.insert(channel.range.value.first, channel.range.value.last);
+                channels.push(channel);
+            }
             Err((place, why)) => {
                 let message = format!("segment {number} of the dynamic channels is left out: {why}");
                 diagnostics.push(without_place(codes::NO_PLACE, place, message));
@@ -128,11 +135,8 @@ fn indices(text: &str) -> Option<IndexRange> {
 }
 
 /// The segment that has indices of another one.
-fn clash(channel: &ChannelDecl, before: &[ChannelDecl]) -> Option<String> {
+fn clash(channel: &ChannelDecl, ends: &BTreeMap<Index, Index>) -> Option<String> {
     let IndexRange { first, last } = channel.range.value;
-    let other = before
-        .iter()
-        .map(|other| other.range.value)
-        .find(|other| other.first <= last && first <= other.last)?;
-    Some(format!("it has indices of the segment {} to {}", other.first, other.last))
+    let (other_first, other_last) = ends.range(..=last).next_back().filter(|(_, end)| first <= **end)?;
+    Some(format!("it has indices of the segment {other_first} to {other_last}"))
 }

@@ -15,6 +15,12 @@ use crate::model::{Access, DataType, EntryId, Index, ObjectKind, Role, SubIndex}
 use crate::source::Spanned;
 use std::collections::BTreeMap;
 
+/// How many elements a section may stand for, as far as it can be read without a word.
+pub(super) fn number(main: &Part<'_>) -> usize {
+    let number = main.value("CompactSubObj").and_then(|text| lenient_integer(text.value));
+    usize::try_from(number.unwrap_or(0).clamp(0, 254)).unwrap_or(0)
+}
+
 /// The number of elements of a compact array; `None` for an object that is none.
 pub(super) fn count(main: &Part<'_>, context: &mut Context<'_>) -> Option<u8> {
     let text = main.value("CompactSubObj")?;

@@ -8,7 +8,8 @@ use crate::diag::{Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
 use crate::eds::number;
 use crate::eds::view::Part;
-use crate::model::{Access, AccessRight, DataType, EntryId, ObjectKind, PdoMapping};
+use crate::limits::{ENTRIES_OF_DEVICE, Room};
+use crate::model::{Access, AccessRight, DataType, EntryId, Index, ObjectKind, PdoMapping};
 use crate::source::{Span, Spanned};
 
 /// What is read together with an entry.
@@ -18,9 +19,27 @@ pub(super) struct Context<'a> {
     /// What comments say.
     pub meanings: &'a mut Meanings,
     pub diagnostics: &'a mut Diagnostics,
+    /// How much more there may be; nothing, once something was left out.
+    pub room: Option<Room>,
 }
 
 impl Context<'_> {
+    /// Takes the room of so many entries with so much text each; what does not fit is left out with all that follows, which is
+    /// said once.
+    pub(super) fn fits(&mut self, index: Index, entries: usize, text: usize, place: Span) -> bool {
+        let Some(room) = &mut self.room else { return false };
+        let Err(full) = room.take(entries, entries.saturating_mul(text)) else { return true };
+        self.room = None;
+        let message = format!(
+            "{} up to {index}; it and what follows is left out, as no device has so much",
+            full.words(ENTRIES_OF_DEVICE)
+        );
+        self.diagnostics.push(
+            Diagnostic::new(crate::diag::codes::TOO_MUCH, place, message)
+                .help("is this the right file? correct `CompactSubObj`, or describe less"),
+        );
+        false
+    }
     pub(super) fn push(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }

@@ -1,5 +1,7 @@
 //! PDOs that are not described at all (CiA 306 4.6.3.4.1).
 
+use std::collections::BTreeSet;
+
 use super::entry;
 use super::made;
 use super::shape::{declaration, with_shape};
@@ -27,14 +29,13 @@ pub(super) fn add(view: &View<'_>, objects: &mut Vec<ObjectDecl>) {
             Direction::Transmit => "NrOfTXPDO",
         };
         let total = number(key).clamp(0, 512);
-        let has =
-            |objects: &[ObjectDecl], index| objects.iter().any(|object| object.index.value == Index(index));
-        let described = (0..512u16).filter(|at| has(objects, first + at)).count();
+        let has: BTreeSet<u16> = objects.iter().map(|object| object.index.value.0).collect();
+        let described = (0..512u16).filter(|at| has.contains(&(first + at))).count();
         let missing = usize::try_from(total).unwrap_or(0).saturating_sub(described);
-        let free: Vec<u16> = (0..512u16).filter(|at| !has(objects, first + at)).take(missing).collect();
+        let free: Vec<u16> = (0..512u16).filter(|at| !has.contains(&(first + at))).take(missing).collect();
         for at in free {
             objects.push(communication(direction, at, mask, place));
-            if !has(objects, first + 0x200 + at) {
+            if !has.contains(&(first + 0x200 + at)) {
                 objects.push(mapping(direction, at, place));
             }
         }

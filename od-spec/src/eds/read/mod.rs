@@ -21,6 +21,7 @@ mod value;
 use super::view::View;
 use crate::ast::{DeviceDecl, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::limits::{ENTRIES_OF_DEVICE, Room};
 use crate::source::{Span, Spanned};
 
 pub(crate) use node::{FileUse, NodeDecl};
@@ -82,7 +83,8 @@ fn objects(
     meanings: &mut comments::Meanings,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
-    let mut context = entry::Context { node, meanings, diagnostics };
+    let room = Some(Room::new(ENTRIES_OF_DEVICE));
+    let mut context = entry::Context { node, meanings, diagnostics, room };
     let described = view.objects.iter().filter(|(_, part)| part.object.is_some() || !part.subs.is_empty());
     // A declaration is large: the list has room for as many as there are, and no more.
     let mut objects: Vec<ObjectDecl> = Vec::with_capacity(view.objects.len());

@@ -29,20 +29,26 @@ pub(super) fn add(view: &View<'_>, objects: &mut Vec<ObjectDecl>, context: &mut 
         Diagnostic::new(codes::MODULES, supported.place(), message)
             .help("name the modules that are plugged in under `[ConnectedModules]` of a DCF"),
     );
-    let mut fixed = BTreeSet::new();
+    let (mut fixed, mut brought) = (BTreeSet::new(), BTreeSet::new());
     let mut extensions: BTreeMap<Index, Extension> = BTreeMap::new();
+    let mut objects = Objects::of(objects);
     for number in connected {
         let Some(module) = view.modules.get(&number) else { continue };
-        for added in fixed_objects(module) {
-            let index = added.0;
-            if fixed.insert(index) && !objects.iter().any(|object| object.index.value == index) {
-                objects.extend(object(index, &added.1, context));
+        // Every module of a kind brings the same objects.
+        let fixed_objects = if fixed.insert(number) { fixed_objects(module) } else { BTreeMap::new() };
+        for (index, part) in fixed_objects {
+            if brought.insert(index)
+                && objects.get(index).is_none()
+                && let Some(object) = object(index, &part, context)
+            {
+                objects.push(object);
             }
         }
         for (topic, section) in module {
             if let ModuleTopic::SubExtension(index) = topic {
-                let extension = extensions.entry(*index).or_insert_with(|| Extension::new(*index, objects));
-                extension.extend(section, objects, context);
+                let extension =
+                    extensions.entry(*index).or_insert_with(|| Extension::new(*index, &mut objects));
+                extension.extend(section, &mut objects, context);
             }
         }
     }
@@ -80,6 +86,29 @@ fn fixed_objects<'d>(module: &Module<'d>) -> BTreeMap<Index, ObjectPart<'d>> {
     objects
 }
 
+/// The objects of a device, with their positions.
+struct Objects<'a> {
+    list: &'a mut Vec<ObjectDecl>,
+    /// Of objects of one index, the first.
+    positions: BTreeMap<Index, usize>,
+}
+
+impl<'a> Objects<'a> {
+    fn of(list: &'a mut Vec<ObjectDecl>) -> Self {
+        let positions = list.iter().enumerate().rev().map(|(at, object)| (object.index.value, at)).collect();
+        Self { list, positions }
+    }
+
+    fn get(&mut self, index: Index) -> Option<&mut ObjectDecl> {
+        self.list.get_mut(*self.positions.get(&index)?)
+    }
+
+    fn push(&mut self, object: ObjectDecl) {
+        self.positions.entry(object.index.value).or_insert(self.list.len());
+        self.list.push(object);
+    }
+}
+
 /// An object that grows with every module.
 struct Extension {
     index: Index,
@@ -90,8 +119,9 @@ struct Extension {
 }
 
 impl Extension {
-    fn new(index: Index, objects: &[ObjectDecl]) -> Self {
-        let object = objects.iter().find(|object| object.index.value == index);
+    fn new(index: Index, objects: &mut Objects<'_>) -> Self {
+        let object = objects.get(index);
+        let object = object.as_deref();
         let members = object.and_then(|object| object.array.as_ref().map(|array| &array.elements));
         let members = members.or_else(|| object?.record.as_ref().map(|record| &record.members));
         let last = members.and_then(|members| members.last()).map_or(0, |(sub, _)| sub.value.0);
@@ -99,14 +129,22 @@ impl Extension {
     }
 
     /// Adds what one module adds.
-    fn extend(&mut self, section: &Part<'_>, objects: &mut Vec<ObjectDecl>, context: &mut Context<'_>) {
+    fn extend(&mut self, section: &Part<'_>, objects: &mut Objects<'_>, context: &mut Context<'_>) {
         let id = EntryId { index: self.index, sub: SubIndex(0) };
+        let count = count(section);
+        let entries = match count {
+            Count::Subs(count) => usize::from(count),
+            Count::Bits(_) => 1,
+        };
+        if !context.fits(self.index, entries.max(1), section.size(), section.place()) {
+            return;
+        }
         let entry = entry::entry(section, id, ObjectKind::Var, context);
         node_texts::leave_out(section, id, context);
         let width = entry::type_of(&entry).and_then(DataType::bits).unwrap_or(8);
         let highest = section.value("ObjExtend").and_then(|text| lenient_integer(text.value));
         let highest = highest.and_then(|sub| u8::try_from(sub).ok()).filter(|sub| *sub > 0).unwrap_or(254);
-        match count(section) {
+        match count {
             Count::Subs(count) => {
                 for _ in 0..count {
                     self.add(&entry, highest, section.place(), objects);
@@ -122,7 +160,7 @@ impl Extension {
         }
     }
 
-    fn add(&mut self, entry: &EntryDecl, highest: u8, place: Span, objects: &mut Vec<ObjectDecl>) {
+    fn add(&mut self, entry: &EntryDecl, highest: u8, place: Span, objects: &mut Objects<'_>) {
         if self.last >= highest {
             let Some(next) = self.index.0.checked_add(1) else { return };
             (self.index, self.last) = (Index(next), 0);
@@ -131,7 +169,7 @@ impl Extension {
         let sub = Spanned::new(SubIndex(self.last), place);
         let name = entry.name.as_ref().map_or(String::new(), |name| name.value.clone());
         let member = EntryDecl { name: Some(made(format!("{name}{}", self.last), place)), ..entry.clone() };
-        if let Some(object) = objects.iter_mut().find(|object| object.index.value == self.index) {
+        if let Some(object) = objects.get(self.index) {
             if let Some(array) = &mut object.array {
                 array.elements.push((sub, member));
                 array.count = Some(Spanned::new(i128::from(self.last), place));
@@ -148,6 +186,7 @@ impl Extension {
 }
 
 /// What one module adds to an object.
+#[derive(Clone, Copy)]
 enum Count {
     /// This many sub-indices.
     Subs(u8),

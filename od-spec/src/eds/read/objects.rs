@@ -25,6 +25,12 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
         context.push(without_place(codes::OBJECT_LEFT_OUT, place, message));
         return None;
     }
+    let compact = part.object.as_ref().map_or(0, compact::number);
+    // Each element of a compact array has the texts of its section.
+    let text = if compact > 0 { first.size() } else { 0 };
+    if !context.fits(index, 1 + compact.max(part.subs.len()), text, place) {
+        return None;
+    }
     let links = part.links.as_ref().map(links::links);
     Some(ObjectDecl { links, ..described(id, part, place, context)? })
 }

@@ -15,6 +15,7 @@ use crate::source::{Span, Spanned};
 pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> ObjectDecl {
     ObjectDecl {
         index: Spanned::new(index, place),
+        weight: 0,
         on: None,
         from: None,
         alias: None,

@@ -1,8 +1,7 @@
 //! Every section is one of the standard.
 
 use super::super::rule::FormatRule;
-use crate::decode::nearest;
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, nearest, shorten};
 use crate::eds::names::{Topic, canonical};
 use crate::eds::view::{View, name_place};
 

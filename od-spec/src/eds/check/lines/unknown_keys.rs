@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::super::keys;
 use super::keys_are_one_word::is_word;
-use crate::decode::nearest;
 use crate::diag::{Code, Diagnostic, Diagnostics, shorten};
 use crate::eds::names::Topic;
 use crate::eds::view::Part;
@@ -14,10 +13,11 @@ use crate::source::Span;
 const MOST: usize = 10;
 
 /// A name that is no key.
-struct Unknown<'d> {
+struct Unknown {
     place: Span,
     times: usize,
-    meant: Option<&'d str>,
+    /// The keys that it could have been meant for.
+    known: keys::Keys,
 }
 
 /// One message for each name among the keys of some sections: a key of somebody's own stands in many of them. `here` tells
@@ -28,7 +28,7 @@ pub(super) fn report<'v, 'd: 'v>(
     here: &str,
     diagnostics: &mut Diagnostics,
 ) {
-    let mut names: BTreeMap<&str, Unknown<'_>> = BTreeMap::new();
+    let mut names: BTreeMap<&str, Unknown> = BTreeMap::new();
     for (topic, part) in sections {
         let Some(known) = keys::of(topic) else { continue };
         for entry in part.entries() {
@@ -37,7 +37,7 @@ pub(super) fn report<'v, 'd: 'v>(
             if known.is_standard(name) || !is_word(name) || known.spelling(name).is_some() {
                 continue;
             }
-            let first = || Unknown { place: entry.key.span, times: 0, meant: nearest(name, known.names()) };
+            let first = || Unknown { place: entry.key.span, times: 0, known };
             let unknown = names.entry(name).or_insert_with(first);
             unknown.place = unknown.place.min(entry.key.span);
             unknown.times += 1;
@@ -45,9 +45,10 @@ pub(super) fn report<'v, 'd: 'v>(
     }
     let mut names: Vec<_> = names.into_iter().collect();
     names.sort_by_key(|(_, unknown)| unknown.place);
-    for (name, Unknown { place, times, meant }) in names.into_iter().take(MOST) {
+    for (name, Unknown { place, times, known }) in names.into_iter().take(MOST) {
         let times = if times > 1 { format!("; it stands {times} times") } else { String::new() };
         let message = format!("`{}` is no key of the standard {here}{times}", shorten(name));
+        let meant = diagnostics.suggestions.nearest(name, known.names());
         diagnostics.push(
             Diagnostic::new(code, place, message).help(match meant {
                 Some(meant) => format!("did you mean `{meant}`?"),

@@ -1,0 +1,125 @@
+//! The work that a specification makes, and the memory that it takes, grow with its size, whatever is in it many times. The
+//! bytes that are asked for count it: they are the same in every run. Comparisons ask for none; `tests/bench/instructions.py`
+//! counts these.
+
+use allocation_counter::{AllocationInfo, measure};
+use od_gen::{eds, json};
+use od_spec::diag::render::{Format, render};
+use od_spec::source::SourceMap;
+use od_spec::{Compiled, NoFiles, compile};
+use od_tests::patterns::{Pattern, RIGHT, WRONG};
+
+/// What a text takes from its bytes to its messages or, where it has none, its EDS and JSON files.
+fn work(text: &str) -> AllocationInfo {
+    measure(|| {
+        let mut sources = SourceMap::new();
+        let root = sources.add("a.od.yaml", text);
+        let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
+        match system {
+            Some(system) => {
+                drop(json::dump(&system, &[]));
+                for device in &system.devices {
+                    drop(eds::write_eds(&system, device));
+                }
+            }
+            None => drop(render(&diagnostics, &sources, Format::Json, false)),
+        }
+    })
+}
+
+fn growing(patterns: &[Pattern]) -> Vec<String> {
+    // What is made once for all texts.
+    work("od-spec: 1\n");
+    let mut wrong = Vec::new();
+    for Pattern { name, make } in patterns {
+        let [one, two, four] = [100, 200, 400].map(|n| {
+            let text = make(n);
+            (u64::try_from(text.len()).unwrap(), work(&text).bytes_total)
+        });
+        let (first, second) = (two.1.saturating_sub(one.1), four.1.saturating_sub(two.1));
+        // Some texts grow with the square of the number; lists and maps grow in leaps: a third and a little is for them.
+        let longer = f64::from(u32::try_from(four.0 - two.0).unwrap())
+            / f64::from(u32::try_from(two.0 - one.0).unwrap_or(1).max(1));
+        #[expect(clippy::cast_precision_loss, reason = "a ratio")]
+        if second as f64 > first as f64 * 1.35 * longer.max(2.0) + 2_000_000.0 {
+            wrong.push(format!("{name}: {one:?}, {two:?}, {four:?} bytes of text, and asked for"));
+        }
+    }
+    wrong
+}
+
+#[test]
+fn twice_as_many_mistakes_are_twice_the_work() {
+    assert_eq!(growing(WRONG), [""; 0]);
+}
+
+#[test]
+fn twice_as_much_is_twice_the_work() {
+    assert_eq!(growing(RIGHT), [""; 0]);
+}
+
+/// A few lines that stand for more than any device has: each is refused before it takes much memory.
+#[test]
+fn little_text_takes_little_memory() {
+    const MOST: u64 = 450 << 20;
+    let array = |count: u32, about: &str| {
+        format!("array: {{count: {count}, name: \"{{n}}\", type: unsigned8, access: ro, about: {about}}}")
+    };
+    let file = |devices: &str, objects: &str| {
+        format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n{objects}")
+    };
+    let one = "  d: {name: d, bit-rates: [125]}\n";
+    let many = |n: u32| (0..n).map(|at| format!("  d{at}: {{name: d}}\n")).collect::<String>();
+    let long = "long text ".repeat(100_000);
+    let record: String =
+        (1..=254).map(|sub| format!("{sub}: {{name: m{sub}, type: unsigned8, access: ro}}, ")).collect();
+    let cases = [
+        (
+            "runs of arrays",
+            file(one, &format!("  0x2000..0xFFFF: {{name: \"a {{n}}\", {}}}\n", array(254, "x"))),
+        ),
+        (
+            "runs of records",
+            file(one, &format!("  0x2000..0xFFFF: {{name: \"a {{n}}\", record: {{{record}}}}}\n")),
+        ),
+        (
+            "a run with a long text",
+            file(
+                one,
+                &format!(
+                    "  0x2000..0x9FFF: {{name: \"a {{n}}\", type: unsigned8, access: ro, about: {long}}}\n"
+                ),
+            ),
+        ),
+        ("an array with a long text", file(one, &format!("  0x2000: {{name: a, {}}}\n", array(254, &long)))),
+        (
+            "devices with a long text",
+            file(&many(900), &format!("  0x2000: {{name: a, type: unsigned8, access: ro, about: {long}}}\n")),
+        ),
+        (
+            "devices with arrays",
+            file(&many(900), &format!("  0x2000..0x2100: {{name: \"a {{n}}\", {}}}\n", array(254, "x"))),
+        ),
+        ("devices", file(&many(5_000), "  0x2000: {name: a, type: unsigned8, access: ro}\n")),
+        (
+            "aliases of a text",
+            format!("od-spec: 1\ntitle: &a \"{long}\"\nhistory: [{}]\n", "*a, ".repeat(20_000)),
+        ),
+        (
+            "anchors in anchors",
+            format!("od-spec: 1\nhistory: {}x{}\ntitle: \"{long}\"\n", "&a [".repeat(60), "]".repeat(60))
+                .replace('x', &format!("\"{long}\"")),
+        ),
+        (
+            "tables",
+            format!(
+                "{}errata:\n  - {{at: 0x2000, kind: name, place: Tables 1 to 4294967295, prints: a, reads: b, because: c}}\n",
+                file(one, "  0x2000: {name: a, type: unsigned8, access: ro}\n")
+            ),
+        ),
+    ];
+    for (name, text) in cases {
+        let used = work(&text);
+        assert!(used.bytes_max < MOST, "{name}: {} bytes at one time for {}", used.bytes_max, text.len());
+    }
+}
