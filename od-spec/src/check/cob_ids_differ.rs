@@ -1,7 +1,7 @@
 //! Messages that a device sends and receives have COB-IDs of their own, on every node: SYNC, TIME, EMCY, the EMCY of other nodes that it listens to, SDO
 //! channels and PDOs, as long as they exist. Only RPDOs may share one.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::findings::Findings;
 use super::help::Help;
@@ -130,22 +130,22 @@ impl<'a> User<'a> {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let users = users(subject);
-    let mut blamed = BTreeSet::new();
+    let (mut blamed, mut identifiers) = (BTreeSet::new(), Vec::new());
     for node in subject.nodes() {
-        let mut by_identifier: BTreeMap<i128, Vec<usize>> = BTreeMap::new();
-        for (at, second) in users.iter().enumerate() {
-            let Some(identifier) = second.identifier(node) else { continue };
-            let before = by_identifier.entry(identifier).or_default();
-            // One finding for each, on the first node where it clashes.
-            let clash = before.iter().map(|first| &users[*first]);
-            if !blamed.contains(&at)
-                && let Some(first) =
-                    clash.into_iter().find(|first| !first.message.may_be(second.message, node))
-            {
-                findings.push_each(finding(subject, first, second, node));
-                blamed.insert(at);
+        identifiers.clear();
+        let used = |(at, user): (usize, &User<'_>)| Some((user.identifier(node)?, at));
+        identifiers.extend(users.iter().enumerate().filter_map(used));
+        identifiers.sort_unstable();
+        for shared in identifiers.chunk_by(|(first, _), (second, _)| first == second) {
+            for (before, (_, at)) in shared.iter().enumerate() {
+                let second = &users[*at];
+                let mut others = shared[..before].iter().map(|(_, at)| &users[*at]);
+                let clash = others.find(|first| !first.message.may_be(second.message, node));
+                // One finding for each, on the first node where it clashes.
+                if let Some(first) = clash.filter(|_| blamed.insert(*at)) {
+                    findings.push_each(finding(subject, first, second, node));
+                }
             }
-            before.push(at);
         }
     }
 }

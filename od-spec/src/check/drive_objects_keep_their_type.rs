@@ -30,11 +30,11 @@ const CODE: &Code = &Code {
 /// What the rule looks at.
 const FACTS: [Fact; 3] = [Fact::ObjectType, Fact::Type, Fact::Access];
 
-/// Objects about whose type or access versions and vendors disagree, and those whose members are the maker's.
+/// Objects about whose type or access versions and vendors disagree, those that few of either have, and those whose members are the maker's.
 const fn is_open(index: Index) -> bool {
     matches!(
         index.0,
-        0x607E | 0x60C1 | 0x60D0 | 0x60E0 | 0x60E1 | 0x60E3 | 0x60F6
+        0x607E | 0x60C1 | 0x60D0 | 0x60E0..=0x60EE | 0x60F6
             ..=0x60F9 | 0x60FB | 0x6406 | 0x6410 | 0x6510
     )
 }

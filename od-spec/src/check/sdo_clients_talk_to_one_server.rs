@@ -48,7 +48,8 @@ fn problem(
 ) -> Option<String> {
     let identifier = |parameter: &Parameter<'_>| {
         let raw = parameter.value.integer_for(node)?;
-        (raw & NOT_VALID == 0).then_some(raw)
+        // That 0 is no identifier is said by itself.
+        (raw & NOT_VALID == 0 && raw != 0).then_some(raw)
     };
     let server_of = |id: i128, base: i128| (base + 1..=base + 127).contains(&id).then_some(id - base);
     let (request, answer) = (identifier(request)?, identifier(answer)?);

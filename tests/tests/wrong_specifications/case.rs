@@ -1,8 +1,9 @@
 //! What a case is, and what the compiler says about it.
 
+use od_gen::eds::eds_document;
 use od_spec::diag::Diagnostics;
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{NoFiles, assign, compile};
+use od_spec::{NoFiles, Strictness, assign, compile, compile_as};
 
 /// The node whose settings a case is about.
 const NODE: u8 = 5;
@@ -66,6 +67,20 @@ pub(crate) fn said(specification: &str, set: &[&str]) -> Vec<(&'static str, Stri
         assign(&system, &system.devices[0], NODE, &settings, &mut diagnostics);
     }
     shown(&diagnostics)
+}
+
+/// What the rules say about the EDS files of a specification that is right, held to the standard. What the file says as a text
+/// has tests of its own, and nobody knows the vendor's number.
+pub(crate) fn said_of_eds(specification: &str) -> Vec<(&'static str, String)> {
+    let mut sources = SourceMap::new();
+    let root = sources.add("case.od.yaml", whole(specification));
+    let Some(system) = compile(&mut sources, root, &mut NoFiles).system else { return Vec::new() };
+    let found = system.devices.iter().flat_map(|device| {
+        let root = sources.add("case.eds", eds_document(&system, device).to_string());
+        let compiled = compile_as(Strictness::Standard, &mut sources, root, &mut NoFiles);
+        shown(&compiled.diagnostics)
+    });
+    found.filter(|(code, _)| code.starts_with("OD") && *code != "OD0821").collect()
 }
 
 fn shown(diagnostics: &Diagnostics) -> Vec<(&'static str, String)> {

@@ -14,7 +14,7 @@ mod values;
 
 use std::collections::BTreeSet;
 
-use case::{Case, Right, said};
+use case::{Case, Right, said, said_of_eds};
 
 fn wrong() -> Vec<Case> {
     [cob_ids::wrong(), standard_objects::wrong(), values::wrong(), pdo::wrong()]
@@ -52,6 +52,19 @@ fn what_is_right_passes_without_a_word() {
         .iter()
         .filter_map(|case| {
             let found = said(&case.specification, case.set);
+            (!found.is_empty()).then(|| format!("{}: {found:#?}", case.name))
+        })
+        .collect();
+    assert!(blamed.is_empty(), "{} cases:\n{}", blamed.len(), blamed.join("\n"));
+}
+
+/// What a specification may say, its EDS may say, too.
+#[test]
+fn what_is_right_is_right_in_an_eds() {
+    let blamed: Vec<String> = right()
+        .iter()
+        .filter_map(|case| {
+            let found = said_of_eds(&case.specification);
             (!found.is_empty()).then(|| format!("{}: {found:#?}", case.name))
         })
         .collect();
