@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
@@ -145,7 +146,7 @@ impl Templates {
         let list = |key: &str| -> Vec<Value> {
             all.get_attr(key).and_then(|list| list.try_iter()).map_or_else(|_| Vec::new(), Iterator::collect)
         };
-        let mut pages = Vec::new();
+        let mut wanted: Vec<(&str, String, Value)> = Vec::new();
         if self.files.keys().all(|name| name.starts_with('_')) {
             return Err(TemplateError::without_place(
                 "no template is printed: the names of all begin with `_`",
@@ -159,7 +160,7 @@ impl Templates {
                 "device" => (list("devices"), "key"),
                 _ => {
                     let page = context! { name => stem, path => name, kind => "system" };
-                    pages.push(self.page(name, name.clone(), context! { page, ..all.clone() })?);
+                    wanted.push((name, name.clone(), context! { page, ..all.clone() }));
                     continue;
                 }
             };
@@ -169,9 +170,10 @@ impl Templates {
                 let page = context! { name => name_of_page, path => path.clone(), kind => stem };
                 let variables = context! { page, ..all.clone() };
                 let item = BTreeMap::from([(stem, item)]);
-                pages.push(self.page(name, path, context! { ..Value::from(item), ..variables })?);
+                wanted.push((name, path, context! { ..Value::from(item), ..variables }));
             }
         }
+        let pages = self.pages(&wanted)?;
         let mut seen = BTreeSet::new();
         if let Some(twice) = pages.iter().find(|page| !seen.insert(page.path.to_lowercase())) {
             return Err(TemplateError::without_place(format!(
@@ -180,6 +182,30 @@ impl Templates {
             )));
         }
         Ok(pages)
+    }
+
+    /// Prints pages on all cores, each a template with its file and variables, and gives them in their order. Of several that
+    /// cannot be printed, the first counts.
+    fn pages(&self, wanted: &[(&str, String, Value)]) -> Result<Vec<Page>, TemplateError> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from).min(wanted.len().max(1));
+        let next = AtomicUsize::new(0);
+        let print = || {
+            let mut printed = Vec::new();
+            loop {
+                let position = next.fetch_add(1, Ordering::Relaxed);
+                let Some((template, path, variables)) = wanted.get(position) else { return printed };
+                printed.push((position, self.page(template, path.clone(), variables.clone())));
+            }
+        };
+        let printed: BTreeMap<usize, Result<Page, TemplateError>> = std::thread::scope(|scope| {
+            let others: Vec<_> = (1..cores).map(|_| scope.spawn(print)).collect();
+            let mut printed: Vec<_> = print();
+            for other in others {
+                printed.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            }
+            printed.into_iter().collect()
+        });
+        printed.into_values().collect()
     }
 
     fn page(&self, template: &str, path: String, variables: Value) -> Result<Page, TemplateError> {

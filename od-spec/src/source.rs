@@ -110,7 +110,12 @@ pub struct SourceFile {
     encoding: Encoding,
     /// Where lines begin; only who wants to know a line pays for it.
     line_starts: OnceLock<Vec<u32>>,
+    /// How many characters stand before each block of bytes; for columns in long lines.
+    characters: OnceLock<Vec<usize>>,
 }
+
+/// Bytes of a block whose characters are counted together.
+const BLOCK: usize = 1024;
 
 impl SourceFile {
     /// The name shown in messages, as the user gave it.
@@ -133,7 +138,28 @@ impl SourceFile {
         let line = self.line_index(offset);
         let start = self.line_starts()[line] as usize;
         let end = (offset as usize).clamp(start, self.text.len());
-        LineCol { line: line + 1, column: self.text[start..end].chars().count() + 1 }
+        let characters = if end - start <= BLOCK {
+            characters(&self.text.as_bytes()[start..end])
+        } else {
+            self.characters_before(end) - self.characters_before(start)
+        };
+        LineCol { line: line + 1, column: characters + 1 }
+    }
+
+    /// The number of characters before a byte.
+    fn characters_before(&self, at: usize) -> usize {
+        let bytes = self.text.as_bytes();
+        let blocks = self.characters.get_or_init(|| {
+            let counts = bytes.chunks(BLOCK).scan(0, |before, block| {
+                let count = *before;
+                *before += characters(block);
+                Some(count)
+            });
+            // A text may end with a block.
+            counts.chain([characters(bytes)]).collect()
+        });
+        let block = at / BLOCK;
+        blocks.get(block).map_or(0, |before| before + characters(&bytes[block * BLOCK..at]))
     }
 
     fn line_starts(&self) -> &[u32] {
@@ -187,7 +213,13 @@ impl SourceMap {
     pub fn add_decoded(&mut self, name: impl Into<String>, text: String, encoding: Encoding) -> FileId {
         assert!(u32::try_from(text.len()).is_ok(), "source texts are smaller than 4 GiB");
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 files"));
-        self.files.push(SourceFile { name: name.into(), text, encoding, line_starts: OnceLock::new() });
+        self.files.push(SourceFile {
+            name: name.into(),
+            text,
+            encoding,
+            line_starts: OnceLock::new(),
+            characters: OnceLock::new(),
+        });
         id
     }
 
@@ -218,6 +250,11 @@ impl SourceMap {
     }
 }
 
+/// The characters that begin in some bytes of a text.
+fn characters(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|byte| !matches!(byte, 0x80..=0xBF)).count()
+}
+
 /// Where lines begin behind a line break: a line feed, or a carriage return without one.
 fn line_breaks(text: &str) -> impl Iterator<Item = usize> {
     let bytes = text.as_bytes();
@@ -228,6 +265,21 @@ fn line_breaks(text: &str) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_of_long_lines_are_those_of_short_ones() {
+        let text = format!("ab\n{}", "größe €𝄞".repeat(500));
+        let mut map = SourceMap::new();
+        let id = map.add("a", text.clone());
+        for (column, (at, _)) in text[3..].char_indices().enumerate() {
+            let place = map.file(id).line_col(u32::try_from(at + 3).unwrap());
+            assert_eq!(place, LineCol { line: 2, column: column + 1 });
+        }
+        let whole = text.chars().count() - 3;
+        assert_eq!(map.file(id).line_col(u32::MAX).column, whole + 1);
+        let exact = map.add("b", "x".repeat(4 * BLOCK));
+        assert_eq!(map.file(exact).line_col(4 * 1024).column, 4 * BLOCK + 1);
+    }
 
     #[test]
     fn lines_and_columns_count_characters_from_one() {

@@ -1,6 +1,6 @@
 //! Fills a document within the limits of the format: ASCII, 255 characters a line, comments only above a section.
 
-use std::fmt::{Display, Write as _};
+use std::fmt::Display;
 
 use od_spec::ascii::transliterate;
 use od_spec::eds::{Document, Section};
@@ -64,19 +64,34 @@ fn fits(key: &str, text: &str) -> bool {
 
 /// The lines of a comment, those after the first indented.
 fn broken(comment: &str) -> Vec<String> {
+    // Most are short and plain: their line is the text.
+    if is_line(comment) {
+        return vec![comment.to_owned()];
+    }
     let text = transliterate(comment);
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace().map(|word| word.get(..LONGEST_WORD).unwrap_or(word)) {
         match lines.last_mut() {
             // The `;` counts, and the blanks in front of both words.
             Some(line) if 2 + line.len() + 1 + word.len() <= COMMENT_WIDTH => {
-                let _ = write!(line, " {word}");
+                line.push(' ');
+                line.push_str(word);
             }
             Some(_) => lines.push(format!("  {word}")),
             None => lines.push(word.to_owned()),
         }
     }
     lines
+}
+
+/// Whether a comment fits a line as it is, with single blanks between its words.
+fn is_line(comment: &str) -> bool {
+    let is_plain = comment.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+    is_plain
+        && (1..=COMMENT_WIDTH - 2).contains(&comment.len())
+        && !comment.starts_with(' ')
+        && !comment.ends_with(' ')
+        && !comment.contains("  ")
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod device;
 mod document;
+mod layout;
 mod node;
 mod rules;
 mod types;
@@ -13,6 +14,7 @@ use serde_json::{Value as Json, json};
 
 use device::DeviceView;
 use document::DocumentView;
+use layout::Layout;
 use node::NodeView;
 use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
 use types::{TypeView, UnitView};
@@ -52,7 +54,8 @@ fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec
     let entries: usize = system.devices.iter().map(|device| device.entries().count()).sum();
     let mut text = Vec::with_capacity(2048 * entries);
     // Maps with text keys and plain values only, into memory: this cannot fail.
-    let _ = serde_json::to_writer_pretty(&mut text, &dump);
+    let mut serializer = serde_json::Serializer::with_formatter(&mut text, Layout::default());
+    let _ = dump.serialize(&mut serializer);
     text.push(b'\n');
     text
 }

@@ -32,10 +32,11 @@ pub(super) fn objects<'a>(
             continue;
         }
         before.extend((first.0..=last.0).map(|index| (Index(index), key)));
-        let one = object(Spanned::new(first, key.span), r, diagnostics);
+        let written = r.node.weight();
+        let one = object(Spanned::new(first, key.span), written, r, diagnostics);
         let objects = usize::from(last.0 - first.0) + 1;
-        let repeated = if objects > 1 { one.weight } else { one.weight - r.node.weight().min(one.weight) };
-        if let Err(full) = room.take(one.entries() * objects, repeated * objects) {
+        let repeated = if objects > 1 { one.weight } else { one.weight - written };
+        if let Err(full) = room.take(one.entries() * objects, repeated.saturating_mul(objects)) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::TOO_MUCH,
@@ -85,8 +86,8 @@ fn run(
     copies.collect()
 }
 
-fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
-    let written = r.node.weight();
+/// Reads an object that takes so many bytes where it is written.
+fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
     let decl = ObjectDecl {
         index,
         weight: written,
@@ -109,6 +110,9 @@ fn object(index: Spanned<Index>, r: Reader<'_>, diagnostics: &mut Diagnostics) -
         links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     };
+    if decl.entries() == 1 {
+        return decl;
+    }
     // What stands beside `elements:` or `record:` is about each of them.
     let of = |key: &str| r.node.get(key).map_or(0, Node::weight);
     let elements = r.child("array").and_then(|child| child.node.get("elements")).map_or(0, Node::weight);

@@ -4,10 +4,6 @@ use super::{Pattern, device_with, each, index, list, objects, pattern, spec};
 
 /// The patterns.
 pub const WRONG: &[Pattern] = &[
-    pattern("aliases of a long text", |n| {
-        let text = "x".repeat(100 * n);
-        format!("od-spec: 1\ntitle: &a \"{text}\"\nhistory: [{}]\n", "*a, ".repeat(n))
-    }),
     pattern("aliases of a list", |n| {
         format!("od-spec: 1\ntitle: &a [{}]\nhistory: [{}]\n", "x, ".repeat(n), "*a, ".repeat(n))
     }),
@@ -23,16 +19,6 @@ pub const WRONG: &[Pattern] = &[
     pattern("a run of records", |n| {
         let members = list(250, |at| format!("{}: {{name: m{at}, type: unsigned8, access: ro}}", at + 1));
         spec("", &format!("  0x2000..0x{:X}: {{name: \"a {{n}}\", record: {{{members}}}}}\n", index(n)))
-    }),
-    pattern("a run of objects with a long text", |n| {
-        let text = "long ".repeat(20 * n);
-        spec(
-            "",
-            &format!(
-                "  0x2000..0x{:X}: {{name: \"a {{n}}\", type: unsigned8, access: ro, about: {text}}}\n",
-                index(n)
-            ),
-        )
     }),
     pattern("an array with a long text", |n| {
         let text = "long ".repeat(20 * n);
