@@ -4,6 +4,7 @@
 //! identifier is spelled, and which are taken. A second language is a printer beside the first.
 
 mod condition;
+mod directory;
 mod entries;
 mod foreign;
 mod language;
@@ -23,6 +24,7 @@ use od_spec::model::{
 use od_spec::source::Span;
 
 pub(crate) use self::condition::{Compare, Condition, Sum};
+pub(crate) use self::directory::{Block, Directory};
 pub(crate) use self::foreign::decided;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
 pub(crate) use self::layout::{Layout, Place, lay_out};

@@ -12,7 +12,7 @@ use super::docs::{doc, escape};
 use super::glue;
 use super::literal::{decimal, hex};
 use super::value::{At, Values, view_name};
-use crate::plan::{Compare, Condition, Place, Plan, PlannedEntry, Sum};
+use crate::plan::{Block, Compare, Condition, Directory, Place, Plan, PlannedEntry, Sum};
 
 /// Bytes in a line of a byte string.
 const LINE: usize = 16;
@@ -176,19 +176,32 @@ impl Plan<'_> {
         }
     }
 
-    /// Objects whose indices follow each other: index and position of the first, then what ends them.
-    fn runs(&self) -> Vec<(u16, usize)> {
-        let mut runs = Vec::new();
-        let mut expected = None;
-        for (at, object) in self.objects.iter().enumerate() {
-            let index = object.object.index.0;
-            if expected != Some(index) {
-                runs.push((index, at));
+    /// Where objects are found by their index.
+    fn directory(&self) -> TokenStream {
+        let indices: Vec<u16> = self.objects.iter().map(|object| object.object.index.0).collect();
+        let Directory { blocks, seeds, order } = Directory::of(&indices);
+        let [block_count, bucket_count, order_count] =
+            [blocks.len(), seeds.len(), order.len()].map(Literal::usize_unsuffixed);
+        let blocks = blocks.into_iter().map(|block| match block {
+            Some(Block { number, objects, present }) => {
+                let (number, present) = (hex(number.into(), 3), hex(present.into(), 8));
+                let objects = Literal::usize_unsuffixed(objects);
+                quote!(glue::table::Block::new(#number, #objects, #present))
             }
-            expected = index.checked_add(1);
+            None => quote!(glue::table::Block::FREE),
+        });
+        let seeds = seeds.into_iter().map(Literal::u8_unsuffixed);
+        let order = order.into_iter().map(Literal::usize_unsuffixed);
+        quote! {
+            /// Which of 32 indices have an object, where the directory looks for them.
+            static BLOCKS: [glue::table::Block; #block_count] = [#(#blocks),*];
+
+            /// What leads to the place of each block.
+            static SEEDS: [u8; #bucket_count] = [#(#seeds),*];
+
+            /// The blocks by ascending index.
+            static ORDER: [u16; #order_count] = [#(#order),*];
         }
-        runs.push((u16::MAX, self.objects.len()));
-        runs
     }
 
     /// The tables by which an index and a sub-index become a row and a place.
@@ -199,12 +212,7 @@ impl Plan<'_> {
             .map(|object| usize::from(object.first_row))
             .chain([self.entries.len()])
             .map(Literal::usize_unsuffixed);
-        let runs = self.runs();
-        let run_count = Literal::usize_unsuffixed(runs.len());
-        let runs = runs.into_iter().map(|(index, object)| {
-            let (index, object) = (hex(index.into(), 4), Literal::usize_unsuffixed(object));
-            quote!(glue::table::Run { index: #index, object: #object })
-        });
+        let directory = self.directory();
         let entries = self.entries.iter().map(|entry| {
             let place = match entry.place {
                 Place::Image(at) | Place::Constant(at) => at & 0xFFFF,
@@ -226,8 +234,7 @@ impl Plan<'_> {
             /// Rows of the first entries of the objects, by ascending index, and the number of entries.
             static OBJECTS: [u16; #object_count] = [#(#objects),*];
 
-            /// Runs of indices.
-            static RUNS: [glue::table::Run; #run_count] = [#(#runs),*];
+            #directory
 
             /// Entries by row: attributes and place.
             static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries([#(#entries),*]);
@@ -295,7 +302,11 @@ impl Plan<'_> {
         quote! {
             /// What every entry is.
             static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
-                runs: &RUNS,
+                directory: glue::table::Directory {
+                    blocks: &BLOCKS,
+                    seeds: &SEEDS,
+                    order: &ORDER,
+                },
                 pdos: &[#(#pdos),*],
                 first_application_row: #application,
                 objects: &OBJECTS,
