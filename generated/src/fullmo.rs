@@ -115,7 +115,7 @@ impl Fullmo {
     pub const fn rpdo_1_communication_parameter(
         &self,
     ) -> records::Rpdo1CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [0, 288])
     }
 
     /// [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter), to be changed.
@@ -123,7 +123,7 @@ impl Fullmo {
     pub const fn rpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo1CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [0, 288])
     }
 
     /// `1401h` RPDO 2 communication parameter.
@@ -131,7 +131,7 @@ impl Fullmo {
     pub const fn rpdo_2_communication_parameter(
         &self,
     ) -> records::Rpdo2CommunicationParameter<&Self> {
-        records::Rpdo2CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [4, 289])
     }
 
     /// [`rpdo_2_communication_parameter`](Self::rpdo_2_communication_parameter), to be changed.
@@ -139,7 +139,7 @@ impl Fullmo {
     pub const fn rpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo2CommunicationParameter<&mut Self> {
-        records::Rpdo2CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [4, 289])
     }
 
     /// `1402h` RPDO 3 communication parameter.
@@ -147,7 +147,7 @@ impl Fullmo {
     pub const fn rpdo_3_communication_parameter(
         &self,
     ) -> records::Rpdo3CommunicationParameter<&Self> {
-        records::Rpdo3CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [8, 290])
     }
 
     /// [`rpdo_3_communication_parameter`](Self::rpdo_3_communication_parameter), to be changed.
@@ -155,7 +155,7 @@ impl Fullmo {
     pub const fn rpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo3CommunicationParameter<&mut Self> {
-        records::Rpdo3CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [8, 290])
     }
 
     /// `1403h` RPDO 4 communication parameter.
@@ -163,7 +163,7 @@ impl Fullmo {
     pub const fn rpdo_4_communication_parameter(
         &self,
     ) -> records::Rpdo4CommunicationParameter<&Self> {
-        records::Rpdo4CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [12, 291])
     }
 
     /// [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), to be changed.
@@ -171,7 +171,7 @@ impl Fullmo {
     pub const fn rpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo4CommunicationParameter<&mut Self> {
-        records::Rpdo4CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [12, 291])
     }
 
     /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
@@ -303,7 +303,7 @@ impl Fullmo {
     pub const fn tpdo_1_communication_parameter(
         &self,
     ) -> records::Tpdo1CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [144, 296])
     }
 
     /// [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter), to be changed.
@@ -311,7 +311,7 @@ impl Fullmo {
     pub const fn tpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo1CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [144, 296])
     }
 
     /// `1801h` TPDO 2 communication parameter.
@@ -319,7 +319,7 @@ impl Fullmo {
     pub const fn tpdo_2_communication_parameter(
         &self,
     ) -> records::Tpdo2CommunicationParameter<&Self> {
-        records::Tpdo2CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [148, 297])
     }
 
     /// [`tpdo_2_communication_parameter`](Self::tpdo_2_communication_parameter), to be changed.
@@ -327,7 +327,7 @@ impl Fullmo {
     pub const fn tpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo2CommunicationParameter<&mut Self> {
-        records::Tpdo2CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [148, 297])
     }
 
     /// `1802h` TPDO 3 communication parameter.
@@ -335,7 +335,7 @@ impl Fullmo {
     pub const fn tpdo_3_communication_parameter(
         &self,
     ) -> records::Tpdo3CommunicationParameter<&Self> {
-        records::Tpdo3CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [152, 298])
     }
 
     /// [`tpdo_3_communication_parameter`](Self::tpdo_3_communication_parameter), to be changed.
@@ -343,7 +343,7 @@ impl Fullmo {
     pub const fn tpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo3CommunicationParameter<&mut Self> {
-        records::Tpdo3CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [152, 298])
     }
 
     /// `1803h` TPDO 4 communication parameter.
@@ -351,7 +351,7 @@ impl Fullmo {
     pub const fn tpdo_4_communication_parameter(
         &self,
     ) -> records::Tpdo4CommunicationParameter<&Self> {
-        records::Tpdo4CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [156, 299])
     }
 
     /// [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), to be changed.
@@ -359,7 +359,7 @@ impl Fullmo {
     pub const fn tpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo4CommunicationParameter<&mut Self> {
-        records::Tpdo4CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [156, 299])
     }
 
     /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
@@ -515,7 +515,7 @@ impl Fullmo {
     /// `3511h` input functions 1: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_1(&self) -> records::InputFunctions1<&Self> {
-        records::InputFunctions1(self)
+        records::InputFunctions1(self, [648, 650, 328, 332, 652, 336, 654, 340])
     }
 
     /// [`input_functions_1`](Self::input_functions_1), to be changed.
@@ -523,13 +523,13 @@ impl Fullmo {
     pub const fn input_functions_1_mut(
         &mut self,
     ) -> records::InputFunctions1<&mut Self> {
-        records::InputFunctions1(self)
+        records::InputFunctions1(self, [648, 650, 328, 332, 652, 336, 654, 340])
     }
 
     /// `3512h` input functions 2: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_2(&self) -> records::InputFunctions2<&Self> {
-        records::InputFunctions2(self)
+        records::InputFunctions1(self, [656, 658, 344, 348, 660, 352, 662, 356])
     }
 
     /// [`input_functions_2`](Self::input_functions_2), to be changed.
@@ -537,13 +537,13 @@ impl Fullmo {
     pub const fn input_functions_2_mut(
         &mut self,
     ) -> records::InputFunctions2<&mut Self> {
-        records::InputFunctions2(self)
+        records::InputFunctions1(self, [656, 658, 344, 348, 660, 352, 662, 356])
     }
 
     /// `3513h` input functions 3: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_3(&self) -> records::InputFunctions3<&Self> {
-        records::InputFunctions3(self)
+        records::InputFunctions1(self, [664, 666, 360, 364, 668, 368, 670, 372])
     }
 
     /// [`input_functions_3`](Self::input_functions_3), to be changed.
@@ -551,13 +551,13 @@ impl Fullmo {
     pub const fn input_functions_3_mut(
         &mut self,
     ) -> records::InputFunctions3<&mut Self> {
-        records::InputFunctions3(self)
+        records::InputFunctions1(self, [664, 666, 360, 364, 668, 368, 670, 372])
     }
 
     /// `3514h` input functions 4: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_4(&self) -> records::InputFunctions4<&Self> {
-        records::InputFunctions4(self)
+        records::InputFunctions1(self, [672, 674, 376, 380, 676, 384, 678, 388])
     }
 
     /// [`input_functions_4`](Self::input_functions_4), to be changed.
@@ -565,13 +565,13 @@ impl Fullmo {
     pub const fn input_functions_4_mut(
         &mut self,
     ) -> records::InputFunctions4<&mut Self> {
-        records::InputFunctions4(self)
+        records::InputFunctions1(self, [672, 674, 376, 380, 676, 384, 678, 388])
     }
 
     /// `3515h` input functions 5: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_5(&self) -> records::InputFunctions5<&Self> {
-        records::InputFunctions5(self)
+        records::InputFunctions1(self, [680, 682, 392, 396, 684, 400, 686, 404])
     }
 
     /// [`input_functions_5`](Self::input_functions_5), to be changed.
@@ -579,13 +579,13 @@ impl Fullmo {
     pub const fn input_functions_5_mut(
         &mut self,
     ) -> records::InputFunctions5<&mut Self> {
-        records::InputFunctions5(self)
+        records::InputFunctions1(self, [680, 682, 392, 396, 684, 400, 686, 404])
     }
 
     /// `3516h` input functions 6: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_6(&self) -> records::InputFunctions6<&Self> {
-        records::InputFunctions6(self)
+        records::InputFunctions1(self, [688, 690, 408, 412, 692, 416, 694, 420])
     }
 
     /// [`input_functions_6`](Self::input_functions_6), to be changed.
@@ -593,13 +593,13 @@ impl Fullmo {
     pub const fn input_functions_6_mut(
         &mut self,
     ) -> records::InputFunctions6<&mut Self> {
-        records::InputFunctions6(self)
+        records::InputFunctions1(self, [688, 690, 408, 412, 692, 416, 694, 420])
     }
 
     /// `3517h` input functions 7: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_7(&self) -> records::InputFunctions7<&Self> {
-        records::InputFunctions7(self)
+        records::InputFunctions1(self, [696, 698, 424, 428, 700, 432, 702, 436])
     }
 
     /// [`input_functions_7`](Self::input_functions_7), to be changed.
@@ -607,13 +607,13 @@ impl Fullmo {
     pub const fn input_functions_7_mut(
         &mut self,
     ) -> records::InputFunctions7<&mut Self> {
-        records::InputFunctions7(self)
+        records::InputFunctions1(self, [696, 698, 424, 428, 700, 432, 702, 436])
     }
 
     /// `3518h` input functions 8: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_8(&self) -> records::InputFunctions8<&Self> {
-        records::InputFunctions8(self)
+        records::InputFunctions1(self, [704, 706, 440, 444, 708, 448, 710, 452])
     }
 
     /// [`input_functions_8`](Self::input_functions_8), to be changed.
@@ -621,13 +621,13 @@ impl Fullmo {
     pub const fn input_functions_8_mut(
         &mut self,
     ) -> records::InputFunctions8<&mut Self> {
-        records::InputFunctions8(self)
+        records::InputFunctions1(self, [704, 706, 440, 444, 708, 448, 710, 452])
     }
 
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     #[inline]
     pub const fn input_functions_9(&self) -> records::InputFunctions9<&Self> {
-        records::InputFunctions9(self)
+        records::InputFunctions1(self, [712, 714, 456, 460, 716, 464, 718, 468])
     }
 
     /// [`input_functions_9`](Self::input_functions_9), to be changed.
@@ -635,7 +635,7 @@ impl Fullmo {
     pub const fn input_functions_9_mut(
         &mut self,
     ) -> records::InputFunctions9<&mut Self> {
-        records::InputFunctions9(self)
+        records::InputFunctions1(self, [712, 714, 456, 460, 716, 464, 718, 468])
     }
 
     /// `6040h` Controlword: Befehle an den Antrieb.
@@ -2048,24 +2048,26 @@ pub mod records {
     }
 
     /// `1400h` RPDO 1 communication parameter.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct Rpdo1CommunicationParameter<D>(pub(super) D);
+    pub struct Rpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Fullmo>> Rpdo1CommunicationParameter<D> {
-        /// `1400h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
         ///
-        /// UNSIGNED32, rw, default $NODEID+0x200, stored with the communication parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 0)
+            super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// `1400h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
         ///
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 288)
+            super::glue::get_u8(&self.0.borrow().0, self.1[1])
         }
     }
 
@@ -2073,143 +2075,46 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 0, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, self.1[0], value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 288, value);
+            super::glue::put_u8(&mut self.0.borrow_mut().0, self.1[1], value);
         }
     }
 
     /// `1401h` RPDO 2 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo2CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> Rpdo2CommunicationParameter<D> {
-        /// `1401h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 4)
-        }
-
-        /// `1401h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 289)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> Rpdo2CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 4, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 289, value);
-        }
-    }
+    pub type Rpdo2CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1402h` RPDO 3 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo3CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> Rpdo3CommunicationParameter<D> {
-        /// `1402h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 8)
-        }
-
-        /// `1402h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 290)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> Rpdo3CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 8, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 290, value);
-        }
-    }
+    pub type Rpdo3CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1403h` RPDO 4 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo4CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> Rpdo4CommunicationParameter<D> {
-        /// `1403h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 12)
-        }
-
-        /// `1403h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 291)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> Rpdo4CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 12, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 291, value);
-        }
-    }
+    pub type Rpdo4CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1800h` TPDO 1 communication parameter.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct Tpdo1CommunicationParameter<D>(pub(super) D);
+    pub struct Tpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Fullmo>> Tpdo1CommunicationParameter<D> {
-        /// `1800h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
         ///
-        /// UNSIGNED32, rw, default $NODEID+0x180, stored with the communication parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 144)
+            super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// `1800h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
         ///
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 296)
+            super::glue::get_u8(&self.0.borrow().0, self.1[1])
         }
     }
 
@@ -2217,123 +2122,24 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 144, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, self.1[0], value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 296, value);
+            super::glue::put_u8(&mut self.0.borrow_mut().0, self.1[1], value);
         }
     }
 
     /// `1801h` TPDO 2 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo2CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> Tpdo2CommunicationParameter<D> {
-        /// `1801h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000280, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 148)
-        }
-
-        /// `1801h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 297)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> Tpdo2CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 148, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 297, value);
-        }
-    }
+    pub type Tpdo2CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `1802h` TPDO 3 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo3CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> Tpdo3CommunicationParameter<D> {
-        /// `1802h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000380, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 152)
-        }
-
-        /// `1802h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 298)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> Tpdo3CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 152, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 298, value);
-        }
-    }
+    pub type Tpdo3CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `1803h` TPDO 4 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo4CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> Tpdo4CommunicationParameter<D> {
-        /// `1803h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000480, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 156)
-        }
-
-        /// `1803h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 299)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> Tpdo4CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 156, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 299, value);
-        }
-    }
+    pub type Tpdo4CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `3402h` motor parameter: Messwerte und Meldungen von Motor und Endstufe. Subindizes 2 und 4 kommen im Handbuch nicht vor.
     #[derive(Debug)]
@@ -2680,72 +2486,78 @@ pub mod records {
     }
 
     /// `3511h` input functions 1: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// The group of 8 other objects, too.
     #[derive(Debug)]
-    pub struct InputFunctions1<D>(pub(super) D);
+    pub struct InputFunctions1<D>(pub(super) D, pub(super) [usize; 8]);
 
     impl<D: Borrow<super::Fullmo>> InputFunctions1<D> {
-        /// `3511h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
+        /// Sub-index 1: edge functions: Was bei steigender und bei fallender Flanke geschieht.
         ///
         /// UNSIGNED16, rw.
         #[inline]
         pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 648))
+            super::types::EdgeFunctions(
+                super::glue::get_u16(&self.0.borrow().0, self.1[0]),
+            )
         }
 
-        /// `3511h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
+        /// Sub-index 2: edge TPDOs: TxPDOs zu steigender und fallender Flanke.
         ///
         /// UNSIGNED16, rw.
         #[inline]
         pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 650))
+            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, self.1[1]))
         }
 
-        /// `3511h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
+        /// Sub-index 3: result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
         ///
         /// INTEGER32, rw.
         #[inline]
         pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 328)
+            super::glue::get_i32(&self.0.borrow().0, self.1[2])
         }
 
-        /// `3511h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
+        /// Sub-index 4: result 2: Ergebnisregister 2: Position bei Funktion 2.
         ///
         /// INTEGER32, rw.
         #[inline]
         pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 332)
+            super::glue::get_i32(&self.0.borrow().0, self.1[3])
         }
 
-        /// `3511h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
+        /// Sub-index 5: motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
         ///
         /// UNSIGNED16, rw, in ms.
         #[inline]
         pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 652))
+            super::units::Millisecond(
+                super::glue::get_u16(&self.0.borrow().0, self.1[4]),
+            )
         }
 
-        /// `3511h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
+        /// Sub-index 6: target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
         ///
         /// INTEGER32, rw.
         #[inline]
         pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 336)
+            super::glue::get_i32(&self.0.borrow().0, self.1[5])
         }
 
-        /// `3511h.7` acceleration: Beschleunigung des Fahrbefehls.
+        /// Sub-index 7: acceleration: Beschleunigung des Fahrbefehls.
         ///
         /// UNSIGNED16, rw.
         #[inline]
         pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 654)
+            super::glue::get_u16(&self.0.borrow().0, self.1[6])
         }
 
-        /// `3511h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
+        /// Sub-index 8: target position: Zielposition des Fahrbefehls, im Profile Position Mode.
         ///
         /// INTEGER32, rw.
         #[inline]
         pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 340)
+            super::glue::get_i32(&self.0.borrow().0, self.1[7])
         }
     }
 
@@ -2753,1011 +2565,75 @@ pub mod records {
         /// Sets [`edge_functions`](Self::edge_functions).
         #[inline]
         pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 648, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[0], value.0);
         }
 
         /// Sets [`edge_tpdos`](Self::edge_tpdos).
         #[inline]
         pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 650, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[1], value.0);
         }
 
         /// Sets [`result_1`](Self::result_1).
         #[inline]
         pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 328, value);
+            super::glue::put_i32(&mut self.0.borrow_mut().0, self.1[2], value);
         }
 
         /// Sets [`result_2`](Self::result_2).
         #[inline]
         pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 332, value);
+            super::glue::put_i32(&mut self.0.borrow_mut().0, self.1[3], value);
         }
 
         /// Sets [`motion_delay`](Self::motion_delay).
         #[inline]
         pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 652, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[4], value.0);
         }
 
         /// Sets [`target_velocity`](Self::target_velocity).
         #[inline]
         pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 336, value);
+            super::glue::put_i32(&mut self.0.borrow_mut().0, self.1[5], value);
         }
 
         /// Sets [`acceleration`](Self::acceleration).
         #[inline]
         pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 654, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[6], value);
         }
 
         /// Sets [`target_position`](Self::target_position).
         #[inline]
         pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 340, value);
+            super::glue::put_i32(&mut self.0.borrow_mut().0, self.1[7], value);
         }
     }
 
     /// `3512h` input functions 2: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions2<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions2<D> {
-        /// `3512h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 656))
-        }
-
-        /// `3512h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 658))
-        }
-
-        /// `3512h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 344)
-        }
-
-        /// `3512h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 348)
-        }
-
-        /// `3512h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 660))
-        }
-
-        /// `3512h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 352)
-        }
-
-        /// `3512h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 662)
-        }
-
-        /// `3512h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 356)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions2<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 656, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 658, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 344, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 348, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 660, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 352, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 662, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 356, value);
-        }
-    }
+    pub type InputFunctions2<D> = InputFunctions1<D>;
 
     /// `3513h` input functions 3: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions3<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions3<D> {
-        /// `3513h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 664))
-        }
-
-        /// `3513h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 666))
-        }
-
-        /// `3513h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 360)
-        }
-
-        /// `3513h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 364)
-        }
-
-        /// `3513h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 668))
-        }
-
-        /// `3513h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 368)
-        }
-
-        /// `3513h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 670)
-        }
-
-        /// `3513h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 372)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions3<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 664, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 666, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 360, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 364, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 668, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 368, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 670, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 372, value);
-        }
-    }
+    pub type InputFunctions3<D> = InputFunctions1<D>;
 
     /// `3514h` input functions 4: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions4<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions4<D> {
-        /// `3514h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 672))
-        }
-
-        /// `3514h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 674))
-        }
-
-        /// `3514h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 376)
-        }
-
-        /// `3514h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 380)
-        }
-
-        /// `3514h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 676))
-        }
-
-        /// `3514h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 384)
-        }
-
-        /// `3514h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 678)
-        }
-
-        /// `3514h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 388)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions4<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 672, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 674, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 376, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 380, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 676, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 384, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 678, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 388, value);
-        }
-    }
+    pub type InputFunctions4<D> = InputFunctions1<D>;
 
     /// `3515h` input functions 5: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions5<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions5<D> {
-        /// `3515h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 680))
-        }
-
-        /// `3515h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 682))
-        }
-
-        /// `3515h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 392)
-        }
-
-        /// `3515h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 396)
-        }
-
-        /// `3515h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 684))
-        }
-
-        /// `3515h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 400)
-        }
-
-        /// `3515h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 686)
-        }
-
-        /// `3515h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 404)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions5<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 680, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 682, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 392, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 396, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 684, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 400, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 686, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 404, value);
-        }
-    }
+    pub type InputFunctions5<D> = InputFunctions1<D>;
 
     /// `3516h` input functions 6: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions6<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions6<D> {
-        /// `3516h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 688))
-        }
-
-        /// `3516h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 690))
-        }
-
-        /// `3516h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 408)
-        }
-
-        /// `3516h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 412)
-        }
-
-        /// `3516h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 692))
-        }
-
-        /// `3516h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 416)
-        }
-
-        /// `3516h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 694)
-        }
-
-        /// `3516h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 420)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions6<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 688, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 690, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 408, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 412, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 692, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 416, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 694, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 420, value);
-        }
-    }
+    pub type InputFunctions6<D> = InputFunctions1<D>;
 
     /// `3517h` input functions 7: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions7<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions7<D> {
-        /// `3517h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 696))
-        }
-
-        /// `3517h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 698))
-        }
-
-        /// `3517h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 424)
-        }
-
-        /// `3517h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 428)
-        }
-
-        /// `3517h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 700))
-        }
-
-        /// `3517h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 432)
-        }
-
-        /// `3517h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 702)
-        }
-
-        /// `3517h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 436)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions7<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 696, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 698, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 424, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 428, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 700, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 432, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 702, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 436, value);
-        }
-    }
+    pub type InputFunctions7<D> = InputFunctions1<D>;
 
     /// `3518h` input functions 8: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions8<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions8<D> {
-        /// `3518h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 704))
-        }
-
-        /// `3518h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 706))
-        }
-
-        /// `3518h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 440)
-        }
-
-        /// `3518h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 444)
-        }
-
-        /// `3518h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 708))
-        }
-
-        /// `3518h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 448)
-        }
-
-        /// `3518h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 710)
-        }
-
-        /// `3518h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 452)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions8<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 704, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 706, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 440, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 444, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 708, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 448, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 710, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 452, value);
-        }
-    }
+    pub type InputFunctions8<D> = InputFunctions1<D>;
 
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
-    #[derive(Debug)]
-    pub struct InputFunctions9<D>(pub(super) D);
-
-    impl<D: Borrow<super::Fullmo>> InputFunctions9<D> {
-        /// `3519h.1` edge functions: Was bei steigender und bei fallender Flanke geschieht.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_functions(&self) -> super::types::EdgeFunctions {
-            super::types::EdgeFunctions(super::glue::get_u16(&self.0.borrow().0, 712))
-        }
-
-        /// `3519h.2` edge TPDOs: TxPDOs zu steigender und fallender Flanke.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
-            super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, 714))
-        }
-
-        /// `3519h.3` result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_1(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 456)
-        }
-
-        /// `3519h.4` result 2: Ergebnisregister 2: Position bei Funktion 2.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn result_2(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 460)
-        }
-
-        /// `3519h.5` motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
-        ///
-        /// UNSIGNED16, rw, in ms.
-        #[inline]
-        pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
-            super::units::Millisecond(super::glue::get_u16(&self.0.borrow().0, 716))
-        }
-
-        /// `3519h.6` target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_velocity(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 464)
-        }
-
-        /// `3519h.7` acceleration: Beschleunigung des Fahrbefehls.
-        ///
-        /// UNSIGNED16, rw.
-        #[inline]
-        pub fn acceleration(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 718)
-        }
-
-        /// `3519h.8` target position: Zielposition des Fahrbefehls, im Profile Position Mode.
-        ///
-        /// INTEGER32, rw.
-        #[inline]
-        pub fn target_position(&self) -> i32 {
-            super::glue::get_i32(&self.0.borrow().0, 468)
-        }
-    }
-
-    impl<D: BorrowMut<super::Fullmo>> InputFunctions9<D> {
-        /// Sets [`edge_functions`](Self::edge_functions).
-        #[inline]
-        pub fn set_edge_functions(&mut self, value: super::types::EdgeFunctions) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 712, value.0);
-        }
-
-        /// Sets [`edge_tpdos`](Self::edge_tpdos).
-        #[inline]
-        pub fn set_edge_tpdos(&mut self, value: super::types::EdgeTpdos) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 714, value.0);
-        }
-
-        /// Sets [`result_1`](Self::result_1).
-        #[inline]
-        pub fn set_result_1(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 456, value);
-        }
-
-        /// Sets [`result_2`](Self::result_2).
-        #[inline]
-        pub fn set_result_2(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 460, value);
-        }
-
-        /// Sets [`motion_delay`](Self::motion_delay).
-        #[inline]
-        pub fn set_motion_delay(&mut self, value: super::units::Millisecond<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 716, value.0);
-        }
-
-        /// Sets [`target_velocity`](Self::target_velocity).
-        #[inline]
-        pub fn set_target_velocity(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 464, value);
-        }
-
-        /// Sets [`acceleration`](Self::acceleration).
-        #[inline]
-        pub fn set_acceleration(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 718, value);
-        }
-
-        /// Sets [`target_position`](Self::target_position).
-        #[inline]
-        pub fn set_target_position(&mut self, value: i32) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 468, value);
-        }
-    }
+    pub type InputFunctions9<D> = InputFunctions1<D>;
 
     /// `607Dh` Software position limit: Softwareendlagen in Positionseinheiten, umgerechnet wie 607Ah. Werden sie während einer Positionierung geändert und würden überfahren, bremst der Antrieb mit der eingestellten Verzögerung auf sie; er rechnet dazu Bremspunkte für beide Endlagen und das Ziel.
     #[derive(Debug)]

@@ -196,7 +196,7 @@ impl Pmc {
     pub const fn rpdo_1_communication_parameter(
         &self,
     ) -> records::Rpdo1CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [0, 288])
     }
 
     /// [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter), to be changed.
@@ -204,7 +204,7 @@ impl Pmc {
     pub const fn rpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo1CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [0, 288])
     }
 
     /// `1401h` RPDO 2 communication parameter.
@@ -212,7 +212,7 @@ impl Pmc {
     pub const fn rpdo_2_communication_parameter(
         &self,
     ) -> records::Rpdo2CommunicationParameter<&Self> {
-        records::Rpdo2CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [4, 289])
     }
 
     /// [`rpdo_2_communication_parameter`](Self::rpdo_2_communication_parameter), to be changed.
@@ -220,7 +220,7 @@ impl Pmc {
     pub const fn rpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo2CommunicationParameter<&mut Self> {
-        records::Rpdo2CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [4, 289])
     }
 
     /// `1402h` RPDO 3 communication parameter.
@@ -228,7 +228,7 @@ impl Pmc {
     pub const fn rpdo_3_communication_parameter(
         &self,
     ) -> records::Rpdo3CommunicationParameter<&Self> {
-        records::Rpdo3CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [8, 290])
     }
 
     /// [`rpdo_3_communication_parameter`](Self::rpdo_3_communication_parameter), to be changed.
@@ -236,7 +236,7 @@ impl Pmc {
     pub const fn rpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo3CommunicationParameter<&mut Self> {
-        records::Rpdo3CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [8, 290])
     }
 
     /// `1403h` RPDO 4 communication parameter.
@@ -244,7 +244,7 @@ impl Pmc {
     pub const fn rpdo_4_communication_parameter(
         &self,
     ) -> records::Rpdo4CommunicationParameter<&Self> {
-        records::Rpdo4CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [12, 291])
     }
 
     /// [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), to be changed.
@@ -252,7 +252,7 @@ impl Pmc {
     pub const fn rpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo4CommunicationParameter<&mut Self> {
-        records::Rpdo4CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [12, 291])
     }
 
     /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
@@ -384,7 +384,7 @@ impl Pmc {
     pub const fn tpdo_1_communication_parameter(
         &self,
     ) -> records::Tpdo1CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [144, 296])
     }
 
     /// [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter), to be changed.
@@ -392,7 +392,7 @@ impl Pmc {
     pub const fn tpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo1CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [144, 296])
     }
 
     /// `1801h` TPDO 2 communication parameter.
@@ -400,7 +400,7 @@ impl Pmc {
     pub const fn tpdo_2_communication_parameter(
         &self,
     ) -> records::Tpdo2CommunicationParameter<&Self> {
-        records::Tpdo2CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [148, 297])
     }
 
     /// [`tpdo_2_communication_parameter`](Self::tpdo_2_communication_parameter), to be changed.
@@ -408,7 +408,7 @@ impl Pmc {
     pub const fn tpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo2CommunicationParameter<&mut Self> {
-        records::Tpdo2CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [148, 297])
     }
 
     /// `1802h` TPDO 3 communication parameter.
@@ -416,7 +416,7 @@ impl Pmc {
     pub const fn tpdo_3_communication_parameter(
         &self,
     ) -> records::Tpdo3CommunicationParameter<&Self> {
-        records::Tpdo3CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [152, 298])
     }
 
     /// [`tpdo_3_communication_parameter`](Self::tpdo_3_communication_parameter), to be changed.
@@ -424,7 +424,7 @@ impl Pmc {
     pub const fn tpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo3CommunicationParameter<&mut Self> {
-        records::Tpdo3CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [152, 298])
     }
 
     /// `1803h` TPDO 4 communication parameter.
@@ -432,7 +432,7 @@ impl Pmc {
     pub const fn tpdo_4_communication_parameter(
         &self,
     ) -> records::Tpdo4CommunicationParameter<&Self> {
-        records::Tpdo4CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [156, 299])
     }
 
     /// [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), to be changed.
@@ -440,7 +440,7 @@ impl Pmc {
     pub const fn tpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo4CommunicationParameter<&mut Self> {
-        records::Tpdo4CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [156, 299])
     }
 
     /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
@@ -2707,24 +2707,26 @@ pub mod records {
     }
 
     /// `1400h` RPDO 1 communication parameter.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct Rpdo1CommunicationParameter<D>(pub(super) D);
+    pub struct Rpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Pmc>> Rpdo1CommunicationParameter<D> {
-        /// `1400h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
         ///
-        /// UNSIGNED32, rw, default $NODEID+0x200, stored with the communication parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 0)
+            super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// `1400h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
         ///
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 288)
+            super::glue::get_u8(&self.0.borrow().0, self.1[1])
         }
     }
 
@@ -2732,143 +2734,46 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 0, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, self.1[0], value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 288, value);
+            super::glue::put_u8(&mut self.0.borrow_mut().0, self.1[1], value);
         }
     }
 
     /// `1401h` RPDO 2 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo2CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmc>> Rpdo2CommunicationParameter<D> {
-        /// `1401h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 4)
-        }
-
-        /// `1401h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 289)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmc>> Rpdo2CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 4, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 289, value);
-        }
-    }
+    pub type Rpdo2CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1402h` RPDO 3 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo3CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmc>> Rpdo3CommunicationParameter<D> {
-        /// `1402h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 8)
-        }
-
-        /// `1402h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 290)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmc>> Rpdo3CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 8, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 290, value);
-        }
-    }
+    pub type Rpdo3CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1403h` RPDO 4 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo4CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmc>> Rpdo4CommunicationParameter<D> {
-        /// `1403h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 12)
-        }
-
-        /// `1403h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 291)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmc>> Rpdo4CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 12, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 291, value);
-        }
-    }
+    pub type Rpdo4CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1800h` TPDO 1 communication parameter.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct Tpdo1CommunicationParameter<D>(pub(super) D);
+    pub struct Tpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Pmc>> Tpdo1CommunicationParameter<D> {
-        /// `1800h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
         ///
-        /// UNSIGNED32, rw, default $NODEID+0x40000180, stored with the communication parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 144)
+            super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// `1800h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
         ///
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 296)
+            super::glue::get_u8(&self.0.borrow().0, self.1[1])
         }
     }
 
@@ -2876,123 +2781,24 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 144, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, self.1[0], value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 296, value);
+            super::glue::put_u8(&mut self.0.borrow_mut().0, self.1[1], value);
         }
     }
 
     /// `1801h` TPDO 2 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo2CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmc>> Tpdo2CommunicationParameter<D> {
-        /// `1801h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0xC0000280, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 148)
-        }
-
-        /// `1801h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 297)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmc>> Tpdo2CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 148, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 297, value);
-        }
-    }
+    pub type Tpdo2CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `1802h` TPDO 3 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo3CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmc>> Tpdo3CommunicationParameter<D> {
-        /// `1802h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0xC0000380, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 152)
-        }
-
-        /// `1802h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 298)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmc>> Tpdo3CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 152, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 298, value);
-        }
-    }
+    pub type Tpdo3CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `1803h` TPDO 4 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo4CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmc>> Tpdo4CommunicationParameter<D> {
-        /// `1803h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0xC0000480, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 156)
-        }
-
-        /// `1803h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 299)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmc>> Tpdo4CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 156, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 299, value);
-        }
-    }
+    pub type Tpdo4CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `607Dh` software position limit: Absolute limits of the target position; a target beyond them is replaced by the limit.
     #[derive(Debug)]

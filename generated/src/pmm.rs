@@ -196,7 +196,7 @@ impl Pmm {
     pub const fn rpdo_1_communication_parameter(
         &self,
     ) -> records::Rpdo1CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [0, 288])
     }
 
     /// [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter), to be changed.
@@ -204,7 +204,7 @@ impl Pmm {
     pub const fn rpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo1CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [0, 288])
     }
 
     /// `1401h` RPDO 2 communication parameter.
@@ -212,7 +212,7 @@ impl Pmm {
     pub const fn rpdo_2_communication_parameter(
         &self,
     ) -> records::Rpdo2CommunicationParameter<&Self> {
-        records::Rpdo2CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [4, 289])
     }
 
     /// [`rpdo_2_communication_parameter`](Self::rpdo_2_communication_parameter), to be changed.
@@ -220,7 +220,7 @@ impl Pmm {
     pub const fn rpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo2CommunicationParameter<&mut Self> {
-        records::Rpdo2CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [4, 289])
     }
 
     /// `1402h` RPDO 3 communication parameter.
@@ -228,7 +228,7 @@ impl Pmm {
     pub const fn rpdo_3_communication_parameter(
         &self,
     ) -> records::Rpdo3CommunicationParameter<&Self> {
-        records::Rpdo3CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [8, 290])
     }
 
     /// [`rpdo_3_communication_parameter`](Self::rpdo_3_communication_parameter), to be changed.
@@ -236,7 +236,7 @@ impl Pmm {
     pub const fn rpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo3CommunicationParameter<&mut Self> {
-        records::Rpdo3CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [8, 290])
     }
 
     /// `1403h` RPDO 4 communication parameter.
@@ -244,7 +244,7 @@ impl Pmm {
     pub const fn rpdo_4_communication_parameter(
         &self,
     ) -> records::Rpdo4CommunicationParameter<&Self> {
-        records::Rpdo4CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [12, 291])
     }
 
     /// [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), to be changed.
@@ -252,7 +252,7 @@ impl Pmm {
     pub const fn rpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo4CommunicationParameter<&mut Self> {
-        records::Rpdo4CommunicationParameter(self)
+        records::Rpdo1CommunicationParameter(self, [12, 291])
     }
 
     /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
@@ -384,7 +384,7 @@ impl Pmm {
     pub const fn tpdo_1_communication_parameter(
         &self,
     ) -> records::Tpdo1CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [144, 296])
     }
 
     /// [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter), to be changed.
@@ -392,7 +392,7 @@ impl Pmm {
     pub const fn tpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo1CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [144, 296])
     }
 
     /// `1801h` TPDO 2 communication parameter.
@@ -400,7 +400,7 @@ impl Pmm {
     pub const fn tpdo_2_communication_parameter(
         &self,
     ) -> records::Tpdo2CommunicationParameter<&Self> {
-        records::Tpdo2CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [148, 297])
     }
 
     /// [`tpdo_2_communication_parameter`](Self::tpdo_2_communication_parameter), to be changed.
@@ -408,7 +408,7 @@ impl Pmm {
     pub const fn tpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo2CommunicationParameter<&mut Self> {
-        records::Tpdo2CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [148, 297])
     }
 
     /// `1802h` TPDO 3 communication parameter.
@@ -416,7 +416,7 @@ impl Pmm {
     pub const fn tpdo_3_communication_parameter(
         &self,
     ) -> records::Tpdo3CommunicationParameter<&Self> {
-        records::Tpdo3CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [152, 298])
     }
 
     /// [`tpdo_3_communication_parameter`](Self::tpdo_3_communication_parameter), to be changed.
@@ -424,7 +424,7 @@ impl Pmm {
     pub const fn tpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo3CommunicationParameter<&mut Self> {
-        records::Tpdo3CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [152, 298])
     }
 
     /// `1803h` TPDO 4 communication parameter.
@@ -432,7 +432,7 @@ impl Pmm {
     pub const fn tpdo_4_communication_parameter(
         &self,
     ) -> records::Tpdo4CommunicationParameter<&Self> {
-        records::Tpdo4CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [156, 299])
     }
 
     /// [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), to be changed.
@@ -440,7 +440,7 @@ impl Pmm {
     pub const fn tpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo4CommunicationParameter<&mut Self> {
-        records::Tpdo4CommunicationParameter(self)
+        records::Tpdo1CommunicationParameter(self, [156, 299])
     }
 
     /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
@@ -1458,7 +1458,7 @@ impl Pmm {
     pub const fn temperature_supervisor_battery(
         &self,
     ) -> records::TemperatureSupervisorBattery<&Self> {
-        records::TemperatureSupervisorBattery(self)
+        records::TemperatureSupervisorBattery(self, [392, 394, 396])
     }
 
     /// [`temperature_supervisor_battery`](Self::temperature_supervisor_battery), to be changed.
@@ -1466,7 +1466,7 @@ impl Pmm {
     pub const fn temperature_supervisor_battery_mut(
         &mut self,
     ) -> records::TemperatureSupervisorBattery<&mut Self> {
-        records::TemperatureSupervisorBattery(self)
+        records::TemperatureSupervisorBattery(self, [392, 394, 396])
     }
 
     /// `3111h` temperature supervisor heat sink: Monitoring of the heat sink temperature (3011h); result in 3007h.
@@ -1474,7 +1474,7 @@ impl Pmm {
     pub const fn temperature_supervisor_heat_sink(
         &self,
     ) -> records::TemperatureSupervisorHeatSink<&Self> {
-        records::TemperatureSupervisorHeatSink(self)
+        records::TemperatureSupervisorBattery(self, [398, 400, 402])
     }
 
     /// [`temperature_supervisor_heat_sink`](Self::temperature_supervisor_heat_sink), to be changed.
@@ -1482,7 +1482,7 @@ impl Pmm {
     pub const fn temperature_supervisor_heat_sink_mut(
         &mut self,
     ) -> records::TemperatureSupervisorHeatSink<&mut Self> {
-        records::TemperatureSupervisorHeatSink(self)
+        records::TemperatureSupervisorBattery(self, [398, 400, 402])
     }
 
     /// `3112h` temperature supervisor sensor1: Monitoring of external sensor 1 (3012h) at X15.1/X15.2; result in 3008h.
@@ -1490,7 +1490,7 @@ impl Pmm {
     pub const fn temperature_supervisor_sensor1(
         &self,
     ) -> records::TemperatureSupervisorSensor1<&Self> {
-        records::TemperatureSupervisorSensor1(self)
+        records::TemperatureSupervisorBattery(self, [404, 406, 408])
     }
 
     /// [`temperature_supervisor_sensor1`](Self::temperature_supervisor_sensor1), to be changed.
@@ -1498,7 +1498,7 @@ impl Pmm {
     pub const fn temperature_supervisor_sensor1_mut(
         &mut self,
     ) -> records::TemperatureSupervisorSensor1<&mut Self> {
-        records::TemperatureSupervisorSensor1(self)
+        records::TemperatureSupervisorBattery(self, [404, 406, 408])
     }
 
     /// `3113h` temperature supervisor sensor2: Monitoring of external sensor 2 (3013h) at X15.3/X15.4; result in 3009h.
@@ -1506,7 +1506,7 @@ impl Pmm {
     pub const fn temperature_supervisor_sensor2(
         &self,
     ) -> records::TemperatureSupervisorSensor2<&Self> {
-        records::TemperatureSupervisorSensor2(self)
+        records::TemperatureSupervisorBattery(self, [410, 412, 414])
     }
 
     /// [`temperature_supervisor_sensor2`](Self::temperature_supervisor_sensor2), to be changed.
@@ -1514,7 +1514,7 @@ impl Pmm {
     pub const fn temperature_supervisor_sensor2_mut(
         &mut self,
     ) -> records::TemperatureSupervisorSensor2<&mut Self> {
-        records::TemperatureSupervisorSensor2(self)
+        records::TemperatureSupervisorBattery(self, [410, 412, 414])
     }
 
     /// `3201h` temperature controller battery: Keeps the battery temperature (3010h) inside a range. As delivered it heats with the relay at X16.1/X16.2 and blows with the fan at X14.5; cooling is not used.
@@ -1522,7 +1522,7 @@ impl Pmm {
     pub const fn temperature_controller_battery(
         &self,
     ) -> records::TemperatureControllerBattery<&Self> {
-        records::TemperatureControllerBattery(self)
+        records::TemperatureControllerBattery(self, [416, 418, 420, 422, 424, 426, 428])
     }
 
     /// [`temperature_controller_battery`](Self::temperature_controller_battery), to be changed.
@@ -1530,7 +1530,7 @@ impl Pmm {
     pub const fn temperature_controller_battery_mut(
         &mut self,
     ) -> records::TemperatureControllerBattery<&mut Self> {
-        records::TemperatureControllerBattery(self)
+        records::TemperatureControllerBattery(self, [416, 418, 420, 422, 424, 426, 428])
     }
 
     /// `3202h` temperature controller sensor 1: Keeps the temperature of external sensor 1 (3012h, X15.1/X15.2) inside a range. As delivered all its output masks are 0, which turns it off.
@@ -1538,7 +1538,7 @@ impl Pmm {
     pub const fn temperature_controller_sensor_1(
         &self,
     ) -> records::TemperatureControllerSensor1<&Self> {
-        records::TemperatureControllerSensor1(self)
+        records::TemperatureControllerBattery(self, [430, 432, 434, 436, 438, 440, 442])
     }
 
     /// [`temperature_controller_sensor_1`](Self::temperature_controller_sensor_1), to be changed.
@@ -1546,7 +1546,7 @@ impl Pmm {
     pub const fn temperature_controller_sensor_1_mut(
         &mut self,
     ) -> records::TemperatureControllerSensor1<&mut Self> {
-        records::TemperatureControllerSensor1(self)
+        records::TemperatureControllerBattery(self, [430, 432, 434, 436, 438, 440, 442])
     }
 
     /// `3203h` temperature controller sensor 2: Keeps the temperature of external sensor 2 (3013h, X15.3/X15.4) inside a range. As delivered it heats with the relay at X16.3/X16.4 and blows with the fan at X14.6; cooling is not used.
@@ -1554,7 +1554,7 @@ impl Pmm {
     pub const fn temperature_controller_sensor_2(
         &self,
     ) -> records::TemperatureControllerSensor2<&Self> {
-        records::TemperatureControllerSensor2(self)
+        records::TemperatureControllerBattery(self, [444, 446, 448, 450, 452, 454, 456])
     }
 
     /// [`temperature_controller_sensor_2`](Self::temperature_controller_sensor_2), to be changed.
@@ -1562,7 +1562,7 @@ impl Pmm {
     pub const fn temperature_controller_sensor_2_mut(
         &mut self,
     ) -> records::TemperatureControllerSensor2<&mut Self> {
-        records::TemperatureControllerSensor2(self)
+        records::TemperatureControllerBattery(self, [444, 446, 448, 450, 452, 454, 456])
     }
 
     /// `3204h` motor fan controller: Switches the fan of the motor by the motor temperature that the PMM gets from the PMC over CAN. Off while output fan is 0.
@@ -2565,24 +2565,26 @@ pub mod records {
     }
 
     /// `1400h` RPDO 1 communication parameter.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct Rpdo1CommunicationParameter<D>(pub(super) D);
+    pub struct Rpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Pmm>> Rpdo1CommunicationParameter<D> {
-        /// `1400h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
         ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000200, stored with the communication parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 0)
+            super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// `1400h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
         ///
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 288)
+            super::glue::get_u8(&self.0.borrow().0, self.1[1])
         }
     }
 
@@ -2590,143 +2592,46 @@ pub mod records {
         /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
         #[inline]
         pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 0, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, self.1[0], value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 288, value);
+            super::glue::put_u8(&mut self.0.borrow_mut().0, self.1[1], value);
         }
     }
 
     /// `1401h` RPDO 2 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo2CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> Rpdo2CommunicationParameter<D> {
-        /// `1401h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 4)
-        }
-
-        /// `1401h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 289)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> Rpdo2CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 4, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 289, value);
-        }
-    }
+    pub type Rpdo2CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1402h` RPDO 3 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo3CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> Rpdo3CommunicationParameter<D> {
-        /// `1402h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 8)
-        }
-
-        /// `1402h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 290)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> Rpdo3CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 8, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 290, value);
-        }
-    }
+    pub type Rpdo3CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1403h` RPDO 4 communication parameter.
-    #[derive(Debug)]
-    pub struct Rpdo4CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> Rpdo4CommunicationParameter<D> {
-        /// `1403h.1` COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_rpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 12)
-        }
-
-        /// `1403h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 291)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> Rpdo4CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_rpdo`](Self::cob_id_used_by_rpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_rpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 12, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 291, value);
-        }
-    }
+    pub type Rpdo4CommunicationParameter<D> = Rpdo1CommunicationParameter<D>;
 
     /// `1800h` TPDO 1 communication parameter.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct Tpdo1CommunicationParameter<D>(pub(super) D);
+    pub struct Tpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Pmm>> Tpdo1CommunicationParameter<D> {
-        /// `1800h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
         ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000180, stored with the communication parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 144)
+            super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// `1800h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
         ///
         /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 296)
+            super::glue::get_u8(&self.0.borrow().0, self.1[1])
         }
     }
 
@@ -2734,123 +2639,24 @@ pub mod records {
         /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
         #[inline]
         pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 144, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, self.1[0], value);
         }
 
         /// Sets [`transmission_type`](Self::transmission_type).
         #[inline]
         pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 296, value);
+            super::glue::put_u8(&mut self.0.borrow_mut().0, self.1[1], value);
         }
     }
 
     /// `1801h` TPDO 2 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo2CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> Tpdo2CommunicationParameter<D> {
-        /// `1801h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000280, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 148)
-        }
-
-        /// `1801h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 297)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> Tpdo2CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 148, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 297, value);
-        }
-    }
+    pub type Tpdo2CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `1802h` TPDO 3 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo3CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> Tpdo3CommunicationParameter<D> {
-        /// `1802h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000380, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 152)
-        }
-
-        /// `1802h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 298)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> Tpdo3CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 152, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 298, value);
-        }
-    }
+    pub type Tpdo3CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `1803h` TPDO 4 communication parameter.
-    #[derive(Debug)]
-    pub struct Tpdo4CommunicationParameter<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> Tpdo4CommunicationParameter<D> {
-        /// `1803h.1` COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
-        ///
-        /// UNSIGNED32, rw, default $NODEID+0x80000480, stored with the communication parameters.
-        #[inline]
-        pub fn cob_id_used_by_tpdo(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 156)
-        }
-
-        /// `1803h.2` transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
-        ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
-        #[inline]
-        pub fn transmission_type(&self) -> u8 {
-            super::glue::get_u8(&self.0.borrow().0, 299)
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> Tpdo4CommunicationParameter<D> {
-        /// Sets [`cob_id_used_by_tpdo`](Self::cob_id_used_by_tpdo).
-        #[inline]
-        pub fn set_cob_id_used_by_tpdo(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 156, value);
-        }
-
-        /// Sets [`transmission_type`](Self::transmission_type).
-        #[inline]
-        pub fn set_transmission_type(&mut self, value: u8) {
-            super::glue::put_u8(&mut self.0.borrow_mut().0, 299, value);
-        }
-    }
+    pub type Tpdo4CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `3020h` battery parameter: Description of the battery, which consists of blocs in series, each with its own interface for voltage and temperature.
     #[derive(Debug)]
@@ -3536,32 +3342,40 @@ pub mod records {
     }
 
     /// `3110h` temperature supervisor battery: Monitoring of the battery temperature (3010h); result in 3006h.
+    ///
+    /// The group of 3 other objects, too.
     #[derive(Debug)]
-    pub struct TemperatureSupervisorBattery<D>(pub(super) D);
+    pub struct TemperatureSupervisorBattery<D>(pub(super) D, pub(super) [usize; 3]);
 
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorBattery<D> {
-        /// `3110h.1` warning limit: Warning from this temperature on.
+        /// Sub-index 1: warning limit: Warning from this temperature on.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 392))
+            super::units::Decicelsius(
+                super::glue::get_i16(&self.0.borrow().0, self.1[0]),
+            )
         }
 
-        /// `3110h.2` error limit: Fault with an emergency message from this temperature on.
+        /// Sub-index 2: error limit: Fault with an emergency message from this temperature on.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 55.0 °C, stored with the application parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 394))
+            super::units::Decicelsius(
+                super::glue::get_i16(&self.0.borrow().0, self.1[1]),
+            )
         }
 
-        /// `3110h.3` lower limit: Warning below this temperature.
+        /// Sub-index 3: lower limit: Warning below this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 396))
+            super::units::Decicelsius(
+                super::glue::get_i16(&self.0.borrow().0, self.1[2]),
+            )
         }
     }
 
@@ -3569,231 +3383,102 @@ pub mod records {
         /// Sets [`warning_limit`](Self::warning_limit).
         #[inline]
         pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 392, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, self.1[0], value.0);
         }
 
         /// Sets [`error_limit`](Self::error_limit).
         #[inline]
         pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 394, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, self.1[1], value.0);
         }
 
         /// Sets [`lower_limit`](Self::lower_limit).
         #[inline]
         pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 396, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, self.1[2], value.0);
         }
     }
 
     /// `3111h` temperature supervisor heat sink: Monitoring of the heat sink temperature (3011h); result in 3007h.
-    #[derive(Debug)]
-    pub struct TemperatureSupervisorHeatSink<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> TemperatureSupervisorHeatSink<D> {
-        /// `3111h.1` warning limit: Warning from this temperature on.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 75.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 398))
-        }
-
-        /// `3111h.2` error limit: Fault with an emergency message from this temperature on.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 80.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 400))
-        }
-
-        /// `3111h.3` lower limit: Warning below this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 402))
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> TemperatureSupervisorHeatSink<D> {
-        /// Sets [`warning_limit`](Self::warning_limit).
-        #[inline]
-        pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 398, value.0);
-        }
-
-        /// Sets [`error_limit`](Self::error_limit).
-        #[inline]
-        pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 400, value.0);
-        }
-
-        /// Sets [`lower_limit`](Self::lower_limit).
-        #[inline]
-        pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 402, value.0);
-        }
-    }
+    pub type TemperatureSupervisorHeatSink<D> = TemperatureSupervisorBattery<D>;
 
     /// `3112h` temperature supervisor sensor1: Monitoring of external sensor 1 (3012h) at X15.1/X15.2; result in 3008h.
-    #[derive(Debug)]
-    pub struct TemperatureSupervisorSensor1<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> TemperatureSupervisorSensor1<D> {
-        /// `3112h.1` warning limit: Warning from this temperature on.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 404))
-        }
-
-        /// `3112h.2` error limit: Fault with an emergency message from this temperature on.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 406))
-        }
-
-        /// `3112h.3` lower limit: Warning below this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 408))
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> TemperatureSupervisorSensor1<D> {
-        /// Sets [`warning_limit`](Self::warning_limit).
-        #[inline]
-        pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 404, value.0);
-        }
-
-        /// Sets [`error_limit`](Self::error_limit).
-        #[inline]
-        pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 406, value.0);
-        }
-
-        /// Sets [`lower_limit`](Self::lower_limit).
-        #[inline]
-        pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 408, value.0);
-        }
-    }
+    pub type TemperatureSupervisorSensor1<D> = TemperatureSupervisorBattery<D>;
 
     /// `3113h` temperature supervisor sensor2: Monitoring of external sensor 2 (3013h) at X15.3/X15.4; result in 3009h.
-    #[derive(Debug)]
-    pub struct TemperatureSupervisorSensor2<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> TemperatureSupervisorSensor2<D> {
-        /// `3113h.1` warning limit: Warning from this temperature on.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 410))
-        }
-
-        /// `3113h.2` error limit: Fault with an emergency message from this temperature on.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 412))
-        }
-
-        /// `3113h.3` lower limit: Warning below this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 414))
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> TemperatureSupervisorSensor2<D> {
-        /// Sets [`warning_limit`](Self::warning_limit).
-        #[inline]
-        pub fn set_warning_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 410, value.0);
-        }
-
-        /// Sets [`error_limit`](Self::error_limit).
-        #[inline]
-        pub fn set_error_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 412, value.0);
-        }
-
-        /// Sets [`lower_limit`](Self::lower_limit).
-        #[inline]
-        pub fn set_lower_limit(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 414, value.0);
-        }
-    }
+    pub type TemperatureSupervisorSensor2<D> = TemperatureSupervisorBattery<D>;
 
     /// `3201h` temperature controller battery: Keeps the battery temperature (3010h) inside a range. As delivered it heats with the relay at X16.1/X16.2 and blows with the fan at X14.5; cooling is not used.
+    ///
+    /// The group of 2 other objects, too.
     #[derive(Debug)]
-    pub struct TemperatureControllerBattery<D>(pub(super) D);
+    pub struct TemperatureControllerBattery<D>(pub(super) D, pub(super) [usize; 7]);
 
     impl<D: Borrow<super::Pmm>> TemperatureControllerBattery<D> {
-        /// `3201h.1` heater: Heater and fan run below this temperature.
+        /// Sub-index 1: heater: Heater and fan run below this temperature.
         ///
         /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
         #[inline]
         pub fn heater(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 416))
+            super::units::Decicelsius(
+                super::glue::get_i16(&self.0.borrow().0, self.1[0]),
+            )
         }
 
-        /// `3201h.2` cooler: Cooler and fan run above this temperature.
+        /// Sub-index 2: cooler: Cooler and fan run above this temperature.
         ///
         /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn cooler(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 418))
+            super::units::Decicelsius(
+                super::glue::get_i16(&self.0.borrow().0, self.1[1]),
+            )
         }
 
-        /// `3201h.3` hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
+        /// Sub-index 3: hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
         ///
         /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 420))
+            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, self.1[2]))
         }
 
-        /// `3201h.4` output heater: Outputs that switch the heater.
+        /// Sub-index 4: output heater: Outputs that switch the heater.
         ///
-        /// UNSIGNED16, rw, default 0x0040, stored with the application parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 422))
+            super::types::PmmOutputMask(
+                super::glue::get_u16(&self.0.borrow().0, self.1[3]),
+            )
         }
 
-        /// `3201h.5` output cooler: Outputs that switch the cooler.
+        /// Sub-index 5: output cooler: Outputs that switch the cooler.
         ///
         /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_cooler(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 424))
+            super::types::PmmOutputMask(
+                super::glue::get_u16(&self.0.borrow().0, self.1[4]),
+            )
         }
 
-        /// `3201h.6` output fan: Outputs that switch the fan.
+        /// Sub-index 6: output fan: Outputs that switch the fan.
         ///
-        /// UNSIGNED16, rw, default 0x0010, stored with the application parameters.
+        /// The objects differ in their limits, defaults or PDOs.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 426))
+            super::types::PmmOutputMask(
+                super::glue::get_u16(&self.0.borrow().0, self.1[5]),
+            )
         }
 
-        /// `3201h.7` delay fan off: Time for which the fan runs on after heating or cooling.
+        /// Sub-index 7: delay fan off: Time for which the fan runs on after heating or cooling.
         ///
         /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
         #[inline]
         pub fn delay_fan_off(&self) -> super::units::Second<u16> {
-            super::units::Second(super::glue::get_u16(&self.0.borrow().0, 428))
+            super::units::Second(super::glue::get_u16(&self.0.borrow().0, self.1[6]))
         }
     }
 
@@ -3801,257 +3486,51 @@ pub mod records {
         /// Sets [`heater`](Self::heater).
         #[inline]
         pub fn set_heater(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 416, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, self.1[0], value.0);
         }
 
         /// Sets [`cooler`](Self::cooler).
         #[inline]
         pub fn set_cooler(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 418, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, self.1[1], value.0);
         }
 
         /// Sets [`hysteresis`](Self::hysteresis).
         #[inline]
         pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 420, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, self.1[2], value.0);
         }
 
         /// Sets [`output_heater`](Self::output_heater).
         #[inline]
         pub fn set_output_heater(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 422, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[3], value.0);
         }
 
         /// Sets [`output_cooler`](Self::output_cooler).
         #[inline]
         pub fn set_output_cooler(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 424, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[4], value.0);
         }
 
         /// Sets [`output_fan`](Self::output_fan).
         #[inline]
         pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 426, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[5], value.0);
         }
 
         /// Sets [`delay_fan_off`](Self::delay_fan_off).
         #[inline]
         pub fn set_delay_fan_off(&mut self, value: super::units::Second<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 428, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, self.1[6], value.0);
         }
     }
 
     /// `3202h` temperature controller sensor 1: Keeps the temperature of external sensor 1 (3012h, X15.1/X15.2) inside a range. As delivered all its output masks are 0, which turns it off.
-    #[derive(Debug)]
-    pub struct TemperatureControllerSensor1<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> TemperatureControllerSensor1<D> {
-        /// `3202h.1` heater: Heater and fan run below this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn heater(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 430))
-        }
-
-        /// `3202h.2` cooler: Cooler and fan run above this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn cooler(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 432))
-        }
-
-        /// `3202h.3` hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
-        ///
-        /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
-        #[inline]
-        pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 434))
-        }
-
-        /// `3202h.4` output heater: Outputs that switch the heater.
-        ///
-        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
-        #[inline]
-        pub fn output_heater(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 436))
-        }
-
-        /// `3202h.5` output cooler: Outputs that switch the cooler.
-        ///
-        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
-        #[inline]
-        pub fn output_cooler(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 438))
-        }
-
-        /// `3202h.6` output fan: Outputs that switch the fan.
-        ///
-        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
-        #[inline]
-        pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 440))
-        }
-
-        /// `3202h.7` delay fan off: Time for which the fan runs on after heating or cooling.
-        ///
-        /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
-        #[inline]
-        pub fn delay_fan_off(&self) -> super::units::Second<u16> {
-            super::units::Second(super::glue::get_u16(&self.0.borrow().0, 442))
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> TemperatureControllerSensor1<D> {
-        /// Sets [`heater`](Self::heater).
-        #[inline]
-        pub fn set_heater(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 430, value.0);
-        }
-
-        /// Sets [`cooler`](Self::cooler).
-        #[inline]
-        pub fn set_cooler(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 432, value.0);
-        }
-
-        /// Sets [`hysteresis`](Self::hysteresis).
-        #[inline]
-        pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 434, value.0);
-        }
-
-        /// Sets [`output_heater`](Self::output_heater).
-        #[inline]
-        pub fn set_output_heater(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 436, value.0);
-        }
-
-        /// Sets [`output_cooler`](Self::output_cooler).
-        #[inline]
-        pub fn set_output_cooler(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 438, value.0);
-        }
-
-        /// Sets [`output_fan`](Self::output_fan).
-        #[inline]
-        pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 440, value.0);
-        }
-
-        /// Sets [`delay_fan_off`](Self::delay_fan_off).
-        #[inline]
-        pub fn set_delay_fan_off(&mut self, value: super::units::Second<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 442, value.0);
-        }
-    }
+    pub type TemperatureControllerSensor1<D> = TemperatureControllerBattery<D>;
 
     /// `3203h` temperature controller sensor 2: Keeps the temperature of external sensor 2 (3013h, X15.3/X15.4) inside a range. As delivered it heats with the relay at X16.3/X16.4 and blows with the fan at X14.6; cooling is not used.
-    #[derive(Debug)]
-    pub struct TemperatureControllerSensor2<D>(pub(super) D);
-
-    impl<D: Borrow<super::Pmm>> TemperatureControllerSensor2<D> {
-        /// `3203h.1` heater: Heater and fan run below this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn heater(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 444))
-        }
-
-        /// `3203h.2` cooler: Cooler and fan run above this temperature.
-        ///
-        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
-        #[inline]
-        pub fn cooler(&self) -> super::units::Decicelsius<i16> {
-            super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 446))
-        }
-
-        /// `3203h.3` hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
-        ///
-        /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
-        #[inline]
-        pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
-            super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, 448))
-        }
-
-        /// `3203h.4` output heater: Outputs that switch the heater.
-        ///
-        /// UNSIGNED16, rw, default 0x0080, stored with the application parameters.
-        #[inline]
-        pub fn output_heater(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 450))
-        }
-
-        /// `3203h.5` output cooler: Outputs that switch the cooler.
-        ///
-        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
-        #[inline]
-        pub fn output_cooler(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 452))
-        }
-
-        /// `3203h.6` output fan: Outputs that switch the fan.
-        ///
-        /// UNSIGNED16, rw, default 0x0020, stored with the application parameters.
-        #[inline]
-        pub fn output_fan(&self) -> super::types::PmmOutputMask {
-            super::types::PmmOutputMask(super::glue::get_u16(&self.0.borrow().0, 454))
-        }
-
-        /// `3203h.7` delay fan off: Time for which the fan runs on after heating or cooling.
-        ///
-        /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
-        #[inline]
-        pub fn delay_fan_off(&self) -> super::units::Second<u16> {
-            super::units::Second(super::glue::get_u16(&self.0.borrow().0, 456))
-        }
-    }
-
-    impl<D: BorrowMut<super::Pmm>> TemperatureControllerSensor2<D> {
-        /// Sets [`heater`](Self::heater).
-        #[inline]
-        pub fn set_heater(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 444, value.0);
-        }
-
-        /// Sets [`cooler`](Self::cooler).
-        #[inline]
-        pub fn set_cooler(&mut self, value: super::units::Decicelsius<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 446, value.0);
-        }
-
-        /// Sets [`hysteresis`](Self::hysteresis).
-        #[inline]
-        pub fn set_hysteresis(&mut self, value: super::units::Decikelvin<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 448, value.0);
-        }
-
-        /// Sets [`output_heater`](Self::output_heater).
-        #[inline]
-        pub fn set_output_heater(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 450, value.0);
-        }
-
-        /// Sets [`output_cooler`](Self::output_cooler).
-        #[inline]
-        pub fn set_output_cooler(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 452, value.0);
-        }
-
-        /// Sets [`output_fan`](Self::output_fan).
-        #[inline]
-        pub fn set_output_fan(&mut self, value: super::types::PmmOutputMask) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 454, value.0);
-        }
-
-        /// Sets [`delay_fan_off`](Self::delay_fan_off).
-        #[inline]
-        pub fn set_delay_fan_off(&mut self, value: super::units::Second<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 456, value.0);
-        }
-    }
+    pub type TemperatureControllerSensor2<D> = TemperatureControllerBattery<D>;
 
     /// `3204h` motor fan controller: Switches the fan of the motor by the motor temperature that the PMM gets from the PMC over CAN. Off while output fan is 0.
     #[derive(Debug)]

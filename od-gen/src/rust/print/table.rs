@@ -17,6 +17,9 @@ use crate::plan::{Block, Compare, Condition, Directory, Place, Plan, PlannedEntr
 /// Bytes in a line of a byte string.
 const LINE: usize = 16;
 
+/// Arms of a match over rows.
+const ARMS: usize = 500;
+
 impl Plan<'_> {
     /// The enumeration of all entries.
     pub(super) fn entry_enum(&self) -> TokenStream {
@@ -75,10 +78,7 @@ impl Plan<'_> {
             quote!(match number { #(#conditions)* _ => true, })
         };
         let constraints = self.constraints();
-        let rows = self.entries.iter().enumerate().map(|(row, entry)| {
-            let (row, variant) = (Literal::usize_unsuffixed(row), format_ident!("{}", entry.variant));
-            quote!(#row => Some(Entry::#variant),)
-        });
+        let entry_of_row = self.entry_of_row();
         quote! {
             impl glue::Entries for #name {
                 type Entry = Entry;
@@ -93,11 +93,7 @@ impl Plan<'_> {
                 #[allow(clippy::too_many_lines)]
                 #[inline]
                 fn entry(&self, row: u16) -> Option<Entry> {
-                    // The compiler sees that row and entry are the same number.
-                    match row {
-                        #(#rows)*
-                        _ => None,
-                    }
+                    #entry_of_row
                 }
 
                 #[inline]
@@ -123,6 +119,34 @@ impl Plan<'_> {
 
             #constraints
         }
+    }
+
+    /// The match that makes an entry of a row: the compiler sees that they are the same number. It needs a time for it that
+    /// grows with the square of the arms, so that there are several where there are many.
+    fn entry_of_row(&self) -> TokenStream {
+        let arm = |row: usize, entry: &PlannedEntry<'_>| {
+            let (row, variant) = (Literal::usize_unsuffixed(row), format_ident!("{}", entry.variant));
+            quote!(#row => Some(Entry::#variant),)
+        };
+        let arms: Vec<_> = self.entries.iter().enumerate().map(|(row, entry)| arm(row, entry)).collect();
+        if arms.len() <= ARMS {
+            return quote!(match row { #(#arms)* _ => None, });
+        }
+        let parts = arms.chunks(ARMS).enumerate().map(|(part, arms)| {
+            let function = format_ident!("part_{part}");
+            quote! {
+                #[inline]
+                fn #function(row: u16) -> Option<Entry> {
+                    match row { #(#arms)* _ => None, }
+                }
+            }
+        });
+        let calls = arms.chunks(ARMS).enumerate().map(|(part, arms)| {
+            let function = format_ident!("part_{part}");
+            let [first, last] = [part * ARMS, part * ARMS + arms.len() - 1].map(Literal::usize_unsuffixed);
+            quote!(#first..=#last => #function(row),)
+        });
+        quote!(#(#parts)* match row { #(#calls)* _ => None, })
     }
 
     fn constraints(&self) -> TokenStream {
