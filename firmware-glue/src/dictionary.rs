@@ -87,6 +87,16 @@ pub trait Dictionary<'t>: Entries {
         Info::new(self.table(), self.row(entry))
     }
 
+    /// What is known about the entry at an index and sub-index: what a server asks first, in one search.
+    ///
+    /// # Errors
+    /// As [`find`](Self::find).
+    #[inline]
+    fn info_at(&self, index: u16, sub: u8) -> Result<Info<'t>, AbortCode> {
+        let table = self.table();
+        table.lookup(index, sub).map(|found| Info::of(table, found))
+    }
+
     /// The value of an entry, as an SDO client reads it.
     ///
     /// # Errors

@@ -93,13 +93,12 @@ pub struct EntryRow {
     pub place: u16,
 }
 
-/// Entries from pairs of attributes and place.
-pub const fn entries<const N: usize>(pairs: [[u16; 2]; N]) -> [EntryRow; N] {
+/// Entries from their attributes and places in turn.
+pub const fn entries<const N: usize>(numbers: &[u16]) -> [EntryRow; N] {
     let mut rows = [EntryRow { attributes: 0, place: 0 }; N];
     let mut at = 0;
     while at < N {
-        let [attributes, place] = pairs[at];
-        rows[at] = EntryRow { attributes, place };
+        rows[at] = EntryRow { attributes: numbers[2 * at], place: numbers[2 * at + 1] };
         at += 1;
     }
     rows

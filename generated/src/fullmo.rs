@@ -2054,17 +2054,17 @@ pub mod records {
     pub struct Rpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Fullmo>> Rpdo1CommunicationParameter<D> {
-        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2101,17 +2101,17 @@ pub mod records {
     pub struct Tpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Fullmo>> Tpdo1CommunicationParameter<D> {
-        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2494,7 +2494,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> InputFunctions1<D> {
         /// Sub-index 1: edge functions: Was bei steigender und bei fallender Flanke geschieht.
         ///
-        /// UNSIGNED16, rw.
+        /// UNSIGNED16, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn edge_functions(&self) -> super::types::EdgeFunctions {
             super::types::EdgeFunctions(
@@ -2504,7 +2504,7 @@ pub mod records {
 
         /// Sub-index 2: edge TPDOs: TxPDOs zu steigender und fallender Flanke.
         ///
-        /// UNSIGNED16, rw.
+        /// UNSIGNED16, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
             super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, self.1[1]))
@@ -2512,7 +2512,7 @@ pub mod records {
 
         /// Sub-index 3: result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
         ///
-        /// INTEGER32, rw.
+        /// INTEGER32, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn result_1(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[2])
@@ -2520,7 +2520,7 @@ pub mod records {
 
         /// Sub-index 4: result 2: Ergebnisregister 2: Position bei Funktion 2.
         ///
-        /// INTEGER32, rw.
+        /// INTEGER32, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn result_2(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[3])
@@ -2528,7 +2528,7 @@ pub mod records {
 
         /// Sub-index 5: motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
         ///
-        /// UNSIGNED16, rw, in ms.
+        /// UNSIGNED16, rw, in ms. What is not said here is not the same for all objects.
         #[inline]
         pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
             super::units::Millisecond(
@@ -2538,7 +2538,7 @@ pub mod records {
 
         /// Sub-index 6: target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
         ///
-        /// INTEGER32, rw.
+        /// INTEGER32, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn target_velocity(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[5])
@@ -2546,7 +2546,7 @@ pub mod records {
 
         /// Sub-index 7: acceleration: Beschleunigung des Fahrbefehls.
         ///
-        /// UNSIGNED16, rw.
+        /// UNSIGNED16, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn acceleration(&self) -> u16 {
             super::glue::get_u16(&self.0.borrow().0, self.1[6])
@@ -2554,7 +2554,7 @@ pub mod records {
 
         /// Sub-index 8: target position: Zielposition des Fahrbefehls, im Profile Position Mode.
         ///
-        /// INTEGER32, rw.
+        /// INTEGER32, rw. What is not said here is not the same for all objects.
         #[inline]
         pub fn target_position(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[7])
@@ -4978,113 +4978,113 @@ pub mod errors {
 #[allow(dead_code, unreachable_pub)]
 pub mod units {
     ::firmware_glue::unit! {
-        #[doc = " centiampere: one raw step is 0.01 A. Strom; ein Schritt ist 10 mA."]
+        #[doc = r" centiampere: one raw step is 0.01 A. Strom; ein Schritt ist 10 mA."]
         pub struct Centiampere = "A", scale 1 / 100, step 1 / 100 of BaseA;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " centivolt: one raw step is 0.01 V. Spannung; ein Schritt ist 10 mV."]
+        #[doc = r" centivolt: one raw step is 0.01 V. Spannung; ein Schritt ist 10 mV."]
         pub struct Centivolt = "V", scale 1 / 100, step 1 / 100 of BaseV;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " cia402 acceleration unit: one raw step is 1 AU. The user's unit of acceleration; often the velocity unit per second."]
+        r" cia402 acceleration unit: one raw step is 1 AU. The user's unit of acceleration; often the velocity unit per second."]
         pub struct Cia402AccelerationUnit = "AU", scale 1 / 1, step 1 / 1 of BaseAU;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " cia402 increment: one raw step is 1 inc. Step of the position encoder."] pub
+        r" cia402 increment: one raw step is 1 inc. Step of the position encoder."] pub
         struct Cia402Increment = "inc", scale 1 / 1, step 1 / 1 of Baseinc;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " cia402 increment per second: one raw step is 1 inc/s. Steps of the encoder per second."]
+        r" cia402 increment per second: one raw step is 1 inc/s. Steps of the encoder per second."]
         pub struct Cia402IncrementPerSecond = "inc/s", scale 1 / 1, step 1 / 1 of
         BaseincPers;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " cia402 position unit: one raw step is 1 PU. The user's unit of position; 60A8h or the factors tell which."]
+        r" cia402 position unit: one raw step is 1 PU. The user's unit of position; 60A8h or the factors tell which."]
         pub struct Cia402PositionUnit = "PU", scale 1 / 1, step 1 / 1 of BasePU;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " cia402 velocity unit: one raw step is 1 VU. The user's unit of velocity; often the position unit per second."]
+        r" cia402 velocity unit: one raw step is 1 VU. The user's unit of velocity; often the position unit per second."]
         pub struct Cia402VelocityUnit = "VU", scale 1 / 1, step 1 / 1 of BaseVU;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " degree celsius: one raw step is 1 °C."] pub struct DegreeCelsius =
+        #[doc = r" degree celsius: one raw step is 1 °C."] pub struct DegreeCelsius =
         "°C", scale 1 / 1, step 1 / 1 of BaseDegreeC;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
+        #[doc = r" milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
         scale 1 / 1, step 1 / 1000 of BaseA;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " millinewton metre: one raw step is 1 mNm."] pub struct MillinewtonMetre
-        = "mNm", scale 1 / 1, step 1 / 1000 of BaseNm;
+        #[doc = r" millinewton metre: one raw step is 1 mNm."] pub struct
+        MillinewtonMetre = "mNm", scale 1 / 1, step 1 / 1000 of BaseNm;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale 1
-        / 1, step 1 / 1000 of BaseV;
+        #[doc = r" millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale
+        1 / 1, step 1 / 1000 of BaseV;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " per mille of rated current: one raw step is 0.1 %. Share of the rated current 6075h; one raw step is 0.1 %."]
+        r" per mille of rated current: one raw step is 0.1 %. Share of the rated current 6075h; one raw step is 0.1 %."]
         pub struct PerMilleOfRatedCurrent = "%", scale 1 / 10, step 1 / 10 of
         BasePercent;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " per mille of rated torque: one raw step is 0.1 %. Share of the rated torque 6076h; one raw step is 0.1 %."]
+        r" per mille of rated torque: one raw step is 0.1 %. Share of the rated torque 6076h; one raw step is 0.1 %."]
         pub struct PerMilleOfRatedTorque = "%", scale 1 / 10, step 1 / 10 of BasePercent;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " per mille of rated torque per second: one raw step is 0.1 %/s. Slope, relative to the rated torque 6076h."]
+        r" per mille of rated torque per second: one raw step is 0.1 %/s. Slope, relative to the rated torque 6076h."]
         pub struct PerMilleOfRatedTorquePerSecond = "%/s", scale 1 / 10, step 1 / 10 of
         BasePercentPers;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " position unit: one raw step is 1 PU. Positionseinheit des Anwenders; die Formel gibt ihre internen Inkremente."]
+        r" position unit: one raw step is 1 PU. Positionseinheit des Anwenders; die Formel gibt ihre internen Inkremente."]
         pub struct PositionUnit = "PU", scale 1 / 1, step 1 / 1 of BasePU;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " revolution per minute: one raw step is 1 U/min. Umdrehungen je Minute."] pub
+        r" revolution per minute: one raw step is 1 U/min. Umdrehungen je Minute."] pub
         struct RevolutionPerMinute = "U/min", scale 1 / 1, step 1 / 60 of BaseUPers;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " revolution per second squared: one raw step is 0.01525 U/s². Beschleunigung; ein Schritt ist 0,01525 U/s²."]
+        r" revolution per second squared: one raw step is 0.01525 U/s². Beschleunigung; ein Schritt ist 0,01525 U/s²."]
         pub struct RevolutionPerSecondSquared = "U/s²", scale 61 / 4000, step 61 / 4000
         of BaseUPersUB2;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " velocity unit: one raw step is 1 VU. Geschwindigkeitseinheit des Anwenders; die Formel gibt ihre internen Inkremente je Sekunde."]
+        r" velocity unit: one raw step is 1 VU. Geschwindigkeitseinheit des Anwenders; die Formel gibt ihre internen Inkremente je Sekunde."]
         pub struct VelocityUnit = "VU", scale 1 / 1, step 1 / 1 of BaseVU;
     }
 
@@ -5294,281 +5294,283 @@ impl glue::Dictionary<'static> for Fullmo {
     #[allow(clippy::too_many_lines)]
     #[inline]
     fn entry(&self, row: u16) -> Option<Entry> {
-        match row {
-            0 => Some(Entry::DeviceType),
-            1 => Some(Entry::ErrorRegister),
-            2 => Some(Entry::CobIdEmcy),
-            3 => Some(Entry::ProducerHeartbeatTime),
-            4 => Some(Entry::IdentityObjectHighestSubIndexSupported),
-            5 => Some(Entry::IdentityObjectVendorId),
-            6 => Some(Entry::IdentityObjectProductCode),
-            7 => Some(Entry::IdentityObjectRevisionNumber),
-            8 => Some(Entry::Rpdo1CommunicationParameterHighestSubIndexSupported),
-            9 => Some(Entry::Rpdo1CommunicationParameterCobIdUsedByRpdo),
-            10 => Some(Entry::Rpdo1CommunicationParameterTransmissionType),
-            11 => Some(Entry::Rpdo2CommunicationParameterHighestSubIndexSupported),
-            12 => Some(Entry::Rpdo2CommunicationParameterCobIdUsedByRpdo),
-            13 => Some(Entry::Rpdo2CommunicationParameterTransmissionType),
-            14 => Some(Entry::Rpdo3CommunicationParameterHighestSubIndexSupported),
-            15 => Some(Entry::Rpdo3CommunicationParameterCobIdUsedByRpdo),
-            16 => Some(Entry::Rpdo3CommunicationParameterTransmissionType),
-            17 => Some(Entry::Rpdo4CommunicationParameterHighestSubIndexSupported),
-            18 => Some(Entry::Rpdo4CommunicationParameterCobIdUsedByRpdo),
-            19 => Some(Entry::Rpdo4CommunicationParameterTransmissionType),
-            20 => Some(Entry::Rpdo1MappingParameterNumberOfMappedEntries),
-            21 => Some(Entry::Rpdo1MappingParameterMappedEntry1),
-            22 => Some(Entry::Rpdo1MappingParameterMappedEntry2),
-            23 => Some(Entry::Rpdo1MappingParameterMappedEntry3),
-            24 => Some(Entry::Rpdo1MappingParameterMappedEntry4),
-            25 => Some(Entry::Rpdo1MappingParameterMappedEntry5),
-            26 => Some(Entry::Rpdo1MappingParameterMappedEntry6),
-            27 => Some(Entry::Rpdo1MappingParameterMappedEntry7),
-            28 => Some(Entry::Rpdo1MappingParameterMappedEntry8),
-            29 => Some(Entry::Rpdo2MappingParameterNumberOfMappedEntries),
-            30 => Some(Entry::Rpdo2MappingParameterMappedEntry1),
-            31 => Some(Entry::Rpdo2MappingParameterMappedEntry2),
-            32 => Some(Entry::Rpdo2MappingParameterMappedEntry3),
-            33 => Some(Entry::Rpdo2MappingParameterMappedEntry4),
-            34 => Some(Entry::Rpdo2MappingParameterMappedEntry5),
-            35 => Some(Entry::Rpdo2MappingParameterMappedEntry6),
-            36 => Some(Entry::Rpdo2MappingParameterMappedEntry7),
-            37 => Some(Entry::Rpdo2MappingParameterMappedEntry8),
-            38 => Some(Entry::Rpdo3MappingParameterNumberOfMappedEntries),
-            39 => Some(Entry::Rpdo3MappingParameterMappedEntry1),
-            40 => Some(Entry::Rpdo3MappingParameterMappedEntry2),
-            41 => Some(Entry::Rpdo3MappingParameterMappedEntry3),
-            42 => Some(Entry::Rpdo3MappingParameterMappedEntry4),
-            43 => Some(Entry::Rpdo3MappingParameterMappedEntry5),
-            44 => Some(Entry::Rpdo3MappingParameterMappedEntry6),
-            45 => Some(Entry::Rpdo3MappingParameterMappedEntry7),
-            46 => Some(Entry::Rpdo3MappingParameterMappedEntry8),
-            47 => Some(Entry::Rpdo4MappingParameterNumberOfMappedEntries),
-            48 => Some(Entry::Rpdo4MappingParameterMappedEntry1),
-            49 => Some(Entry::Rpdo4MappingParameterMappedEntry2),
-            50 => Some(Entry::Rpdo4MappingParameterMappedEntry3),
-            51 => Some(Entry::Rpdo4MappingParameterMappedEntry4),
-            52 => Some(Entry::Rpdo4MappingParameterMappedEntry5),
-            53 => Some(Entry::Rpdo4MappingParameterMappedEntry6),
-            54 => Some(Entry::Rpdo4MappingParameterMappedEntry7),
-            55 => Some(Entry::Rpdo4MappingParameterMappedEntry8),
-            56 => Some(Entry::Tpdo1CommunicationParameterHighestSubIndexSupported),
-            57 => Some(Entry::Tpdo1CommunicationParameterCobIdUsedByTpdo),
-            58 => Some(Entry::Tpdo1CommunicationParameterTransmissionType),
-            59 => Some(Entry::Tpdo2CommunicationParameterHighestSubIndexSupported),
-            60 => Some(Entry::Tpdo2CommunicationParameterCobIdUsedByTpdo),
-            61 => Some(Entry::Tpdo2CommunicationParameterTransmissionType),
-            62 => Some(Entry::Tpdo3CommunicationParameterHighestSubIndexSupported),
-            63 => Some(Entry::Tpdo3CommunicationParameterCobIdUsedByTpdo),
-            64 => Some(Entry::Tpdo3CommunicationParameterTransmissionType),
-            65 => Some(Entry::Tpdo4CommunicationParameterHighestSubIndexSupported),
-            66 => Some(Entry::Tpdo4CommunicationParameterCobIdUsedByTpdo),
-            67 => Some(Entry::Tpdo4CommunicationParameterTransmissionType),
-            68 => Some(Entry::Tpdo1MappingParameterNumberOfMappedEntries),
-            69 => Some(Entry::Tpdo1MappingParameterMappedEntry1),
-            70 => Some(Entry::Tpdo1MappingParameterMappedEntry2),
-            71 => Some(Entry::Tpdo1MappingParameterMappedEntry3),
-            72 => Some(Entry::Tpdo1MappingParameterMappedEntry4),
-            73 => Some(Entry::Tpdo1MappingParameterMappedEntry5),
-            74 => Some(Entry::Tpdo1MappingParameterMappedEntry6),
-            75 => Some(Entry::Tpdo1MappingParameterMappedEntry7),
-            76 => Some(Entry::Tpdo1MappingParameterMappedEntry8),
-            77 => Some(Entry::Tpdo2MappingParameterNumberOfMappedEntries),
-            78 => Some(Entry::Tpdo2MappingParameterMappedEntry1),
-            79 => Some(Entry::Tpdo2MappingParameterMappedEntry2),
-            80 => Some(Entry::Tpdo2MappingParameterMappedEntry3),
-            81 => Some(Entry::Tpdo2MappingParameterMappedEntry4),
-            82 => Some(Entry::Tpdo2MappingParameterMappedEntry5),
-            83 => Some(Entry::Tpdo2MappingParameterMappedEntry6),
-            84 => Some(Entry::Tpdo2MappingParameterMappedEntry7),
-            85 => Some(Entry::Tpdo2MappingParameterMappedEntry8),
-            86 => Some(Entry::Tpdo3MappingParameterNumberOfMappedEntries),
-            87 => Some(Entry::Tpdo3MappingParameterMappedEntry1),
-            88 => Some(Entry::Tpdo3MappingParameterMappedEntry2),
-            89 => Some(Entry::Tpdo3MappingParameterMappedEntry3),
-            90 => Some(Entry::Tpdo3MappingParameterMappedEntry4),
-            91 => Some(Entry::Tpdo3MappingParameterMappedEntry5),
-            92 => Some(Entry::Tpdo3MappingParameterMappedEntry6),
-            93 => Some(Entry::Tpdo3MappingParameterMappedEntry7),
-            94 => Some(Entry::Tpdo3MappingParameterMappedEntry8),
-            95 => Some(Entry::Tpdo4MappingParameterNumberOfMappedEntries),
-            96 => Some(Entry::Tpdo4MappingParameterMappedEntry1),
-            97 => Some(Entry::Tpdo4MappingParameterMappedEntry2),
-            98 => Some(Entry::Tpdo4MappingParameterMappedEntry3),
-            99 => Some(Entry::Tpdo4MappingParameterMappedEntry4),
-            100 => Some(Entry::Tpdo4MappingParameterMappedEntry5),
-            101 => Some(Entry::Tpdo4MappingParameterMappedEntry6),
-            102 => Some(Entry::Tpdo4MappingParameterMappedEntry7),
-            103 => Some(Entry::Tpdo4MappingParameterMappedEntry8),
-            104 => Some(Entry::MotorParameterNumberOfElements),
-            105 => Some(Entry::MotorParameterMotorTemperature),
-            106 => Some(Entry::MotorParameterSupplyCurrent),
-            107 => Some(Entry::MotorParameterPhaseCurrentIq),
-            108 => Some(Entry::MotorParameterAmsErrors1),
-            109 => Some(Entry::MotorParameterAmsErrors2),
-            110 => Some(Entry::MotorParameterAmsErrors3),
-            111 => Some(Entry::MotorParameterDcLinkVoltage),
-            112 => Some(Entry::MotorParameterI2tCurrentLimit),
-            113 => Some(Entry::MotorParameterI2tMemory),
-            114 => Some(Entry::MotorParameterLogicSupplyVoltage),
-            115 => Some(Entry::ControllerParameterNumberOfElements),
-            116 => Some(Entry::ControllerParameterInternalService),
-            117 => Some(Entry::ControllerParameterInternalServicePassword),
-            118 => Some(Entry::ControllerParameterNodeNumber),
-            119 => Some(Entry::ControllerParameterSerialNumber),
-            120 => Some(Entry::ControllerParameterCurrentLimitDisplay),
-            121 => Some(Entry::ControllerParameterPositionControllerKp),
-            122 => Some(Entry::ControllerParameterPositionControllerKi),
-            123 => Some(Entry::ControllerParameterVelocityControllerKp),
-            124 => Some(Entry::ControllerParameterVelocityControllerKi),
-            125 => Some(Entry::ControllerParameterCurrentControllerIqKp),
-            126 => Some(Entry::ControllerParameterCurrentControllerIqKi),
-            127 => Some(Entry::ControllerParameterCurrentControllerIdKp),
-            128 => Some(Entry::ControllerParameterCurrentControllerIdKi),
-            129 => Some(Entry::InputFunctions1NumberOfElements),
-            130 => Some(Entry::InputFunctions1EdgeFunctions),
-            131 => Some(Entry::InputFunctions1EdgeTpdos),
-            132 => Some(Entry::InputFunctions1Result1),
-            133 => Some(Entry::InputFunctions1Result2),
-            134 => Some(Entry::InputFunctions1MotionDelay),
-            135 => Some(Entry::InputFunctions1TargetVelocity),
-            136 => Some(Entry::InputFunctions1Acceleration),
-            137 => Some(Entry::InputFunctions1TargetPosition),
-            138 => Some(Entry::InputFunctions2NumberOfElements),
-            139 => Some(Entry::InputFunctions2EdgeFunctions),
-            140 => Some(Entry::InputFunctions2EdgeTpdos),
-            141 => Some(Entry::InputFunctions2Result1),
-            142 => Some(Entry::InputFunctions2Result2),
-            143 => Some(Entry::InputFunctions2MotionDelay),
-            144 => Some(Entry::InputFunctions2TargetVelocity),
-            145 => Some(Entry::InputFunctions2Acceleration),
-            146 => Some(Entry::InputFunctions2TargetPosition),
-            147 => Some(Entry::InputFunctions3NumberOfElements),
-            148 => Some(Entry::InputFunctions3EdgeFunctions),
-            149 => Some(Entry::InputFunctions3EdgeTpdos),
-            150 => Some(Entry::InputFunctions3Result1),
-            151 => Some(Entry::InputFunctions3Result2),
-            152 => Some(Entry::InputFunctions3MotionDelay),
-            153 => Some(Entry::InputFunctions3TargetVelocity),
-            154 => Some(Entry::InputFunctions3Acceleration),
-            155 => Some(Entry::InputFunctions3TargetPosition),
-            156 => Some(Entry::InputFunctions4NumberOfElements),
-            157 => Some(Entry::InputFunctions4EdgeFunctions),
-            158 => Some(Entry::InputFunctions4EdgeTpdos),
-            159 => Some(Entry::InputFunctions4Result1),
-            160 => Some(Entry::InputFunctions4Result2),
-            161 => Some(Entry::InputFunctions4MotionDelay),
-            162 => Some(Entry::InputFunctions4TargetVelocity),
-            163 => Some(Entry::InputFunctions4Acceleration),
-            164 => Some(Entry::InputFunctions4TargetPosition),
-            165 => Some(Entry::InputFunctions5NumberOfElements),
-            166 => Some(Entry::InputFunctions5EdgeFunctions),
-            167 => Some(Entry::InputFunctions5EdgeTpdos),
-            168 => Some(Entry::InputFunctions5Result1),
-            169 => Some(Entry::InputFunctions5Result2),
-            170 => Some(Entry::InputFunctions5MotionDelay),
-            171 => Some(Entry::InputFunctions5TargetVelocity),
-            172 => Some(Entry::InputFunctions5Acceleration),
-            173 => Some(Entry::InputFunctions5TargetPosition),
-            174 => Some(Entry::InputFunctions6NumberOfElements),
-            175 => Some(Entry::InputFunctions6EdgeFunctions),
-            176 => Some(Entry::InputFunctions6EdgeTpdos),
-            177 => Some(Entry::InputFunctions6Result1),
-            178 => Some(Entry::InputFunctions6Result2),
-            179 => Some(Entry::InputFunctions6MotionDelay),
-            180 => Some(Entry::InputFunctions6TargetVelocity),
-            181 => Some(Entry::InputFunctions6Acceleration),
-            182 => Some(Entry::InputFunctions6TargetPosition),
-            183 => Some(Entry::InputFunctions7NumberOfElements),
-            184 => Some(Entry::InputFunctions7EdgeFunctions),
-            185 => Some(Entry::InputFunctions7EdgeTpdos),
-            186 => Some(Entry::InputFunctions7Result1),
-            187 => Some(Entry::InputFunctions7Result2),
-            188 => Some(Entry::InputFunctions7MotionDelay),
-            189 => Some(Entry::InputFunctions7TargetVelocity),
-            190 => Some(Entry::InputFunctions7Acceleration),
-            191 => Some(Entry::InputFunctions7TargetPosition),
-            192 => Some(Entry::InputFunctions8NumberOfElements),
-            193 => Some(Entry::InputFunctions8EdgeFunctions),
-            194 => Some(Entry::InputFunctions8EdgeTpdos),
-            195 => Some(Entry::InputFunctions8Result1),
-            196 => Some(Entry::InputFunctions8Result2),
-            197 => Some(Entry::InputFunctions8MotionDelay),
-            198 => Some(Entry::InputFunctions8TargetVelocity),
-            199 => Some(Entry::InputFunctions8Acceleration),
-            200 => Some(Entry::InputFunctions8TargetPosition),
-            201 => Some(Entry::InputFunctions9NumberOfElements),
-            202 => Some(Entry::InputFunctions9EdgeFunctions),
-            203 => Some(Entry::InputFunctions9EdgeTpdos),
-            204 => Some(Entry::InputFunctions9Result1),
-            205 => Some(Entry::InputFunctions9Result2),
-            206 => Some(Entry::InputFunctions9MotionDelay),
-            207 => Some(Entry::InputFunctions9TargetVelocity),
-            208 => Some(Entry::InputFunctions9Acceleration),
-            209 => Some(Entry::InputFunctions9TargetPosition),
-            210 => Some(Entry::Controlword),
-            211 => Some(Entry::Statusword),
-            212 => Some(Entry::QuickStopOptionCode),
-            213 => Some(Entry::ShutdownOptionCode),
-            214 => Some(Entry::DisableOperationOptionCode),
-            215 => Some(Entry::HaltOptionCode),
-            216 => Some(Entry::FaultReactionOptionCode),
-            217 => Some(Entry::ModesOfOperation),
-            218 => Some(Entry::ModesOfOperationDisplay),
-            219 => Some(Entry::PositionDemandValue),
-            220 => Some(Entry::PositionActualInternalValue),
-            221 => Some(Entry::PositionActualValue),
-            222 => Some(Entry::PositionWindow),
-            223 => Some(Entry::PositionWindowTime),
-            224 => Some(Entry::VelocityDemandValue),
-            225 => Some(Entry::VelocityActualValue),
-            226 => Some(Entry::VelocityWindow),
-            227 => Some(Entry::VelocityWindowTime),
-            228 => Some(Entry::VelocityThreshold),
-            229 => Some(Entry::VelocityThresholdTime),
-            230 => Some(Entry::TargetTorque),
-            231 => Some(Entry::MaxTorque),
-            232 => Some(Entry::MaxCurrent),
-            233 => Some(Entry::TorqueDemand),
-            234 => Some(Entry::MotorRatedCurrent),
-            235 => Some(Entry::MotorRatedTorque),
-            236 => Some(Entry::TorqueActualValue),
-            237 => Some(Entry::CurrentActualValue),
-            238 => Some(Entry::DcLinkCircuitVoltage),
-            239 => Some(Entry::TargetPosition),
-            240 => Some(Entry::HomeOffset),
-            241 => Some(Entry::SoftwarePositionLimitHighestSubIndexSupported),
-            242 => Some(Entry::SoftwarePositionLimitMinPositionLimit),
-            243 => Some(Entry::SoftwarePositionLimitMaxPositionLimit),
-            244 => Some(Entry::Polarity),
-            245 => Some(Entry::MaxProfileVelocity),
-            246 => Some(Entry::MaxMotorSpeed),
-            247 => Some(Entry::ProfileVelocity),
-            248 => Some(Entry::ProfileAcceleration),
-            249 => Some(Entry::ProfileDeceleration),
-            250 => Some(Entry::QuickStopDeceleration),
-            251 => Some(Entry::TorqueSlope),
-            252 => Some(Entry::PositionEncoderResolutionHighestSubIndexSupported),
-            253 => Some(Entry::PositionEncoderResolutionEncoderIncrements),
-            254 => Some(Entry::PositionEncoderResolutionMotorRevolutions),
-            255 => Some(Entry::GearRatioHighestSubIndexSupported),
-            256 => Some(Entry::GearRatioMotorShaftRevolutions),
-            257 => Some(Entry::GearRatioDrivingShaftRevolutions),
-            258 => Some(Entry::FeedConstantHighestSubIndexSupported),
-            259 => Some(Entry::FeedConstantFeed),
-            260 => Some(Entry::FeedConstantShaftRevolutions),
-            261 => Some(Entry::HomingMethod),
-            262 => Some(Entry::HomingSpeedsHighestSubIndexSupported),
-            263 => Some(Entry::HomingSpeedsSpeedDuringSearchForSwitch),
-            264 => Some(Entry::HomingSpeedsSpeedDuringSearchForZero),
-            265 => Some(Entry::HomingAcceleration),
-            266 => Some(Entry::TouchProbeFunction),
-            267 => Some(Entry::MaxAcceleration),
-            268 => Some(Entry::MaxDeceleration),
-            269 => Some(Entry::PositioningOptionCode),
-            270 => Some(Entry::PositionDemandInternalValue),
-            271 => Some(Entry::TargetVelocity),
-            _ => None,
-        }
+        Some(
+            match row {
+                0 => Entry::DeviceType,
+                1 => Entry::ErrorRegister,
+                2 => Entry::CobIdEmcy,
+                3 => Entry::ProducerHeartbeatTime,
+                4 => Entry::IdentityObjectHighestSubIndexSupported,
+                5 => Entry::IdentityObjectVendorId,
+                6 => Entry::IdentityObjectProductCode,
+                7 => Entry::IdentityObjectRevisionNumber,
+                8 => Entry::Rpdo1CommunicationParameterHighestSubIndexSupported,
+                9 => Entry::Rpdo1CommunicationParameterCobIdUsedByRpdo,
+                10 => Entry::Rpdo1CommunicationParameterTransmissionType,
+                11 => Entry::Rpdo2CommunicationParameterHighestSubIndexSupported,
+                12 => Entry::Rpdo2CommunicationParameterCobIdUsedByRpdo,
+                13 => Entry::Rpdo2CommunicationParameterTransmissionType,
+                14 => Entry::Rpdo3CommunicationParameterHighestSubIndexSupported,
+                15 => Entry::Rpdo3CommunicationParameterCobIdUsedByRpdo,
+                16 => Entry::Rpdo3CommunicationParameterTransmissionType,
+                17 => Entry::Rpdo4CommunicationParameterHighestSubIndexSupported,
+                18 => Entry::Rpdo4CommunicationParameterCobIdUsedByRpdo,
+                19 => Entry::Rpdo4CommunicationParameterTransmissionType,
+                20 => Entry::Rpdo1MappingParameterNumberOfMappedEntries,
+                21 => Entry::Rpdo1MappingParameterMappedEntry1,
+                22 => Entry::Rpdo1MappingParameterMappedEntry2,
+                23 => Entry::Rpdo1MappingParameterMappedEntry3,
+                24 => Entry::Rpdo1MappingParameterMappedEntry4,
+                25 => Entry::Rpdo1MappingParameterMappedEntry5,
+                26 => Entry::Rpdo1MappingParameterMappedEntry6,
+                27 => Entry::Rpdo1MappingParameterMappedEntry7,
+                28 => Entry::Rpdo1MappingParameterMappedEntry8,
+                29 => Entry::Rpdo2MappingParameterNumberOfMappedEntries,
+                30 => Entry::Rpdo2MappingParameterMappedEntry1,
+                31 => Entry::Rpdo2MappingParameterMappedEntry2,
+                32 => Entry::Rpdo2MappingParameterMappedEntry3,
+                33 => Entry::Rpdo2MappingParameterMappedEntry4,
+                34 => Entry::Rpdo2MappingParameterMappedEntry5,
+                35 => Entry::Rpdo2MappingParameterMappedEntry6,
+                36 => Entry::Rpdo2MappingParameterMappedEntry7,
+                37 => Entry::Rpdo2MappingParameterMappedEntry8,
+                38 => Entry::Rpdo3MappingParameterNumberOfMappedEntries,
+                39 => Entry::Rpdo3MappingParameterMappedEntry1,
+                40 => Entry::Rpdo3MappingParameterMappedEntry2,
+                41 => Entry::Rpdo3MappingParameterMappedEntry3,
+                42 => Entry::Rpdo3MappingParameterMappedEntry4,
+                43 => Entry::Rpdo3MappingParameterMappedEntry5,
+                44 => Entry::Rpdo3MappingParameterMappedEntry6,
+                45 => Entry::Rpdo3MappingParameterMappedEntry7,
+                46 => Entry::Rpdo3MappingParameterMappedEntry8,
+                47 => Entry::Rpdo4MappingParameterNumberOfMappedEntries,
+                48 => Entry::Rpdo4MappingParameterMappedEntry1,
+                49 => Entry::Rpdo4MappingParameterMappedEntry2,
+                50 => Entry::Rpdo4MappingParameterMappedEntry3,
+                51 => Entry::Rpdo4MappingParameterMappedEntry4,
+                52 => Entry::Rpdo4MappingParameterMappedEntry5,
+                53 => Entry::Rpdo4MappingParameterMappedEntry6,
+                54 => Entry::Rpdo4MappingParameterMappedEntry7,
+                55 => Entry::Rpdo4MappingParameterMappedEntry8,
+                56 => Entry::Tpdo1CommunicationParameterHighestSubIndexSupported,
+                57 => Entry::Tpdo1CommunicationParameterCobIdUsedByTpdo,
+                58 => Entry::Tpdo1CommunicationParameterTransmissionType,
+                59 => Entry::Tpdo2CommunicationParameterHighestSubIndexSupported,
+                60 => Entry::Tpdo2CommunicationParameterCobIdUsedByTpdo,
+                61 => Entry::Tpdo2CommunicationParameterTransmissionType,
+                62 => Entry::Tpdo3CommunicationParameterHighestSubIndexSupported,
+                63 => Entry::Tpdo3CommunicationParameterCobIdUsedByTpdo,
+                64 => Entry::Tpdo3CommunicationParameterTransmissionType,
+                65 => Entry::Tpdo4CommunicationParameterHighestSubIndexSupported,
+                66 => Entry::Tpdo4CommunicationParameterCobIdUsedByTpdo,
+                67 => Entry::Tpdo4CommunicationParameterTransmissionType,
+                68 => Entry::Tpdo1MappingParameterNumberOfMappedEntries,
+                69 => Entry::Tpdo1MappingParameterMappedEntry1,
+                70 => Entry::Tpdo1MappingParameterMappedEntry2,
+                71 => Entry::Tpdo1MappingParameterMappedEntry3,
+                72 => Entry::Tpdo1MappingParameterMappedEntry4,
+                73 => Entry::Tpdo1MappingParameterMappedEntry5,
+                74 => Entry::Tpdo1MappingParameterMappedEntry6,
+                75 => Entry::Tpdo1MappingParameterMappedEntry7,
+                76 => Entry::Tpdo1MappingParameterMappedEntry8,
+                77 => Entry::Tpdo2MappingParameterNumberOfMappedEntries,
+                78 => Entry::Tpdo2MappingParameterMappedEntry1,
+                79 => Entry::Tpdo2MappingParameterMappedEntry2,
+                80 => Entry::Tpdo2MappingParameterMappedEntry3,
+                81 => Entry::Tpdo2MappingParameterMappedEntry4,
+                82 => Entry::Tpdo2MappingParameterMappedEntry5,
+                83 => Entry::Tpdo2MappingParameterMappedEntry6,
+                84 => Entry::Tpdo2MappingParameterMappedEntry7,
+                85 => Entry::Tpdo2MappingParameterMappedEntry8,
+                86 => Entry::Tpdo3MappingParameterNumberOfMappedEntries,
+                87 => Entry::Tpdo3MappingParameterMappedEntry1,
+                88 => Entry::Tpdo3MappingParameterMappedEntry2,
+                89 => Entry::Tpdo3MappingParameterMappedEntry3,
+                90 => Entry::Tpdo3MappingParameterMappedEntry4,
+                91 => Entry::Tpdo3MappingParameterMappedEntry5,
+                92 => Entry::Tpdo3MappingParameterMappedEntry6,
+                93 => Entry::Tpdo3MappingParameterMappedEntry7,
+                94 => Entry::Tpdo3MappingParameterMappedEntry8,
+                95 => Entry::Tpdo4MappingParameterNumberOfMappedEntries,
+                96 => Entry::Tpdo4MappingParameterMappedEntry1,
+                97 => Entry::Tpdo4MappingParameterMappedEntry2,
+                98 => Entry::Tpdo4MappingParameterMappedEntry3,
+                99 => Entry::Tpdo4MappingParameterMappedEntry4,
+                100 => Entry::Tpdo4MappingParameterMappedEntry5,
+                101 => Entry::Tpdo4MappingParameterMappedEntry6,
+                102 => Entry::Tpdo4MappingParameterMappedEntry7,
+                103 => Entry::Tpdo4MappingParameterMappedEntry8,
+                104 => Entry::MotorParameterNumberOfElements,
+                105 => Entry::MotorParameterMotorTemperature,
+                106 => Entry::MotorParameterSupplyCurrent,
+                107 => Entry::MotorParameterPhaseCurrentIq,
+                108 => Entry::MotorParameterAmsErrors1,
+                109 => Entry::MotorParameterAmsErrors2,
+                110 => Entry::MotorParameterAmsErrors3,
+                111 => Entry::MotorParameterDcLinkVoltage,
+                112 => Entry::MotorParameterI2tCurrentLimit,
+                113 => Entry::MotorParameterI2tMemory,
+                114 => Entry::MotorParameterLogicSupplyVoltage,
+                115 => Entry::ControllerParameterNumberOfElements,
+                116 => Entry::ControllerParameterInternalService,
+                117 => Entry::ControllerParameterInternalServicePassword,
+                118 => Entry::ControllerParameterNodeNumber,
+                119 => Entry::ControllerParameterSerialNumber,
+                120 => Entry::ControllerParameterCurrentLimitDisplay,
+                121 => Entry::ControllerParameterPositionControllerKp,
+                122 => Entry::ControllerParameterPositionControllerKi,
+                123 => Entry::ControllerParameterVelocityControllerKp,
+                124 => Entry::ControllerParameterVelocityControllerKi,
+                125 => Entry::ControllerParameterCurrentControllerIqKp,
+                126 => Entry::ControllerParameterCurrentControllerIqKi,
+                127 => Entry::ControllerParameterCurrentControllerIdKp,
+                128 => Entry::ControllerParameterCurrentControllerIdKi,
+                129 => Entry::InputFunctions1NumberOfElements,
+                130 => Entry::InputFunctions1EdgeFunctions,
+                131 => Entry::InputFunctions1EdgeTpdos,
+                132 => Entry::InputFunctions1Result1,
+                133 => Entry::InputFunctions1Result2,
+                134 => Entry::InputFunctions1MotionDelay,
+                135 => Entry::InputFunctions1TargetVelocity,
+                136 => Entry::InputFunctions1Acceleration,
+                137 => Entry::InputFunctions1TargetPosition,
+                138 => Entry::InputFunctions2NumberOfElements,
+                139 => Entry::InputFunctions2EdgeFunctions,
+                140 => Entry::InputFunctions2EdgeTpdos,
+                141 => Entry::InputFunctions2Result1,
+                142 => Entry::InputFunctions2Result2,
+                143 => Entry::InputFunctions2MotionDelay,
+                144 => Entry::InputFunctions2TargetVelocity,
+                145 => Entry::InputFunctions2Acceleration,
+                146 => Entry::InputFunctions2TargetPosition,
+                147 => Entry::InputFunctions3NumberOfElements,
+                148 => Entry::InputFunctions3EdgeFunctions,
+                149 => Entry::InputFunctions3EdgeTpdos,
+                150 => Entry::InputFunctions3Result1,
+                151 => Entry::InputFunctions3Result2,
+                152 => Entry::InputFunctions3MotionDelay,
+                153 => Entry::InputFunctions3TargetVelocity,
+                154 => Entry::InputFunctions3Acceleration,
+                155 => Entry::InputFunctions3TargetPosition,
+                156 => Entry::InputFunctions4NumberOfElements,
+                157 => Entry::InputFunctions4EdgeFunctions,
+                158 => Entry::InputFunctions4EdgeTpdos,
+                159 => Entry::InputFunctions4Result1,
+                160 => Entry::InputFunctions4Result2,
+                161 => Entry::InputFunctions4MotionDelay,
+                162 => Entry::InputFunctions4TargetVelocity,
+                163 => Entry::InputFunctions4Acceleration,
+                164 => Entry::InputFunctions4TargetPosition,
+                165 => Entry::InputFunctions5NumberOfElements,
+                166 => Entry::InputFunctions5EdgeFunctions,
+                167 => Entry::InputFunctions5EdgeTpdos,
+                168 => Entry::InputFunctions5Result1,
+                169 => Entry::InputFunctions5Result2,
+                170 => Entry::InputFunctions5MotionDelay,
+                171 => Entry::InputFunctions5TargetVelocity,
+                172 => Entry::InputFunctions5Acceleration,
+                173 => Entry::InputFunctions5TargetPosition,
+                174 => Entry::InputFunctions6NumberOfElements,
+                175 => Entry::InputFunctions6EdgeFunctions,
+                176 => Entry::InputFunctions6EdgeTpdos,
+                177 => Entry::InputFunctions6Result1,
+                178 => Entry::InputFunctions6Result2,
+                179 => Entry::InputFunctions6MotionDelay,
+                180 => Entry::InputFunctions6TargetVelocity,
+                181 => Entry::InputFunctions6Acceleration,
+                182 => Entry::InputFunctions6TargetPosition,
+                183 => Entry::InputFunctions7NumberOfElements,
+                184 => Entry::InputFunctions7EdgeFunctions,
+                185 => Entry::InputFunctions7EdgeTpdos,
+                186 => Entry::InputFunctions7Result1,
+                187 => Entry::InputFunctions7Result2,
+                188 => Entry::InputFunctions7MotionDelay,
+                189 => Entry::InputFunctions7TargetVelocity,
+                190 => Entry::InputFunctions7Acceleration,
+                191 => Entry::InputFunctions7TargetPosition,
+                192 => Entry::InputFunctions8NumberOfElements,
+                193 => Entry::InputFunctions8EdgeFunctions,
+                194 => Entry::InputFunctions8EdgeTpdos,
+                195 => Entry::InputFunctions8Result1,
+                196 => Entry::InputFunctions8Result2,
+                197 => Entry::InputFunctions8MotionDelay,
+                198 => Entry::InputFunctions8TargetVelocity,
+                199 => Entry::InputFunctions8Acceleration,
+                200 => Entry::InputFunctions8TargetPosition,
+                201 => Entry::InputFunctions9NumberOfElements,
+                202 => Entry::InputFunctions9EdgeFunctions,
+                203 => Entry::InputFunctions9EdgeTpdos,
+                204 => Entry::InputFunctions9Result1,
+                205 => Entry::InputFunctions9Result2,
+                206 => Entry::InputFunctions9MotionDelay,
+                207 => Entry::InputFunctions9TargetVelocity,
+                208 => Entry::InputFunctions9Acceleration,
+                209 => Entry::InputFunctions9TargetPosition,
+                210 => Entry::Controlword,
+                211 => Entry::Statusword,
+                212 => Entry::QuickStopOptionCode,
+                213 => Entry::ShutdownOptionCode,
+                214 => Entry::DisableOperationOptionCode,
+                215 => Entry::HaltOptionCode,
+                216 => Entry::FaultReactionOptionCode,
+                217 => Entry::ModesOfOperation,
+                218 => Entry::ModesOfOperationDisplay,
+                219 => Entry::PositionDemandValue,
+                220 => Entry::PositionActualInternalValue,
+                221 => Entry::PositionActualValue,
+                222 => Entry::PositionWindow,
+                223 => Entry::PositionWindowTime,
+                224 => Entry::VelocityDemandValue,
+                225 => Entry::VelocityActualValue,
+                226 => Entry::VelocityWindow,
+                227 => Entry::VelocityWindowTime,
+                228 => Entry::VelocityThreshold,
+                229 => Entry::VelocityThresholdTime,
+                230 => Entry::TargetTorque,
+                231 => Entry::MaxTorque,
+                232 => Entry::MaxCurrent,
+                233 => Entry::TorqueDemand,
+                234 => Entry::MotorRatedCurrent,
+                235 => Entry::MotorRatedTorque,
+                236 => Entry::TorqueActualValue,
+                237 => Entry::CurrentActualValue,
+                238 => Entry::DcLinkCircuitVoltage,
+                239 => Entry::TargetPosition,
+                240 => Entry::HomeOffset,
+                241 => Entry::SoftwarePositionLimitHighestSubIndexSupported,
+                242 => Entry::SoftwarePositionLimitMinPositionLimit,
+                243 => Entry::SoftwarePositionLimitMaxPositionLimit,
+                244 => Entry::Polarity,
+                245 => Entry::MaxProfileVelocity,
+                246 => Entry::MaxMotorSpeed,
+                247 => Entry::ProfileVelocity,
+                248 => Entry::ProfileAcceleration,
+                249 => Entry::ProfileDeceleration,
+                250 => Entry::QuickStopDeceleration,
+                251 => Entry::TorqueSlope,
+                252 => Entry::PositionEncoderResolutionHighestSubIndexSupported,
+                253 => Entry::PositionEncoderResolutionEncoderIncrements,
+                254 => Entry::PositionEncoderResolutionMotorRevolutions,
+                255 => Entry::GearRatioHighestSubIndexSupported,
+                256 => Entry::GearRatioMotorShaftRevolutions,
+                257 => Entry::GearRatioDrivingShaftRevolutions,
+                258 => Entry::FeedConstantHighestSubIndexSupported,
+                259 => Entry::FeedConstantFeed,
+                260 => Entry::FeedConstantShaftRevolutions,
+                261 => Entry::HomingMethod,
+                262 => Entry::HomingSpeedsHighestSubIndexSupported,
+                263 => Entry::HomingSpeedsSpeedDuringSearchForSwitch,
+                264 => Entry::HomingSpeedsSpeedDuringSearchForZero,
+                265 => Entry::HomingAcceleration,
+                266 => Entry::TouchProbeFunction,
+                267 => Entry::MaxAcceleration,
+                268 => Entry::MaxDeceleration,
+                269 => Entry::PositioningOptionCode,
+                270 => Entry::PositionDemandInternalValue,
+                271 => Entry::TargetVelocity,
+                _ => return None,
+            },
+        )
     }
 
     #[inline]
@@ -5662,281 +5664,39 @@ static SEEDS: [u8; 7] = [1, 0, 2, 0, 14, 16, 5];
 /// The blocks by ascending index.
 static ORDER: [u16; 13] = [3, 5, 12, 7, 11, 6, 1, 2, 9, 0, 8, 4, 10];
 
-/// Entries by row: attributes and place.
-static ENTRIES: [glue::table::EntryRow; 272] = glue::table::entries([
-    [0, 304],
-    [1, 760],
-    [2, 308],
-    [3, 604],
-    [4, 0],
-    [0, 312],
-    [0, 316],
-    [0, 320],
-    [4, 1],
-    [5, 0],
-    [6, 288],
-    [4, 1],
-    [5, 4],
-    [6, 289],
-    [4, 1],
-    [5, 8],
-    [6, 290],
-    [4, 1],
-    [5, 12],
-    [6, 291],
-    [6, 292],
-    [5, 16],
-    [5, 20],
-    [5, 24],
-    [5, 28],
-    [5, 32],
-    [5, 36],
-    [5, 40],
-    [5, 44],
-    [6, 293],
-    [5, 48],
-    [5, 52],
-    [5, 56],
-    [5, 60],
-    [5, 64],
-    [5, 68],
-    [5, 72],
-    [5, 76],
-    [6, 294],
-    [5, 80],
-    [5, 84],
-    [5, 88],
-    [5, 92],
-    [5, 96],
-    [5, 100],
-    [5, 104],
-    [5, 108],
-    [6, 295],
-    [5, 112],
-    [5, 116],
-    [5, 120],
-    [5, 124],
-    [5, 128],
-    [5, 132],
-    [5, 136],
-    [5, 140],
-    [4, 1],
-    [5, 144],
-    [6, 296],
-    [4, 1],
-    [5, 148],
-    [6, 297],
-    [4, 1],
-    [5, 152],
-    [6, 298],
-    [4, 1],
-    [5, 156],
-    [6, 299],
-    [6, 300],
-    [5, 160],
-    [5, 164],
-    [5, 168],
-    [5, 172],
-    [5, 176],
-    [5, 180],
-    [5, 184],
-    [5, 188],
-    [6, 301],
-    [5, 192],
-    [5, 196],
-    [5, 200],
-    [5, 204],
-    [5, 208],
-    [5, 212],
-    [5, 216],
-    [5, 220],
-    [6, 302],
-    [5, 224],
-    [5, 228],
-    [5, 232],
-    [5, 236],
-    [5, 240],
-    [5, 244],
-    [5, 248],
-    [5, 252],
-    [6, 303],
-    [5, 256],
-    [5, 260],
-    [5, 264],
-    [5, 268],
-    [5, 272],
-    [5, 276],
-    [5, 280],
-    [5, 284],
-    [7, 2],
-    [8, 606],
-    [8, 608],
-    [8, 610],
-    [9, 612],
-    [9, 614],
-    [9, 616],
-    [9, 618],
-    [9, 620],
-    [9, 622],
-    [9, 624],
-    [4, 3],
-    [10, 626],
-    [11, 628],
-    [1, 761],
-    [0, 324],
-    [12, 630],
-    [10, 632],
-    [10, 634],
-    [10, 636],
-    [10, 638],
-    [10, 640],
-    [10, 642],
-    [10, 644],
-    [10, 646],
-    [4, 4],
-    [3, 648],
-    [3, 650],
-    [13, 328],
-    [13, 332],
-    [3, 652],
-    [13, 336],
-    [3, 654],
-    [13, 340],
-    [4, 4],
-    [3, 656],
-    [3, 658],
-    [13, 344],
-    [13, 348],
-    [3, 660],
-    [13, 352],
-    [3, 662],
-    [13, 356],
-    [4, 4],
-    [3, 664],
-    [3, 666],
-    [13, 360],
-    [13, 364],
-    [3, 668],
-    [13, 368],
-    [3, 670],
-    [13, 372],
-    [4, 4],
-    [3, 672],
-    [3, 674],
-    [13, 376],
-    [13, 380],
-    [3, 676],
-    [13, 384],
-    [3, 678],
-    [13, 388],
-    [4, 4],
-    [3, 680],
-    [3, 682],
-    [13, 392],
-    [13, 396],
-    [3, 684],
-    [13, 400],
-    [3, 686],
-    [13, 404],
-    [4, 4],
-    [3, 688],
-    [3, 690],
-    [13, 408],
-    [13, 412],
-    [3, 692],
-    [13, 416],
-    [3, 694],
-    [13, 420],
-    [4, 4],
-    [3, 696],
-    [3, 698],
-    [13, 424],
-    [13, 428],
-    [3, 700],
-    [13, 432],
-    [3, 702],
-    [13, 436],
-    [4, 4],
-    [3, 704],
-    [3, 706],
-    [13, 440],
-    [13, 444],
-    [3, 708],
-    [13, 448],
-    [3, 710],
-    [13, 452],
-    [4, 4],
-    [3, 712],
-    [3, 714],
-    [13, 456],
-    [13, 460],
-    [3, 716],
-    [13, 464],
-    [3, 718],
-    [13, 468],
-    [14, 720],
-    [15, 722],
-    [16, 724],
-    [17, 726],
-    [17, 728],
-    [18, 730],
-    [18, 732],
-    [19, 762],
-    [20, 763],
-    [21, 472],
-    [21, 476],
-    [21, 480],
-    [22, 484],
-    [14, 734],
-    [21, 488],
-    [21, 492],
-    [14, 736],
-    [14, 738],
-    [14, 740],
-    [14, 742],
-    [23, 744],
-    [14, 746],
-    [14, 748],
-    [24, 750],
-    [2, 496],
-    [2, 500],
-    [24, 752],
-    [24, 754],
-    [25, 504],
-    [26, 508],
-    [26, 512],
-    [4, 1],
-    [13, 516],
-    [13, 520],
-    [27, 764],
-    [22, 524],
-    [22, 528],
-    [22, 532],
-    [22, 536],
-    [22, 540],
-    [22, 544],
-    [22, 548],
-    [4, 1],
-    [2, 552],
-    [2, 556],
-    [4, 1],
-    [2, 560],
-    [2, 564],
-    [4, 1],
-    [2, 568],
-    [2, 572],
-    [28, 765],
-    [4, 1],
-    [22, 576],
-    [22, 580],
-    [22, 584],
-    [3, 756],
-    [22, 588],
-    [22, 592],
-    [14, 758],
-    [21, 596],
-    [26, 600],
-]);
+/// Entries by row: attributes and place in turn.
+static ENTRIES: [glue::table::EntryRow; 272] = glue::table::entries(
+    &[
+        0, 304, 1, 760, 2, 308, 3, 604, 4, 0, 0, 312, 0, 316, 0, 320, 4, 1, 5, 0, 6, 288,
+        4, 1, 5, 4, 6, 289, 4, 1, 5, 8, 6, 290, 4, 1, 5, 12, 6, 291, 6, 292, 5, 16, 5,
+        20, 5, 24, 5, 28, 5, 32, 5, 36, 5, 40, 5, 44, 6, 293, 5, 48, 5, 52, 5, 56, 5, 60,
+        5, 64, 5, 68, 5, 72, 5, 76, 6, 294, 5, 80, 5, 84, 5, 88, 5, 92, 5, 96, 5, 100, 5,
+        104, 5, 108, 6, 295, 5, 112, 5, 116, 5, 120, 5, 124, 5, 128, 5, 132, 5, 136, 5,
+        140, 4, 1, 5, 144, 6, 296, 4, 1, 5, 148, 6, 297, 4, 1, 5, 152, 6, 298, 4, 1, 5,
+        156, 6, 299, 6, 300, 5, 160, 5, 164, 5, 168, 5, 172, 5, 176, 5, 180, 5, 184, 5,
+        188, 6, 301, 5, 192, 5, 196, 5, 200, 5, 204, 5, 208, 5, 212, 5, 216, 5, 220, 6,
+        302, 5, 224, 5, 228, 5, 232, 5, 236, 5, 240, 5, 244, 5, 248, 5, 252, 6, 303, 5,
+        256, 5, 260, 5, 264, 5, 268, 5, 272, 5, 276, 5, 280, 5, 284, 7, 2, 8, 606, 8,
+        608, 8, 610, 9, 612, 9, 614, 9, 616, 9, 618, 9, 620, 9, 622, 9, 624, 4, 3, 10,
+        626, 11, 628, 1, 761, 0, 324, 12, 630, 10, 632, 10, 634, 10, 636, 10, 638, 10,
+        640, 10, 642, 10, 644, 10, 646, 4, 4, 3, 648, 3, 650, 13, 328, 13, 332, 3, 652,
+        13, 336, 3, 654, 13, 340, 4, 4, 3, 656, 3, 658, 13, 344, 13, 348, 3, 660, 13,
+        352, 3, 662, 13, 356, 4, 4, 3, 664, 3, 666, 13, 360, 13, 364, 3, 668, 13, 368, 3,
+        670, 13, 372, 4, 4, 3, 672, 3, 674, 13, 376, 13, 380, 3, 676, 13, 384, 3, 678,
+        13, 388, 4, 4, 3, 680, 3, 682, 13, 392, 13, 396, 3, 684, 13, 400, 3, 686, 13,
+        404, 4, 4, 3, 688, 3, 690, 13, 408, 13, 412, 3, 692, 13, 416, 3, 694, 13, 420, 4,
+        4, 3, 696, 3, 698, 13, 424, 13, 428, 3, 700, 13, 432, 3, 702, 13, 436, 4, 4, 3,
+        704, 3, 706, 13, 440, 13, 444, 3, 708, 13, 448, 3, 710, 13, 452, 4, 4, 3, 712, 3,
+        714, 13, 456, 13, 460, 3, 716, 13, 464, 3, 718, 13, 468, 14, 720, 15, 722, 16,
+        724, 17, 726, 17, 728, 18, 730, 18, 732, 19, 762, 20, 763, 21, 472, 21, 476, 21,
+        480, 22, 484, 14, 734, 21, 488, 21, 492, 14, 736, 14, 738, 14, 740, 14, 742, 23,
+        744, 14, 746, 14, 748, 24, 750, 2, 496, 2, 500, 24, 752, 24, 754, 25, 504, 26,
+        508, 26, 512, 4, 1, 13, 516, 13, 520, 27, 764, 22, 524, 22, 528, 22, 532, 22,
+        536, 22, 540, 22, 544, 22, 548, 4, 1, 2, 552, 2, 556, 4, 1, 2, 560, 2, 564, 4, 1,
+        2, 568, 2, 572, 28, 765, 4, 1, 22, 576, 22, 580, 22, 584, 3, 756, 22, 588, 22,
+        592, 14, 758, 21, 596, 26, 600,
+    ],
+);
 
 /// What every entry is.
 static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {

@@ -2571,17 +2571,17 @@ pub mod records {
     pub struct Rpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Pmm>> Rpdo1CommunicationParameter<D> {
-        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2618,17 +2618,17 @@ pub mod records {
     pub struct Tpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Pmm>> Tpdo1CommunicationParameter<D> {
-        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)
+        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame
+        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -3350,7 +3350,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorBattery<D> {
         /// Sub-index 1: warning limit: Warning from this temperature on.
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3360,7 +3360,7 @@ pub mod records {
 
         /// Sub-index 2: error limit: Fault with an emergency message from this temperature on.
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3370,7 +3370,7 @@ pub mod records {
 
         /// Sub-index 3: lower limit: Warning below this temperature.
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3417,7 +3417,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> TemperatureControllerBattery<D> {
         /// Sub-index 1: heater: Heater and fan run below this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
+        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn heater(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3427,7 +3427,7 @@ pub mod records {
 
         /// Sub-index 2: cooler: Cooler and fan run above this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
+        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn cooler(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3437,7 +3437,7 @@ pub mod records {
 
         /// Sub-index 3: hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
         ///
-        /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
+        /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
             super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, self.1[2]))
@@ -3445,7 +3445,7 @@ pub mod records {
 
         /// Sub-index 4: output heater: Outputs that switch the heater.
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// UNSIGNED16, rw, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3455,7 +3455,7 @@ pub mod records {
 
         /// Sub-index 5: output cooler: Outputs that switch the cooler.
         ///
-        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
+        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn output_cooler(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3465,7 +3465,7 @@ pub mod records {
 
         /// Sub-index 6: output fan: Outputs that switch the fan.
         ///
-        /// The objects differ in their limits, defaults or PDOs.
+        /// UNSIGNED16, rw, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3475,7 +3475,7 @@ pub mod records {
 
         /// Sub-index 7: delay fan off: Time for which the fan runs on after heating or cooling.
         ///
-        /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
+        /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters. What is not said here is not the same for all objects.
         #[inline]
         pub fn delay_fan_off(&self) -> super::units::Second<u16> {
             super::units::Second(super::glue::get_u16(&self.0.borrow().0, self.1[6]))
@@ -6261,82 +6261,82 @@ pub mod errors {
 #[allow(dead_code, unreachable_pub)]
 pub mod units {
     ::firmware_glue::unit! {
-        #[doc = " ampere: one raw step is 1 A."] pub struct Ampere = "A", scale 1 / 1,
+        #[doc = r" ampere: one raw step is 1 A."] pub struct Ampere = "A", scale 1 / 1,
         step 1 / 1 of BaseA;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " centidegree: one raw step is 0.01 °. Blade angle; one raw step is 0.01°."]
+        r" centidegree: one raw step is 0.01 °. Blade angle; one raw step is 0.01°."]
         pub struct Centidegree = "°", scale 1 / 100, step 1 / 100 of BaseDegree;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " decicelsius: one raw step is 0.1 °C. Temperature; one raw step is 0.1 °C."]
+        r" decicelsius: one raw step is 0.1 °C. Temperature; one raw step is 0.1 °C."]
         pub struct Decicelsius = "°C", scale 1 / 10, step 1 / 10 of BaseDegreeC;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " decikelvin: one raw step is 0.1 K. Temperature difference; one raw step is 0.1 K."]
+        r" decikelvin: one raw step is 0.1 K. Temperature difference; one raw step is 0.1 K."]
         pub struct Decikelvin = "K", scale 1 / 10, step 1 / 10 of BaseK;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " microhenry: one raw step is 1 µH."] pub struct Microhenry = "µH",
+        #[doc = r" microhenry: one raw step is 1 µH."] pub struct Microhenry = "µH",
         scale 1 / 1, step 1 / 1_000_000 of BaseH;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
+        #[doc = r" milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
         scale 1 / 1, step 1 / 1000 of BaseA;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " milliampere hour: one raw step is 1 mAh. Electric charge. The objects are named after Ah but count in mAh."]
+        r" milliampere hour: one raw step is 1 mAh. Electric charge. The objects are named after Ah but count in mAh."]
         pub struct MilliampereHour = "mAh", scale 1 / 1, step 1 / 1000 of BaseAh;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " milliohm: one raw step is 1 mOhm."] pub struct Milliohm = "mOhm", scale
-        1 / 1, step 1 / 1000 of BaseOhm;
+        #[doc = r" milliohm: one raw step is 1 mOhm."] pub struct Milliohm = "mOhm",
+        scale 1 / 1, step 1 / 1000 of BaseOhm;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale 1
-        / 1, step 1 / 1000 of BaseV;
+        #[doc = r" millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale
+        1 / 1, step 1 / 1000 of BaseV;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " minute: one raw step is 1 min."] pub struct Minute = "min", scale 1 /
+        #[doc = r" minute: one raw step is 1 min."] pub struct Minute = "min", scale 1 /
         1, step 60 / 1 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " percent: one raw step is 1 %."] pub struct Percent = "%", scale 1 / 1,
+        #[doc = r" percent: one raw step is 1 %."] pub struct Percent = "%", scale 1 / 1,
         step 1 / 1 of BasePercent;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " second: one raw step is 1 s."] pub struct Second = "s", scale 1 / 1,
+        #[doc = r" second: one raw step is 1 s."] pub struct Second = "s", scale 1 / 1,
         step 1 / 1 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " volt: one raw step is 1 V."] pub struct Volt = "V", scale 1 / 1, step 1
-        / 1 of BaseV;
+        #[doc = r" volt: one raw step is 1 V."] pub struct Volt = "V", scale 1 / 1, step
+        1 / 1 of BaseV;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        " volt per second: one raw step is 1 V/s. Ramp of an output voltage; the manual prints V/sec."]
+        r" volt per second: one raw step is 1 V/s. Ramp of an output voltage; the manual prints V/sec."]
         pub struct VoltPerSecond = "V/s", scale 1 / 1, step 1 / 1 of BaseVPers;
     }
 
@@ -6888,318 +6888,314 @@ impl glue::Dictionary<'static> for Pmm {
     #[allow(clippy::too_many_lines)]
     #[inline]
     fn entry(&self, row: u16) -> Option<Entry> {
-        match row {
-            0 => Some(Entry::DeviceType),
-            1 => Some(Entry::ErrorRegister),
-            2 => Some(Entry::PreDefinedErrorFieldNumberOfErrors),
-            3 => Some(Entry::PreDefinedErrorFieldStandardErrorField1),
-            4 => Some(Entry::ManufacturerDeviceName),
-            5 => Some(Entry::StoreParametersHighestSubIndexSupported),
-            6 => Some(Entry::StoreParametersSaveAllParameters),
-            7 => Some(Entry::StoreParametersSaveCommunicationParameters),
-            8 => Some(Entry::StoreParametersSaveApplicationParameters),
-            9 => Some(Entry::StoreParametersSaveManufacturerDefinedParameters),
-            10 => Some(Entry::RestoreDefaultParametersHighestSubIndexSupported),
-            11 => Some(Entry::RestoreDefaultParametersRestoreAllDefaultParameters),
-            12 => {
-                Some(
-                    Entry::RestoreDefaultParametersRestoreCommunicationDefaultParameters,
-                )
-            }
-            13 => {
-                Some(Entry::RestoreDefaultParametersRestoreApplicationDefaultParameters)
-            }
-            14 => {
-                Some(
-                    Entry::RestoreDefaultParametersRestoreManufacturerDefinedDefaultParameters,
-                )
-            }
-            15 => Some(Entry::CobIdEmcy),
-            16 => Some(Entry::ProducerHeartbeatTime),
-            17 => Some(Entry::IdentityObjectHighestSubIndexSupported),
-            18 => Some(Entry::IdentityObjectVendorId),
-            19 => Some(Entry::IdentityObjectProductCode),
-            20 => Some(Entry::IdentityObjectRevisionNumber),
-            21 => Some(Entry::IdentityObjectSerialNumber),
-            22 => Some(Entry::SdoServerParameterHighestSubIndexSupported),
-            23 => Some(Entry::SdoServerParameterCobIdClientToServerRx),
-            24 => Some(Entry::SdoServerParameterCobIdServerToClientTx),
-            25 => Some(Entry::Rpdo1CommunicationParameterHighestSubIndexSupported),
-            26 => Some(Entry::Rpdo1CommunicationParameterCobIdUsedByRpdo),
-            27 => Some(Entry::Rpdo1CommunicationParameterTransmissionType),
-            28 => Some(Entry::Rpdo2CommunicationParameterHighestSubIndexSupported),
-            29 => Some(Entry::Rpdo2CommunicationParameterCobIdUsedByRpdo),
-            30 => Some(Entry::Rpdo2CommunicationParameterTransmissionType),
-            31 => Some(Entry::Rpdo3CommunicationParameterHighestSubIndexSupported),
-            32 => Some(Entry::Rpdo3CommunicationParameterCobIdUsedByRpdo),
-            33 => Some(Entry::Rpdo3CommunicationParameterTransmissionType),
-            34 => Some(Entry::Rpdo4CommunicationParameterHighestSubIndexSupported),
-            35 => Some(Entry::Rpdo4CommunicationParameterCobIdUsedByRpdo),
-            36 => Some(Entry::Rpdo4CommunicationParameterTransmissionType),
-            37 => Some(Entry::Rpdo1MappingParameterNumberOfMappedEntries),
-            38 => Some(Entry::Rpdo1MappingParameterMappedEntry1),
-            39 => Some(Entry::Rpdo1MappingParameterMappedEntry2),
-            40 => Some(Entry::Rpdo1MappingParameterMappedEntry3),
-            41 => Some(Entry::Rpdo1MappingParameterMappedEntry4),
-            42 => Some(Entry::Rpdo1MappingParameterMappedEntry5),
-            43 => Some(Entry::Rpdo1MappingParameterMappedEntry6),
-            44 => Some(Entry::Rpdo1MappingParameterMappedEntry7),
-            45 => Some(Entry::Rpdo1MappingParameterMappedEntry8),
-            46 => Some(Entry::Rpdo2MappingParameterNumberOfMappedEntries),
-            47 => Some(Entry::Rpdo2MappingParameterMappedEntry1),
-            48 => Some(Entry::Rpdo2MappingParameterMappedEntry2),
-            49 => Some(Entry::Rpdo2MappingParameterMappedEntry3),
-            50 => Some(Entry::Rpdo2MappingParameterMappedEntry4),
-            51 => Some(Entry::Rpdo2MappingParameterMappedEntry5),
-            52 => Some(Entry::Rpdo2MappingParameterMappedEntry6),
-            53 => Some(Entry::Rpdo2MappingParameterMappedEntry7),
-            54 => Some(Entry::Rpdo2MappingParameterMappedEntry8),
-            55 => Some(Entry::Rpdo3MappingParameterNumberOfMappedEntries),
-            56 => Some(Entry::Rpdo3MappingParameterMappedEntry1),
-            57 => Some(Entry::Rpdo3MappingParameterMappedEntry2),
-            58 => Some(Entry::Rpdo3MappingParameterMappedEntry3),
-            59 => Some(Entry::Rpdo3MappingParameterMappedEntry4),
-            60 => Some(Entry::Rpdo3MappingParameterMappedEntry5),
-            61 => Some(Entry::Rpdo3MappingParameterMappedEntry6),
-            62 => Some(Entry::Rpdo3MappingParameterMappedEntry7),
-            63 => Some(Entry::Rpdo3MappingParameterMappedEntry8),
-            64 => Some(Entry::Rpdo4MappingParameterNumberOfMappedEntries),
-            65 => Some(Entry::Rpdo4MappingParameterMappedEntry1),
-            66 => Some(Entry::Rpdo4MappingParameterMappedEntry2),
-            67 => Some(Entry::Rpdo4MappingParameterMappedEntry3),
-            68 => Some(Entry::Rpdo4MappingParameterMappedEntry4),
-            69 => Some(Entry::Rpdo4MappingParameterMappedEntry5),
-            70 => Some(Entry::Rpdo4MappingParameterMappedEntry6),
-            71 => Some(Entry::Rpdo4MappingParameterMappedEntry7),
-            72 => Some(Entry::Rpdo4MappingParameterMappedEntry8),
-            73 => Some(Entry::Tpdo1CommunicationParameterHighestSubIndexSupported),
-            74 => Some(Entry::Tpdo1CommunicationParameterCobIdUsedByTpdo),
-            75 => Some(Entry::Tpdo1CommunicationParameterTransmissionType),
-            76 => Some(Entry::Tpdo2CommunicationParameterHighestSubIndexSupported),
-            77 => Some(Entry::Tpdo2CommunicationParameterCobIdUsedByTpdo),
-            78 => Some(Entry::Tpdo2CommunicationParameterTransmissionType),
-            79 => Some(Entry::Tpdo3CommunicationParameterHighestSubIndexSupported),
-            80 => Some(Entry::Tpdo3CommunicationParameterCobIdUsedByTpdo),
-            81 => Some(Entry::Tpdo3CommunicationParameterTransmissionType),
-            82 => Some(Entry::Tpdo4CommunicationParameterHighestSubIndexSupported),
-            83 => Some(Entry::Tpdo4CommunicationParameterCobIdUsedByTpdo),
-            84 => Some(Entry::Tpdo4CommunicationParameterTransmissionType),
-            85 => Some(Entry::Tpdo1MappingParameterNumberOfMappedEntries),
-            86 => Some(Entry::Tpdo1MappingParameterMappedEntry1),
-            87 => Some(Entry::Tpdo1MappingParameterMappedEntry2),
-            88 => Some(Entry::Tpdo1MappingParameterMappedEntry3),
-            89 => Some(Entry::Tpdo1MappingParameterMappedEntry4),
-            90 => Some(Entry::Tpdo1MappingParameterMappedEntry5),
-            91 => Some(Entry::Tpdo1MappingParameterMappedEntry6),
-            92 => Some(Entry::Tpdo1MappingParameterMappedEntry7),
-            93 => Some(Entry::Tpdo1MappingParameterMappedEntry8),
-            94 => Some(Entry::Tpdo2MappingParameterNumberOfMappedEntries),
-            95 => Some(Entry::Tpdo2MappingParameterMappedEntry1),
-            96 => Some(Entry::Tpdo2MappingParameterMappedEntry2),
-            97 => Some(Entry::Tpdo2MappingParameterMappedEntry3),
-            98 => Some(Entry::Tpdo2MappingParameterMappedEntry4),
-            99 => Some(Entry::Tpdo2MappingParameterMappedEntry5),
-            100 => Some(Entry::Tpdo2MappingParameterMappedEntry6),
-            101 => Some(Entry::Tpdo2MappingParameterMappedEntry7),
-            102 => Some(Entry::Tpdo2MappingParameterMappedEntry8),
-            103 => Some(Entry::Tpdo3MappingParameterNumberOfMappedEntries),
-            104 => Some(Entry::Tpdo3MappingParameterMappedEntry1),
-            105 => Some(Entry::Tpdo3MappingParameterMappedEntry2),
-            106 => Some(Entry::Tpdo3MappingParameterMappedEntry3),
-            107 => Some(Entry::Tpdo3MappingParameterMappedEntry4),
-            108 => Some(Entry::Tpdo3MappingParameterMappedEntry5),
-            109 => Some(Entry::Tpdo3MappingParameterMappedEntry6),
-            110 => Some(Entry::Tpdo3MappingParameterMappedEntry7),
-            111 => Some(Entry::Tpdo3MappingParameterMappedEntry8),
-            112 => Some(Entry::Tpdo4MappingParameterNumberOfMappedEntries),
-            113 => Some(Entry::Tpdo4MappingParameterMappedEntry1),
-            114 => Some(Entry::Tpdo4MappingParameterMappedEntry2),
-            115 => Some(Entry::Tpdo4MappingParameterMappedEntry3),
-            116 => Some(Entry::Tpdo4MappingParameterMappedEntry4),
-            117 => Some(Entry::Tpdo4MappingParameterMappedEntry5),
-            118 => Some(Entry::Tpdo4MappingParameterMappedEntry6),
-            119 => Some(Entry::Tpdo4MappingParameterMappedEntry7),
-            120 => Some(Entry::Tpdo4MappingParameterMappedEntry8),
-            121 => Some(Entry::ErrorFieldTimeStampNumberOfElements),
-            122 => Some(Entry::ErrorFieldTimeStampTimeStamp1),
-            123 => Some(Entry::PmmStatus),
-            124 => Some(Entry::ChargerStatus),
-            125 => Some(Entry::BoosterStatus),
-            126 => Some(Entry::ChopperStatus),
-            127 => Some(Entry::N24vSupplyStatus),
-            128 => Some(Entry::TestStatus),
-            129 => Some(Entry::BatteryTemperatureStatus),
-            130 => Some(Entry::HeatSinkTemperatureStatus),
-            131 => Some(Entry::Sensor1TemperatureStatus),
-            132 => Some(Entry::Sensor2TemperatureStatus),
-            133 => Some(Entry::ActualBatteryTemperature),
-            134 => Some(Entry::ActualHeatSinkTemperature),
-            135 => Some(Entry::TemperatureSensor1),
-            136 => Some(Entry::TemperatureSensor2),
-            137 => Some(Entry::BatteryTemperatureNumberOfElements),
-            138 => Some(Entry::BatteryTemperatureBloc1),
-            139 => Some(Entry::BatteryTemperatureBloc2),
-            140 => Some(Entry::BatteryTemperatureBloc3),
-            141 => Some(Entry::BatteryTemperatureBloc4),
-            142 => Some(Entry::BatteryTemperatureBloc5),
-            143 => Some(Entry::BatteryTemperatureBloc6),
-            144 => Some(Entry::BatteryTemperatureBloc7),
-            145 => Some(Entry::BatteryTemperatureBloc8),
-            146 => Some(Entry::BatteryParameterNumberOfElements),
-            147 => Some(Entry::BatteryParameterType),
-            148 => Some(Entry::BatteryParameterNominalCapacity),
-            149 => Some(Entry::BatteryParameterChargingCurrent),
-            150 => Some(Entry::BatteryParameterNumberOfBlocs),
-            151 => Some(Entry::BatteryParameterNominalBlocVoltage),
-            152 => Some(Entry::BatteryParameterMaximumBlocVoltage),
-            153 => Some(Entry::BatteryParameterLeadResistance),
-            154 => Some(Entry::BatteryParameterInternalResistance),
-            155 => Some(Entry::PmmControlword),
-            156 => Some(Entry::CumulativeTotalAhCharge),
-            157 => Some(Entry::AhExpendedSinceLastCharge),
-            158 => Some(Entry::AhReturnedDuringLastCharge),
-            159 => Some(Entry::ActualBatteryCapacity),
-            160 => Some(Entry::ActualBatteryVoltage),
-            161 => Some(Entry::BatteryVoltageNumberOfElements),
-            162 => Some(Entry::BatteryVoltageBloc1),
-            163 => Some(Entry::BatteryVoltageBloc2),
-            164 => Some(Entry::BatteryVoltageBloc3),
-            165 => Some(Entry::BatteryVoltageBloc4),
-            166 => Some(Entry::BatteryVoltageBloc5),
-            167 => Some(Entry::BatteryVoltageBloc6),
-            168 => Some(Entry::BatteryVoltageBloc7),
-            169 => Some(Entry::BatteryVoltageBloc8),
-            170 => Some(Entry::ActualMainsVoltage),
-            171 => Some(Entry::ActualDcLinkVoltage),
-            172 => Some(Entry::ActualChargerVoltage),
-            173 => Some(Entry::ActualSupplyVoltage),
-            174 => Some(Entry::ActualSupplyVoltageExternal),
-            175 => Some(Entry::BatteryOffLoadVoltage),
-            176 => Some(Entry::BatteryTestVoltage),
-            177 => Some(Entry::ActualBatteryCurrent),
-            178 => Some(Entry::ActualBoosterCurrent),
-            179 => Some(Entry::ActualChargerCurrent),
-            180 => Some(Entry::ActualSupplyCurrent),
-            181 => Some(Entry::BatteryStateOfCharge),
-            182 => Some(Entry::BatteryStateOfHealth),
-            183 => Some(Entry::ReadAnalogInput1),
-            184 => Some(Entry::ActualLoadBooster),
-            185 => Some(Entry::ActualLoadChopper),
-            186 => Some(Entry::RemainingTimeToBackup),
-            187 => Some(Entry::RemainingTimeToPowerDown),
-            188 => Some(Entry::BatteryInternalResistance),
-            189 => Some(Entry::SupervisorCurrentLevel),
-            190 => Some(Entry::DcMotorParameterSetNumberOfElements),
-            191 => Some(Entry::DcMotorParameterSetSwitchOnDelay),
-            192 => Some(Entry::DcMotorParameterSetAcceleration),
-            193 => Some(Entry::DcMotorParameterSetDeceleration),
-            194 => Some(Entry::DcMotorParameterSetMaxVoltage),
-            195 => Some(Entry::MaxTimeOfPowerFailure),
-            196 => Some(Entry::MaxTimeToShutdown),
-            197 => Some(Entry::PulseWidthInputCheckSignal),
-            198 => Some(Entry::SelftestTime),
-            199 => Some(Entry::SupplyControllerParameterSetNumberOfElements),
-            200 => Some(Entry::SupplyControllerParameterSetVoltageGain),
-            201 => Some(Entry::SupplyControllerParameterSetVoltageIntegrationTime),
-            202 => Some(Entry::SupplyControllerParameterSetCurrentLimit),
-            203 => Some(Entry::SupplyControllerParameterSetCurrentGain),
-            204 => Some(Entry::SupplyControllerParameterSetCurrentIntegrationTime),
-            205 => Some(Entry::SupplyControllerParameterSetPwmLimit),
-            206 => Some(Entry::ChargeControllerParameterSetNumberOfElements),
-            207 => Some(Entry::ChargeControllerParameterSetCurrentGain),
-            208 => Some(Entry::ChargeControllerParameterSetCurrentIntegrationTime),
-            209 => Some(Entry::ChargeControllerParameterSetFilterTime),
-            210 => Some(Entry::ChargeControllerParameterSetChargingVoltage),
-            211 => Some(Entry::ChargeControllerParameterSetThresholdVoltage),
-            212 => Some(Entry::ChargeControllerParameterSetSwitchOffCurrent),
-            213 => Some(Entry::DcLinkVoltageNumberOfElements),
-            214 => Some(Entry::DcLinkVoltageNominalValue),
-            215 => Some(Entry::DcLinkVoltageMaximalValue),
-            216 => Some(Entry::DcLinkVoltageMinimalValue),
-            217 => Some(Entry::BoosterParameterSetNumberOfElements),
-            218 => Some(Entry::BoosterParameterSetVoltageGain),
-            219 => Some(Entry::BoosterParameterSetVoltageIntegrationTime),
-            220 => Some(Entry::BoosterParameterSetCurrentLimit),
-            221 => Some(Entry::BoosterParameterSetCurrentGain),
-            222 => Some(Entry::BoosterParameterSetCurrentIntegrationTime),
-            223 => Some(Entry::BoosterParameterSetPwmLimit),
-            224 => Some(Entry::BoosterParameterSetTargetVoltage),
-            225 => Some(Entry::BoosterParameterSetSwitchOnVoltage),
-            226 => Some(Entry::BoosterParameterSetInductance),
-            227 => Some(Entry::BrakeChopperNumberOfElements),
-            228 => Some(Entry::BrakeChopperSwitchOnVoltage),
-            229 => Some(Entry::BrakeChopperSwitchOffVoltage),
-            230 => Some(Entry::DigitalInputs),
-            231 => Some(Entry::DigitalOutputsNumberOfElements),
-            232 => Some(Entry::DigitalOutputsPhysicalOutputs),
-            233 => Some(Entry::DigitalOutputsBitmask),
-            234 => Some(Entry::DigitalOutputsReadBack),
-            235 => Some(Entry::SignalingOutputsNumberOfElements),
-            236 => Some(Entry::SignalingOutputsFault),
-            237 => Some(Entry::SignalingOutputsWarning),
-            238 => Some(Entry::TemperatureSupervisorBatteryNumberOfElements),
-            239 => Some(Entry::TemperatureSupervisorBatteryWarningLimit),
-            240 => Some(Entry::TemperatureSupervisorBatteryErrorLimit),
-            241 => Some(Entry::TemperatureSupervisorBatteryLowerLimit),
-            242 => Some(Entry::TemperatureSupervisorHeatSinkNumberOfElements),
-            243 => Some(Entry::TemperatureSupervisorHeatSinkWarningLimit),
-            244 => Some(Entry::TemperatureSupervisorHeatSinkErrorLimit),
-            245 => Some(Entry::TemperatureSupervisorHeatSinkLowerLimit),
-            246 => Some(Entry::TemperatureSupervisorSensor1NumberOfElements),
-            247 => Some(Entry::TemperatureSupervisorSensor1WarningLimit),
-            248 => Some(Entry::TemperatureSupervisorSensor1ErrorLimit),
-            249 => Some(Entry::TemperatureSupervisorSensor1LowerLimit),
-            250 => Some(Entry::TemperatureSupervisorSensor2NumberOfElements),
-            251 => Some(Entry::TemperatureSupervisorSensor2WarningLimit),
-            252 => Some(Entry::TemperatureSupervisorSensor2ErrorLimit),
-            253 => Some(Entry::TemperatureSupervisorSensor2LowerLimit),
-            254 => Some(Entry::TemperatureControllerBatteryNumberOfElements),
-            255 => Some(Entry::TemperatureControllerBatteryHeater),
-            256 => Some(Entry::TemperatureControllerBatteryCooler),
-            257 => Some(Entry::TemperatureControllerBatteryHysteresis),
-            258 => Some(Entry::TemperatureControllerBatteryOutputHeater),
-            259 => Some(Entry::TemperatureControllerBatteryOutputCooler),
-            260 => Some(Entry::TemperatureControllerBatteryOutputFan),
-            261 => Some(Entry::TemperatureControllerBatteryDelayFanOff),
-            262 => Some(Entry::TemperatureControllerSensor1NumberOfElements),
-            263 => Some(Entry::TemperatureControllerSensor1Heater),
-            264 => Some(Entry::TemperatureControllerSensor1Cooler),
-            265 => Some(Entry::TemperatureControllerSensor1Hysteresis),
-            266 => Some(Entry::TemperatureControllerSensor1OutputHeater),
-            267 => Some(Entry::TemperatureControllerSensor1OutputCooler),
-            268 => Some(Entry::TemperatureControllerSensor1OutputFan),
-            269 => Some(Entry::TemperatureControllerSensor1DelayFanOff),
-            270 => Some(Entry::TemperatureControllerSensor2NumberOfElements),
-            271 => Some(Entry::TemperatureControllerSensor2Heater),
-            272 => Some(Entry::TemperatureControllerSensor2Cooler),
-            273 => Some(Entry::TemperatureControllerSensor2Hysteresis),
-            274 => Some(Entry::TemperatureControllerSensor2OutputHeater),
-            275 => Some(Entry::TemperatureControllerSensor2OutputCooler),
-            276 => Some(Entry::TemperatureControllerSensor2OutputFan),
-            277 => Some(Entry::TemperatureControllerSensor2DelayFanOff),
-            278 => Some(Entry::MotorFanControllerNumberOfElements),
-            279 => Some(Entry::MotorFanControllerTemperature),
-            280 => Some(Entry::MotorFanControllerHysteresis),
-            281 => Some(Entry::MotorFanControllerOutputFan),
-            282 => Some(Entry::PositionRangeEnableNumberOfElements),
-            283 => Some(Entry::PositionRangeEnableLowerLimit),
-            284 => Some(Entry::PositionRangeEnableUpperLimit),
-            285 => Some(Entry::PositionRangeEnableOutput),
-            286 => Some(Entry::AlarmInputsNumberOfElements),
-            287 => Some(Entry::AlarmInputsNumber1),
-            288 => Some(Entry::AlarmInputsNumber2),
-            289 => Some(Entry::AlarmInputsNumber3),
-            290 => Some(Entry::AlarmInputsNumber4),
-            291 => Some(Entry::AlarmInputsNumber5),
-            292 => Some(Entry::AlarmInputsNumber6),
-            293 => Some(Entry::AlarmInputsNumber7),
-            294 => Some(Entry::AlarmInputsNumber8),
-            295 => Some(Entry::ManualControl),
-            296 => Some(Entry::ManualStatus),
-            297 => Some(Entry::ManualControlOut),
-            298 => Some(Entry::ErrorCode),
-            _ => None,
-        }
+        Some(
+            match row {
+                0 => Entry::DeviceType,
+                1 => Entry::ErrorRegister,
+                2 => Entry::PreDefinedErrorFieldNumberOfErrors,
+                3 => Entry::PreDefinedErrorFieldStandardErrorField1,
+                4 => Entry::ManufacturerDeviceName,
+                5 => Entry::StoreParametersHighestSubIndexSupported,
+                6 => Entry::StoreParametersSaveAllParameters,
+                7 => Entry::StoreParametersSaveCommunicationParameters,
+                8 => Entry::StoreParametersSaveApplicationParameters,
+                9 => Entry::StoreParametersSaveManufacturerDefinedParameters,
+                10 => Entry::RestoreDefaultParametersHighestSubIndexSupported,
+                11 => Entry::RestoreDefaultParametersRestoreAllDefaultParameters,
+                12 => {
+                    Entry::RestoreDefaultParametersRestoreCommunicationDefaultParameters
+                }
+                13 => Entry::RestoreDefaultParametersRestoreApplicationDefaultParameters,
+                14 => {
+                    Entry::RestoreDefaultParametersRestoreManufacturerDefinedDefaultParameters
+                }
+                15 => Entry::CobIdEmcy,
+                16 => Entry::ProducerHeartbeatTime,
+                17 => Entry::IdentityObjectHighestSubIndexSupported,
+                18 => Entry::IdentityObjectVendorId,
+                19 => Entry::IdentityObjectProductCode,
+                20 => Entry::IdentityObjectRevisionNumber,
+                21 => Entry::IdentityObjectSerialNumber,
+                22 => Entry::SdoServerParameterHighestSubIndexSupported,
+                23 => Entry::SdoServerParameterCobIdClientToServerRx,
+                24 => Entry::SdoServerParameterCobIdServerToClientTx,
+                25 => Entry::Rpdo1CommunicationParameterHighestSubIndexSupported,
+                26 => Entry::Rpdo1CommunicationParameterCobIdUsedByRpdo,
+                27 => Entry::Rpdo1CommunicationParameterTransmissionType,
+                28 => Entry::Rpdo2CommunicationParameterHighestSubIndexSupported,
+                29 => Entry::Rpdo2CommunicationParameterCobIdUsedByRpdo,
+                30 => Entry::Rpdo2CommunicationParameterTransmissionType,
+                31 => Entry::Rpdo3CommunicationParameterHighestSubIndexSupported,
+                32 => Entry::Rpdo3CommunicationParameterCobIdUsedByRpdo,
+                33 => Entry::Rpdo3CommunicationParameterTransmissionType,
+                34 => Entry::Rpdo4CommunicationParameterHighestSubIndexSupported,
+                35 => Entry::Rpdo4CommunicationParameterCobIdUsedByRpdo,
+                36 => Entry::Rpdo4CommunicationParameterTransmissionType,
+                37 => Entry::Rpdo1MappingParameterNumberOfMappedEntries,
+                38 => Entry::Rpdo1MappingParameterMappedEntry1,
+                39 => Entry::Rpdo1MappingParameterMappedEntry2,
+                40 => Entry::Rpdo1MappingParameterMappedEntry3,
+                41 => Entry::Rpdo1MappingParameterMappedEntry4,
+                42 => Entry::Rpdo1MappingParameterMappedEntry5,
+                43 => Entry::Rpdo1MappingParameterMappedEntry6,
+                44 => Entry::Rpdo1MappingParameterMappedEntry7,
+                45 => Entry::Rpdo1MappingParameterMappedEntry8,
+                46 => Entry::Rpdo2MappingParameterNumberOfMappedEntries,
+                47 => Entry::Rpdo2MappingParameterMappedEntry1,
+                48 => Entry::Rpdo2MappingParameterMappedEntry2,
+                49 => Entry::Rpdo2MappingParameterMappedEntry3,
+                50 => Entry::Rpdo2MappingParameterMappedEntry4,
+                51 => Entry::Rpdo2MappingParameterMappedEntry5,
+                52 => Entry::Rpdo2MappingParameterMappedEntry6,
+                53 => Entry::Rpdo2MappingParameterMappedEntry7,
+                54 => Entry::Rpdo2MappingParameterMappedEntry8,
+                55 => Entry::Rpdo3MappingParameterNumberOfMappedEntries,
+                56 => Entry::Rpdo3MappingParameterMappedEntry1,
+                57 => Entry::Rpdo3MappingParameterMappedEntry2,
+                58 => Entry::Rpdo3MappingParameterMappedEntry3,
+                59 => Entry::Rpdo3MappingParameterMappedEntry4,
+                60 => Entry::Rpdo3MappingParameterMappedEntry5,
+                61 => Entry::Rpdo3MappingParameterMappedEntry6,
+                62 => Entry::Rpdo3MappingParameterMappedEntry7,
+                63 => Entry::Rpdo3MappingParameterMappedEntry8,
+                64 => Entry::Rpdo4MappingParameterNumberOfMappedEntries,
+                65 => Entry::Rpdo4MappingParameterMappedEntry1,
+                66 => Entry::Rpdo4MappingParameterMappedEntry2,
+                67 => Entry::Rpdo4MappingParameterMappedEntry3,
+                68 => Entry::Rpdo4MappingParameterMappedEntry4,
+                69 => Entry::Rpdo4MappingParameterMappedEntry5,
+                70 => Entry::Rpdo4MappingParameterMappedEntry6,
+                71 => Entry::Rpdo4MappingParameterMappedEntry7,
+                72 => Entry::Rpdo4MappingParameterMappedEntry8,
+                73 => Entry::Tpdo1CommunicationParameterHighestSubIndexSupported,
+                74 => Entry::Tpdo1CommunicationParameterCobIdUsedByTpdo,
+                75 => Entry::Tpdo1CommunicationParameterTransmissionType,
+                76 => Entry::Tpdo2CommunicationParameterHighestSubIndexSupported,
+                77 => Entry::Tpdo2CommunicationParameterCobIdUsedByTpdo,
+                78 => Entry::Tpdo2CommunicationParameterTransmissionType,
+                79 => Entry::Tpdo3CommunicationParameterHighestSubIndexSupported,
+                80 => Entry::Tpdo3CommunicationParameterCobIdUsedByTpdo,
+                81 => Entry::Tpdo3CommunicationParameterTransmissionType,
+                82 => Entry::Tpdo4CommunicationParameterHighestSubIndexSupported,
+                83 => Entry::Tpdo4CommunicationParameterCobIdUsedByTpdo,
+                84 => Entry::Tpdo4CommunicationParameterTransmissionType,
+                85 => Entry::Tpdo1MappingParameterNumberOfMappedEntries,
+                86 => Entry::Tpdo1MappingParameterMappedEntry1,
+                87 => Entry::Tpdo1MappingParameterMappedEntry2,
+                88 => Entry::Tpdo1MappingParameterMappedEntry3,
+                89 => Entry::Tpdo1MappingParameterMappedEntry4,
+                90 => Entry::Tpdo1MappingParameterMappedEntry5,
+                91 => Entry::Tpdo1MappingParameterMappedEntry6,
+                92 => Entry::Tpdo1MappingParameterMappedEntry7,
+                93 => Entry::Tpdo1MappingParameterMappedEntry8,
+                94 => Entry::Tpdo2MappingParameterNumberOfMappedEntries,
+                95 => Entry::Tpdo2MappingParameterMappedEntry1,
+                96 => Entry::Tpdo2MappingParameterMappedEntry2,
+                97 => Entry::Tpdo2MappingParameterMappedEntry3,
+                98 => Entry::Tpdo2MappingParameterMappedEntry4,
+                99 => Entry::Tpdo2MappingParameterMappedEntry5,
+                100 => Entry::Tpdo2MappingParameterMappedEntry6,
+                101 => Entry::Tpdo2MappingParameterMappedEntry7,
+                102 => Entry::Tpdo2MappingParameterMappedEntry8,
+                103 => Entry::Tpdo3MappingParameterNumberOfMappedEntries,
+                104 => Entry::Tpdo3MappingParameterMappedEntry1,
+                105 => Entry::Tpdo3MappingParameterMappedEntry2,
+                106 => Entry::Tpdo3MappingParameterMappedEntry3,
+                107 => Entry::Tpdo3MappingParameterMappedEntry4,
+                108 => Entry::Tpdo3MappingParameterMappedEntry5,
+                109 => Entry::Tpdo3MappingParameterMappedEntry6,
+                110 => Entry::Tpdo3MappingParameterMappedEntry7,
+                111 => Entry::Tpdo3MappingParameterMappedEntry8,
+                112 => Entry::Tpdo4MappingParameterNumberOfMappedEntries,
+                113 => Entry::Tpdo4MappingParameterMappedEntry1,
+                114 => Entry::Tpdo4MappingParameterMappedEntry2,
+                115 => Entry::Tpdo4MappingParameterMappedEntry3,
+                116 => Entry::Tpdo4MappingParameterMappedEntry4,
+                117 => Entry::Tpdo4MappingParameterMappedEntry5,
+                118 => Entry::Tpdo4MappingParameterMappedEntry6,
+                119 => Entry::Tpdo4MappingParameterMappedEntry7,
+                120 => Entry::Tpdo4MappingParameterMappedEntry8,
+                121 => Entry::ErrorFieldTimeStampNumberOfElements,
+                122 => Entry::ErrorFieldTimeStampTimeStamp1,
+                123 => Entry::PmmStatus,
+                124 => Entry::ChargerStatus,
+                125 => Entry::BoosterStatus,
+                126 => Entry::ChopperStatus,
+                127 => Entry::N24vSupplyStatus,
+                128 => Entry::TestStatus,
+                129 => Entry::BatteryTemperatureStatus,
+                130 => Entry::HeatSinkTemperatureStatus,
+                131 => Entry::Sensor1TemperatureStatus,
+                132 => Entry::Sensor2TemperatureStatus,
+                133 => Entry::ActualBatteryTemperature,
+                134 => Entry::ActualHeatSinkTemperature,
+                135 => Entry::TemperatureSensor1,
+                136 => Entry::TemperatureSensor2,
+                137 => Entry::BatteryTemperatureNumberOfElements,
+                138 => Entry::BatteryTemperatureBloc1,
+                139 => Entry::BatteryTemperatureBloc2,
+                140 => Entry::BatteryTemperatureBloc3,
+                141 => Entry::BatteryTemperatureBloc4,
+                142 => Entry::BatteryTemperatureBloc5,
+                143 => Entry::BatteryTemperatureBloc6,
+                144 => Entry::BatteryTemperatureBloc7,
+                145 => Entry::BatteryTemperatureBloc8,
+                146 => Entry::BatteryParameterNumberOfElements,
+                147 => Entry::BatteryParameterType,
+                148 => Entry::BatteryParameterNominalCapacity,
+                149 => Entry::BatteryParameterChargingCurrent,
+                150 => Entry::BatteryParameterNumberOfBlocs,
+                151 => Entry::BatteryParameterNominalBlocVoltage,
+                152 => Entry::BatteryParameterMaximumBlocVoltage,
+                153 => Entry::BatteryParameterLeadResistance,
+                154 => Entry::BatteryParameterInternalResistance,
+                155 => Entry::PmmControlword,
+                156 => Entry::CumulativeTotalAhCharge,
+                157 => Entry::AhExpendedSinceLastCharge,
+                158 => Entry::AhReturnedDuringLastCharge,
+                159 => Entry::ActualBatteryCapacity,
+                160 => Entry::ActualBatteryVoltage,
+                161 => Entry::BatteryVoltageNumberOfElements,
+                162 => Entry::BatteryVoltageBloc1,
+                163 => Entry::BatteryVoltageBloc2,
+                164 => Entry::BatteryVoltageBloc3,
+                165 => Entry::BatteryVoltageBloc4,
+                166 => Entry::BatteryVoltageBloc5,
+                167 => Entry::BatteryVoltageBloc6,
+                168 => Entry::BatteryVoltageBloc7,
+                169 => Entry::BatteryVoltageBloc8,
+                170 => Entry::ActualMainsVoltage,
+                171 => Entry::ActualDcLinkVoltage,
+                172 => Entry::ActualChargerVoltage,
+                173 => Entry::ActualSupplyVoltage,
+                174 => Entry::ActualSupplyVoltageExternal,
+                175 => Entry::BatteryOffLoadVoltage,
+                176 => Entry::BatteryTestVoltage,
+                177 => Entry::ActualBatteryCurrent,
+                178 => Entry::ActualBoosterCurrent,
+                179 => Entry::ActualChargerCurrent,
+                180 => Entry::ActualSupplyCurrent,
+                181 => Entry::BatteryStateOfCharge,
+                182 => Entry::BatteryStateOfHealth,
+                183 => Entry::ReadAnalogInput1,
+                184 => Entry::ActualLoadBooster,
+                185 => Entry::ActualLoadChopper,
+                186 => Entry::RemainingTimeToBackup,
+                187 => Entry::RemainingTimeToPowerDown,
+                188 => Entry::BatteryInternalResistance,
+                189 => Entry::SupervisorCurrentLevel,
+                190 => Entry::DcMotorParameterSetNumberOfElements,
+                191 => Entry::DcMotorParameterSetSwitchOnDelay,
+                192 => Entry::DcMotorParameterSetAcceleration,
+                193 => Entry::DcMotorParameterSetDeceleration,
+                194 => Entry::DcMotorParameterSetMaxVoltage,
+                195 => Entry::MaxTimeOfPowerFailure,
+                196 => Entry::MaxTimeToShutdown,
+                197 => Entry::PulseWidthInputCheckSignal,
+                198 => Entry::SelftestTime,
+                199 => Entry::SupplyControllerParameterSetNumberOfElements,
+                200 => Entry::SupplyControllerParameterSetVoltageGain,
+                201 => Entry::SupplyControllerParameterSetVoltageIntegrationTime,
+                202 => Entry::SupplyControllerParameterSetCurrentLimit,
+                203 => Entry::SupplyControllerParameterSetCurrentGain,
+                204 => Entry::SupplyControllerParameterSetCurrentIntegrationTime,
+                205 => Entry::SupplyControllerParameterSetPwmLimit,
+                206 => Entry::ChargeControllerParameterSetNumberOfElements,
+                207 => Entry::ChargeControllerParameterSetCurrentGain,
+                208 => Entry::ChargeControllerParameterSetCurrentIntegrationTime,
+                209 => Entry::ChargeControllerParameterSetFilterTime,
+                210 => Entry::ChargeControllerParameterSetChargingVoltage,
+                211 => Entry::ChargeControllerParameterSetThresholdVoltage,
+                212 => Entry::ChargeControllerParameterSetSwitchOffCurrent,
+                213 => Entry::DcLinkVoltageNumberOfElements,
+                214 => Entry::DcLinkVoltageNominalValue,
+                215 => Entry::DcLinkVoltageMaximalValue,
+                216 => Entry::DcLinkVoltageMinimalValue,
+                217 => Entry::BoosterParameterSetNumberOfElements,
+                218 => Entry::BoosterParameterSetVoltageGain,
+                219 => Entry::BoosterParameterSetVoltageIntegrationTime,
+                220 => Entry::BoosterParameterSetCurrentLimit,
+                221 => Entry::BoosterParameterSetCurrentGain,
+                222 => Entry::BoosterParameterSetCurrentIntegrationTime,
+                223 => Entry::BoosterParameterSetPwmLimit,
+                224 => Entry::BoosterParameterSetTargetVoltage,
+                225 => Entry::BoosterParameterSetSwitchOnVoltage,
+                226 => Entry::BoosterParameterSetInductance,
+                227 => Entry::BrakeChopperNumberOfElements,
+                228 => Entry::BrakeChopperSwitchOnVoltage,
+                229 => Entry::BrakeChopperSwitchOffVoltage,
+                230 => Entry::DigitalInputs,
+                231 => Entry::DigitalOutputsNumberOfElements,
+                232 => Entry::DigitalOutputsPhysicalOutputs,
+                233 => Entry::DigitalOutputsBitmask,
+                234 => Entry::DigitalOutputsReadBack,
+                235 => Entry::SignalingOutputsNumberOfElements,
+                236 => Entry::SignalingOutputsFault,
+                237 => Entry::SignalingOutputsWarning,
+                238 => Entry::TemperatureSupervisorBatteryNumberOfElements,
+                239 => Entry::TemperatureSupervisorBatteryWarningLimit,
+                240 => Entry::TemperatureSupervisorBatteryErrorLimit,
+                241 => Entry::TemperatureSupervisorBatteryLowerLimit,
+                242 => Entry::TemperatureSupervisorHeatSinkNumberOfElements,
+                243 => Entry::TemperatureSupervisorHeatSinkWarningLimit,
+                244 => Entry::TemperatureSupervisorHeatSinkErrorLimit,
+                245 => Entry::TemperatureSupervisorHeatSinkLowerLimit,
+                246 => Entry::TemperatureSupervisorSensor1NumberOfElements,
+                247 => Entry::TemperatureSupervisorSensor1WarningLimit,
+                248 => Entry::TemperatureSupervisorSensor1ErrorLimit,
+                249 => Entry::TemperatureSupervisorSensor1LowerLimit,
+                250 => Entry::TemperatureSupervisorSensor2NumberOfElements,
+                251 => Entry::TemperatureSupervisorSensor2WarningLimit,
+                252 => Entry::TemperatureSupervisorSensor2ErrorLimit,
+                253 => Entry::TemperatureSupervisorSensor2LowerLimit,
+                254 => Entry::TemperatureControllerBatteryNumberOfElements,
+                255 => Entry::TemperatureControllerBatteryHeater,
+                256 => Entry::TemperatureControllerBatteryCooler,
+                257 => Entry::TemperatureControllerBatteryHysteresis,
+                258 => Entry::TemperatureControllerBatteryOutputHeater,
+                259 => Entry::TemperatureControllerBatteryOutputCooler,
+                260 => Entry::TemperatureControllerBatteryOutputFan,
+                261 => Entry::TemperatureControllerBatteryDelayFanOff,
+                262 => Entry::TemperatureControllerSensor1NumberOfElements,
+                263 => Entry::TemperatureControllerSensor1Heater,
+                264 => Entry::TemperatureControllerSensor1Cooler,
+                265 => Entry::TemperatureControllerSensor1Hysteresis,
+                266 => Entry::TemperatureControllerSensor1OutputHeater,
+                267 => Entry::TemperatureControllerSensor1OutputCooler,
+                268 => Entry::TemperatureControllerSensor1OutputFan,
+                269 => Entry::TemperatureControllerSensor1DelayFanOff,
+                270 => Entry::TemperatureControllerSensor2NumberOfElements,
+                271 => Entry::TemperatureControllerSensor2Heater,
+                272 => Entry::TemperatureControllerSensor2Cooler,
+                273 => Entry::TemperatureControllerSensor2Hysteresis,
+                274 => Entry::TemperatureControllerSensor2OutputHeater,
+                275 => Entry::TemperatureControllerSensor2OutputCooler,
+                276 => Entry::TemperatureControllerSensor2OutputFan,
+                277 => Entry::TemperatureControllerSensor2DelayFanOff,
+                278 => Entry::MotorFanControllerNumberOfElements,
+                279 => Entry::MotorFanControllerTemperature,
+                280 => Entry::MotorFanControllerHysteresis,
+                281 => Entry::MotorFanControllerOutputFan,
+                282 => Entry::PositionRangeEnableNumberOfElements,
+                283 => Entry::PositionRangeEnableLowerLimit,
+                284 => Entry::PositionRangeEnableUpperLimit,
+                285 => Entry::PositionRangeEnableOutput,
+                286 => Entry::AlarmInputsNumberOfElements,
+                287 => Entry::AlarmInputsNumber1,
+                288 => Entry::AlarmInputsNumber2,
+                289 => Entry::AlarmInputsNumber3,
+                290 => Entry::AlarmInputsNumber4,
+                291 => Entry::AlarmInputsNumber5,
+                292 => Entry::AlarmInputsNumber6,
+                293 => Entry::AlarmInputsNumber7,
+                294 => Entry::AlarmInputsNumber8,
+                295 => Entry::ManualControl,
+                296 => Entry::ManualStatus,
+                297 => Entry::ManualControlOut,
+                298 => Entry::ErrorCode,
+                _ => return None,
+            },
+        )
     }
 
     #[inline]
@@ -7780,308 +7776,42 @@ static ORDER: [u16; 21] = [
     5, 18, 12, 19, 8, 0, 6, 2, 16, 20, 3, 17, 10, 14, 7, 4, 9, 13, 11, 15, 1,
 ];
 
-/// Entries by row: attributes and place.
-static ENTRIES: [glue::table::EntryRow; 299] = glue::table::entries([
-    [0, 496],
-    [1, 666],
-    [2, 667],
-    [0, 500],
-    [3, 0],
-    [4, 3],
-    [5, 504],
-    [5, 508],
-    [5, 512],
-    [5, 516],
-    [4, 3],
-    [5, 520],
-    [5, 524],
-    [5, 528],
-    [5, 532],
-    [5, 536],
-    [6, 588],
-    [4, 3],
-    [0, 540],
-    [0, 544],
-    [0, 548],
-    [0, 552],
-    [4, 4],
-    [0, 556],
-    [0, 560],
-    [4, 4],
-    [7, 0],
-    [8, 288],
-    [4, 4],
-    [7, 4],
-    [8, 289],
-    [4, 4],
-    [7, 8],
-    [8, 290],
-    [4, 4],
-    [7, 12],
-    [8, 291],
-    [8, 292],
-    [7, 16],
-    [7, 20],
-    [7, 24],
-    [7, 28],
-    [7, 32],
-    [7, 36],
-    [7, 40],
-    [7, 44],
-    [8, 293],
-    [7, 48],
-    [7, 52],
-    [7, 56],
-    [7, 60],
-    [7, 64],
-    [7, 68],
-    [7, 72],
-    [7, 76],
-    [8, 294],
-    [7, 80],
-    [7, 84],
-    [7, 88],
-    [7, 92],
-    [7, 96],
-    [7, 100],
-    [7, 104],
-    [7, 108],
-    [8, 295],
-    [7, 112],
-    [7, 116],
-    [7, 120],
-    [7, 124],
-    [7, 128],
-    [7, 132],
-    [7, 136],
-    [7, 140],
-    [4, 4],
-    [7, 144],
-    [8, 296],
-    [4, 4],
-    [7, 148],
-    [8, 297],
-    [4, 4],
-    [7, 152],
-    [8, 298],
-    [4, 4],
-    [7, 156],
-    [8, 299],
-    [8, 300],
-    [7, 160],
-    [7, 164],
-    [7, 168],
-    [7, 172],
-    [7, 176],
-    [7, 180],
-    [7, 184],
-    [7, 188],
-    [8, 301],
-    [7, 192],
-    [7, 196],
-    [7, 200],
-    [7, 204],
-    [7, 208],
-    [7, 212],
-    [7, 216],
-    [7, 220],
-    [8, 302],
-    [7, 224],
-    [7, 228],
-    [7, 232],
-    [7, 236],
-    [7, 240],
-    [7, 244],
-    [7, 248],
-    [7, 252],
-    [8, 303],
-    [7, 256],
-    [7, 260],
-    [7, 264],
-    [7, 268],
-    [7, 272],
-    [7, 276],
-    [7, 280],
-    [7, 284],
-    [4, 5],
-    [0, 564],
-    [9, 668],
-    [9, 669],
-    [9, 670],
-    [9, 671],
-    [9, 672],
-    [9, 673],
-    [9, 674],
-    [9, 675],
-    [9, 676],
-    [9, 677],
-    [10, 590],
-    [10, 592],
-    [10, 594],
-    [10, 596],
-    [4, 6],
-    [10, 598],
-    [10, 600],
-    [10, 602],
-    [10, 604],
-    [10, 606],
-    [10, 608],
-    [10, 610],
-    [10, 612],
-    [4, 6],
-    [11, 486],
-    [12, 304],
-    [12, 306],
-    [12, 308],
-    [12, 310],
-    [12, 312],
-    [12, 314],
-    [12, 316],
-    [13, 614],
-    [14, 488],
-    [15, 492],
-    [15, 494],
-    [16, 616],
-    [16, 618],
-    [4, 6],
-    [16, 620],
-    [16, 622],
-    [16, 624],
-    [16, 626],
-    [16, 628],
-    [16, 630],
-    [16, 632],
-    [16, 634],
-    [16, 636],
-    [16, 638],
-    [16, 640],
-    [16, 642],
-    [16, 644],
-    [16, 646],
-    [16, 648],
-    [17, 568],
-    [10, 650],
-    [10, 652],
-    [16, 654],
-    [9, 678],
-    [9, 679],
-    [16, 656],
-    [9, 680],
-    [9, 681],
-    [16, 658],
-    [16, 660],
-    [16, 662],
-    [12, 318],
-    [4, 3],
-    [12, 320],
-    [12, 322],
-    [12, 324],
-    [12, 326],
-    [12, 328],
-    [12, 330],
-    [12, 332],
-    [18, 334],
-    [4, 7],
-    [19, 336],
-    [19, 338],
-    [19, 340],
-    [19, 342],
-    [19, 344],
-    [19, 346],
-    [4, 7],
-    [19, 348],
-    [19, 350],
-    [19, 352],
-    [12, 354],
-    [12, 356],
-    [12, 358],
-    [4, 8],
-    [12, 360],
-    [12, 362],
-    [12, 364],
-    [4, 9],
-    [19, 366],
-    [19, 368],
-    [19, 370],
-    [19, 372],
-    [19, 374],
-    [19, 376],
-    [12, 378],
-    [12, 380],
-    [12, 382],
-    [4, 4],
-    [12, 384],
-    [12, 386],
-    [20, 572],
-    [4, 8],
-    [21, 576],
-    [21, 580],
-    [20, 584],
-    [4, 4],
-    [22, 388],
-    [22, 390],
-    [4, 8],
-    [23, 392],
-    [23, 394],
-    [23, 396],
-    [4, 8],
-    [23, 398],
-    [23, 400],
-    [23, 402],
-    [4, 8],
-    [23, 404],
-    [23, 406],
-    [23, 408],
-    [4, 8],
-    [23, 410],
-    [23, 412],
-    [23, 414],
-    [4, 10],
-    [23, 416],
-    [23, 418],
-    [23, 420],
-    [12, 422],
-    [12, 424],
-    [12, 426],
-    [12, 428],
-    [4, 10],
-    [23, 430],
-    [23, 432],
-    [23, 434],
-    [12, 436],
-    [12, 438],
-    [12, 440],
-    [12, 442],
-    [4, 10],
-    [23, 444],
-    [23, 446],
-    [23, 448],
-    [12, 450],
-    [12, 452],
-    [12, 454],
-    [12, 456],
-    [4, 8],
-    [23, 458],
-    [23, 460],
-    [12, 462],
-    [4, 8],
-    [23, 464],
-    [23, 466],
-    [12, 468],
-    [4, 6],
-    [12, 470],
-    [12, 472],
-    [12, 474],
-    [12, 476],
-    [12, 478],
-    [12, 480],
-    [12, 482],
-    [12, 484],
-    [24, 682],
-    [9, 683],
-    [9, 684],
-    [16, 664],
-]);
+/// Entries by row: attributes and place in turn.
+static ENTRIES: [glue::table::EntryRow; 299] = glue::table::entries(
+    &[
+        0, 496, 1, 666, 2, 667, 0, 500, 3, 0, 4, 3, 5, 504, 5, 508, 5, 512, 5, 516, 4, 3,
+        5, 520, 5, 524, 5, 528, 5, 532, 5, 536, 6, 588, 4, 3, 0, 540, 0, 544, 0, 548, 0,
+        552, 4, 4, 0, 556, 0, 560, 4, 4, 7, 0, 8, 288, 4, 4, 7, 4, 8, 289, 4, 4, 7, 8, 8,
+        290, 4, 4, 7, 12, 8, 291, 8, 292, 7, 16, 7, 20, 7, 24, 7, 28, 7, 32, 7, 36, 7,
+        40, 7, 44, 8, 293, 7, 48, 7, 52, 7, 56, 7, 60, 7, 64, 7, 68, 7, 72, 7, 76, 8,
+        294, 7, 80, 7, 84, 7, 88, 7, 92, 7, 96, 7, 100, 7, 104, 7, 108, 8, 295, 7, 112,
+        7, 116, 7, 120, 7, 124, 7, 128, 7, 132, 7, 136, 7, 140, 4, 4, 7, 144, 8, 296, 4,
+        4, 7, 148, 8, 297, 4, 4, 7, 152, 8, 298, 4, 4, 7, 156, 8, 299, 8, 300, 7, 160, 7,
+        164, 7, 168, 7, 172, 7, 176, 7, 180, 7, 184, 7, 188, 8, 301, 7, 192, 7, 196, 7,
+        200, 7, 204, 7, 208, 7, 212, 7, 216, 7, 220, 8, 302, 7, 224, 7, 228, 7, 232, 7,
+        236, 7, 240, 7, 244, 7, 248, 7, 252, 8, 303, 7, 256, 7, 260, 7, 264, 7, 268, 7,
+        272, 7, 276, 7, 280, 7, 284, 4, 5, 0, 564, 9, 668, 9, 669, 9, 670, 9, 671, 9,
+        672, 9, 673, 9, 674, 9, 675, 9, 676, 9, 677, 10, 590, 10, 592, 10, 594, 10, 596,
+        4, 6, 10, 598, 10, 600, 10, 602, 10, 604, 10, 606, 10, 608, 10, 610, 10, 612, 4,
+        6, 11, 486, 12, 304, 12, 306, 12, 308, 12, 310, 12, 312, 12, 314, 12, 316, 13,
+        614, 14, 488, 15, 492, 15, 494, 16, 616, 16, 618, 4, 6, 16, 620, 16, 622, 16,
+        624, 16, 626, 16, 628, 16, 630, 16, 632, 16, 634, 16, 636, 16, 638, 16, 640, 16,
+        642, 16, 644, 16, 646, 16, 648, 17, 568, 10, 650, 10, 652, 16, 654, 9, 678, 9,
+        679, 16, 656, 9, 680, 9, 681, 16, 658, 16, 660, 16, 662, 12, 318, 4, 3, 12, 320,
+        12, 322, 12, 324, 12, 326, 12, 328, 12, 330, 12, 332, 18, 334, 4, 7, 19, 336, 19,
+        338, 19, 340, 19, 342, 19, 344, 19, 346, 4, 7, 19, 348, 19, 350, 19, 352, 12,
+        354, 12, 356, 12, 358, 4, 8, 12, 360, 12, 362, 12, 364, 4, 9, 19, 366, 19, 368,
+        19, 370, 19, 372, 19, 374, 19, 376, 12, 378, 12, 380, 12, 382, 4, 4, 12, 384, 12,
+        386, 20, 572, 4, 8, 21, 576, 21, 580, 20, 584, 4, 4, 22, 388, 22, 390, 4, 8, 23,
+        392, 23, 394, 23, 396, 4, 8, 23, 398, 23, 400, 23, 402, 4, 8, 23, 404, 23, 406,
+        23, 408, 4, 8, 23, 410, 23, 412, 23, 414, 4, 10, 23, 416, 23, 418, 23, 420, 12,
+        422, 12, 424, 12, 426, 12, 428, 4, 10, 23, 430, 23, 432, 23, 434, 12, 436, 12,
+        438, 12, 440, 12, 442, 4, 10, 23, 444, 23, 446, 23, 448, 12, 450, 12, 452, 12,
+        454, 12, 456, 4, 8, 23, 458, 23, 460, 12, 462, 4, 8, 23, 464, 23, 466, 12, 468,
+        4, 6, 12, 470, 12, 472, 12, 474, 12, 476, 12, 478, 12, 480, 12, 482, 12, 484, 24,
+        682, 9, 683, 9, 684, 16, 664,
+    ],
+);
 
 /// What every entry is.
 static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {

@@ -972,12 +972,12 @@ pub mod specials {
 #[allow(dead_code, unreachable_pub)]
 pub mod units {
     ::firmware_glue::unit! {
-        #[doc = " decibar: one raw step is 0.1 bar."] pub struct Decibar = "bar", scale 1
-        / 10, step 1 / 10 of Basebar;
+        #[doc = r" decibar: one raw step is 0.1 bar."] pub struct Decibar = "bar", scale
+        1 / 10, step 1 / 10 of Basebar;
     }
 
     ::firmware_glue::unit! {
-        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 
@@ -1051,47 +1051,49 @@ impl glue::Dictionary<'static> for Pump {
     #[allow(clippy::too_many_lines)]
     #[inline]
     fn entry(&self, row: u16) -> Option<Entry> {
-        match row {
-            0 => Some(Entry::DeviceType),
-            1 => Some(Entry::ErrorRegister),
-            2 => Some(Entry::ProducerHeartbeatTime),
-            3 => Some(Entry::IdentityObjectHighestSubIndexSupported),
-            4 => Some(Entry::IdentityObjectVendorId),
-            5 => Some(Entry::IdentityObjectProductCode),
-            6 => Some(Entry::IdentityObjectRevisionNumber),
-            7 => Some(Entry::IdentityObjectSerialNumber),
-            8 => Some(Entry::Rpdo1CommunicationParameterHighestSubIndexSupported),
-            9 => Some(Entry::Rpdo1CommunicationParameterCobIdUsedByRpdo),
-            10 => Some(Entry::Rpdo1CommunicationParameterTransmissionType),
-            11 => Some(Entry::Rpdo1MappingParameterNumberOfMappedEntries),
-            12 => Some(Entry::Rpdo1MappingParameterMappedEntry1),
-            13 => Some(Entry::Rpdo1MappingParameterMappedEntry2),
-            14 => Some(Entry::Rpdo1MappingParameterMappedEntry3),
-            15 => Some(Entry::Rpdo1MappingParameterMappedEntry4),
-            16 => Some(Entry::Rpdo1MappingParameterMappedEntry5),
-            17 => Some(Entry::Rpdo1MappingParameterMappedEntry6),
-            18 => Some(Entry::Rpdo1MappingParameterMappedEntry7),
-            19 => Some(Entry::Rpdo1MappingParameterMappedEntry8),
-            20 => Some(Entry::Tpdo1CommunicationParameterHighestSubIndexSupported),
-            21 => Some(Entry::Tpdo1CommunicationParameterCobIdUsedByTpdo),
-            22 => Some(Entry::Tpdo1CommunicationParameterTransmissionType),
-            23 => Some(Entry::Tpdo1MappingParameterNumberOfMappedEntries),
-            24 => Some(Entry::Tpdo1MappingParameterMappedEntry1),
-            25 => Some(Entry::Tpdo1MappingParameterMappedEntry2),
-            26 => Some(Entry::Tpdo1MappingParameterMappedEntry3),
-            27 => Some(Entry::Tpdo1MappingParameterMappedEntry4),
-            28 => Some(Entry::Tpdo1MappingParameterMappedEntry5),
-            29 => Some(Entry::Tpdo1MappingParameterMappedEntry6),
-            30 => Some(Entry::Tpdo1MappingParameterMappedEntry7),
-            31 => Some(Entry::Tpdo1MappingParameterMappedEntry8),
-            32 => Some(Entry::SetPressure),
-            33 => Some(Entry::ActualPressure),
-            34 => Some(Entry::Mode),
-            35 => Some(Entry::State),
-            36 => Some(Entry::Label),
-            37 => Some(Entry::ShortPressure),
-            _ => None,
-        }
+        Some(
+            match row {
+                0 => Entry::DeviceType,
+                1 => Entry::ErrorRegister,
+                2 => Entry::ProducerHeartbeatTime,
+                3 => Entry::IdentityObjectHighestSubIndexSupported,
+                4 => Entry::IdentityObjectVendorId,
+                5 => Entry::IdentityObjectProductCode,
+                6 => Entry::IdentityObjectRevisionNumber,
+                7 => Entry::IdentityObjectSerialNumber,
+                8 => Entry::Rpdo1CommunicationParameterHighestSubIndexSupported,
+                9 => Entry::Rpdo1CommunicationParameterCobIdUsedByRpdo,
+                10 => Entry::Rpdo1CommunicationParameterTransmissionType,
+                11 => Entry::Rpdo1MappingParameterNumberOfMappedEntries,
+                12 => Entry::Rpdo1MappingParameterMappedEntry1,
+                13 => Entry::Rpdo1MappingParameterMappedEntry2,
+                14 => Entry::Rpdo1MappingParameterMappedEntry3,
+                15 => Entry::Rpdo1MappingParameterMappedEntry4,
+                16 => Entry::Rpdo1MappingParameterMappedEntry5,
+                17 => Entry::Rpdo1MappingParameterMappedEntry6,
+                18 => Entry::Rpdo1MappingParameterMappedEntry7,
+                19 => Entry::Rpdo1MappingParameterMappedEntry8,
+                20 => Entry::Tpdo1CommunicationParameterHighestSubIndexSupported,
+                21 => Entry::Tpdo1CommunicationParameterCobIdUsedByTpdo,
+                22 => Entry::Tpdo1CommunicationParameterTransmissionType,
+                23 => Entry::Tpdo1MappingParameterNumberOfMappedEntries,
+                24 => Entry::Tpdo1MappingParameterMappedEntry1,
+                25 => Entry::Tpdo1MappingParameterMappedEntry2,
+                26 => Entry::Tpdo1MappingParameterMappedEntry3,
+                27 => Entry::Tpdo1MappingParameterMappedEntry4,
+                28 => Entry::Tpdo1MappingParameterMappedEntry5,
+                29 => Entry::Tpdo1MappingParameterMappedEntry6,
+                30 => Entry::Tpdo1MappingParameterMappedEntry7,
+                31 => Entry::Tpdo1MappingParameterMappedEntry8,
+                32 => Entry::SetPressure,
+                33 => Entry::ActualPressure,
+                34 => Entry::Mode,
+                35 => Entry::State,
+                36 => Entry::Label,
+                37 => Entry::ShortPressure,
+                _ => return None,
+            },
+        )
     }
 
     #[inline]
@@ -1141,47 +1143,15 @@ static SEEDS: [u8; 3] = [3, 5, 36];
 /// The blocks by ascending index.
 static ORDER: [u16; 6] = [5, 3, 1, 0, 2, 4];
 
-/// Entries by row: attributes and place.
-static ENTRIES: [glue::table::EntryRow; 38] = glue::table::entries([
-    [0, 76],
-    [1, 104],
-    [2, 96],
-    [3, 0],
-    [0, 80],
-    [0, 84],
-    [0, 88],
-    [0, 92],
-    [3, 1],
-    [4, 0],
-    [5, 72],
-    [5, 73],
-    [4, 4],
-    [4, 8],
-    [4, 12],
-    [4, 16],
-    [4, 20],
-    [4, 24],
-    [4, 28],
-    [4, 32],
-    [3, 1],
-    [4, 36],
-    [5, 74],
-    [5, 75],
-    [4, 40],
-    [4, 44],
-    [4, 48],
-    [4, 52],
-    [4, 56],
-    [4, 60],
-    [4, 64],
-    [4, 68],
-    [6, 98],
-    [7, 100],
-    [8, 105],
-    [9, 102],
-    [10, 106],
-    [11, 0],
-]);
+/// Entries by row: attributes and place in turn.
+static ENTRIES: [glue::table::EntryRow; 38] = glue::table::entries(
+    &[
+        0, 76, 1, 104, 2, 96, 3, 0, 0, 80, 0, 84, 0, 88, 0, 92, 3, 1, 4, 0, 5, 72, 5, 73,
+        4, 4, 4, 8, 4, 12, 4, 16, 4, 20, 4, 24, 4, 28, 4, 32, 3, 1, 4, 36, 5, 74, 5, 75,
+        4, 40, 4, 44, 4, 48, 4, 52, 4, 56, 4, 60, 4, 64, 4, 68, 6, 98, 7, 100, 8, 105, 9,
+        102, 10, 106, 11, 0,
+    ],
+);
 
 /// What every entry is.
 static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {

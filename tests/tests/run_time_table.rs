@@ -54,6 +54,8 @@ fn values_are_read_and_written_with_limits_and_access() {
         assert_eq!(read(0x2001, 0).unwrap(), [5]);
         assert_eq!(read(0x1400, 1).unwrap(), 0x205u32.to_le_bytes(), "node-ID added");
         assert_eq!(od.info(id(0x2001, 5)).id(), id(0x2001, 5));
+        assert_eq!(od.info_at(0x2001, 5).map(|info| info.id()), Ok(id(0x2001, 5)));
+        assert_eq!(od.info_at(0x2001, 2).map(|info| info.id()), Err(AbortCode::NO_SUB_INDEX));
         assert_eq!(od.info(id(0x607A, 0)).limits(), Some(Limits { low: -1000, high: 1000 }));
         assert_eq!(od.find(0x9999, 0), Err(AbortCode::NO_OBJECT));
         let saved = od.stored(Storage::Application).to_vec();

@@ -124,13 +124,7 @@ impl Plan<'_> {
     }
 
     /// Writing the value at an offset of the image.
-    fn setter_at(
-        &self,
-        entry: &PlannedEntry<'_>,
-        name: &str,
-        at: &At,
-        offset: &TokenStream,
-    ) -> TokenStream {
+    fn setter_at(&self, entry: &PlannedEntry<'_>, name: &str, at: &At, offset: &TokenStream) -> TokenStream {
         let values = Values { plan: self };
         let raw = values.encode(&entry.kind, &at.root, &quote!(value));
         let Store { code: store, error } = values.store(&entry.kind, entry.size, at, offset, &raw);
@@ -354,13 +348,14 @@ impl Plan<'_> {
         let (at, values) = (At::group(), Values { plan: self });
         let (group, name) = (format_ident!("{type_name}"), format_ident!("{}", self.name));
         let others = alike.len() - 1;
-        let others = if others == 1 { "another object".to_owned() } else { format!("{others} other objects") };
+        let others =
+            if others == 1 { "another object".to_owned() } else { format!("{others} other objects") };
         let about = doc(&format!("{}\n\nThe group of {others}, too.", self.object_doc(object.object)));
         let objects: Vec<_> = alike.iter().filter_map(|at| self.objects.get(*at)).collect();
         let entries: Vec<_> = self.accessible(object).collect();
         let accessors = entries.iter().enumerate().map(|(member, entry)| {
             let same = objects.iter().filter_map(|object| self.accessible(object).nth(member));
-            let about = doc(&self.shared_doc(entry, same, &at.link_root()));
+            let about = doc(&self.shared_doc(entry, same));
             let (get, position) = (format_ident!("{}", entry.member), Literal::usize_unsuffixed(member));
             let offset = quote!(self.1[#position]);
             let value_type = values.value_type(&entry.kind, &at.root);
@@ -399,32 +394,6 @@ impl Plan<'_> {
         let (about, group, first) =
             (doc(&self.object_doc(object.object)), format_ident!("{type_name}"), format_ident!("{first}"));
         Some(quote!(#about pub type #group<D> = #first<D>;))
-    }
-
-    /// What is said of a member that several objects have: what is the same for all of them.
-    fn shared_doc<'p>(
-        &self,
-        entry: &PlannedEntry<'_>,
-        same: impl Iterator<Item = &'p PlannedEntry<'p>>,
-        root: &str,
-    ) -> String {
-        let text_of = |entry: &PlannedEntry<'_>| {
-            let text = self.entry_doc(entry, root);
-            let (heading, facts) = text.split_once("\n\n").unwrap_or((&text, ""));
-            let (_, heading) = heading.split_once("` ").unwrap_or(("", heading));
-            (heading.to_owned(), facts.to_owned())
-        };
-        let (mut heading, mut facts) = text_of(entry);
-        for other in same {
-            let (its_heading, its_facts) = text_of(other);
-            if heading != its_heading {
-                heading = "The objects differ in what they call it.".to_owned();
-            }
-            if facts != its_facts {
-                facts = "The objects differ in their limits, defaults or PDOs.".to_owned();
-            }
-        }
-        format!("Sub-index {}: {heading}\n\n{facts}", entry.id.sub)
     }
 
     /// The constants that say how aliases show their targets.

@@ -126,18 +126,18 @@ impl Plan<'_> {
     fn entry_of_row(&self) -> TokenStream {
         let arm = |row: usize, entry: &PlannedEntry<'_>| {
             let (row, variant) = (Literal::usize_unsuffixed(row), format_ident!("{}", entry.variant));
-            quote!(#row => Some(Entry::#variant),)
+            quote!(#row => Entry::#variant,)
         };
         let arms: Vec<_> = self.entries.iter().enumerate().map(|(row, entry)| arm(row, entry)).collect();
         if arms.len() <= ARMS {
-            return quote!(match row { #(#arms)* _ => None, });
+            return quote!(Some(match row { #(#arms)* _ => return None, }));
         }
         let parts = arms.chunks(ARMS).enumerate().map(|(part, arms)| {
             let function = format_ident!("part_{part}");
             quote! {
                 #[inline]
                 fn #function(row: u16) -> Option<Entry> {
-                    match row { #(#arms)* _ => None, }
+                    Some(match row { #(#arms)* _ => return None, })
                 }
             }
         });
@@ -248,7 +248,7 @@ impl Plan<'_> {
             };
             let (attributes, place) =
                 (Literal::u16_unsuffixed(entry.attributes), Literal::usize_unsuffixed(place));
-            quote!([#attributes, #place])
+            quote!(#attributes, #place)
         });
         let (count, object_count) = (
             Literal::usize_unsuffixed(self.entries.len()),
@@ -260,8 +260,8 @@ impl Plan<'_> {
 
             #directory
 
-            /// Entries by row: attributes and place.
-            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries([#(#entries),*]);
+            /// Entries by row: attributes and place in turn.
+            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries(&[#(#entries),*]);
         }
     }
 
