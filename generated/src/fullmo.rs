@@ -2056,7 +2056,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2064,7 +2064,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2103,7 +2103,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2111,7 +2111,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2494,7 +2494,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> InputFunctions1<D> {
         /// Sub-index 1: edge functions: Was bei steigender und bei fallender Flanke geschieht.
         ///
-        /// UNSIGNED16, rw. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw.
         #[inline]
         pub fn edge_functions(&self) -> super::types::EdgeFunctions {
             super::types::EdgeFunctions(
@@ -2504,7 +2504,7 @@ pub mod records {
 
         /// Sub-index 2: edge TPDOs: TxPDOs zu steigender und fallender Flanke.
         ///
-        /// UNSIGNED16, rw. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw.
         #[inline]
         pub fn edge_tpdos(&self) -> super::types::EdgeTpdos {
             super::types::EdgeTpdos(super::glue::get_u16(&self.0.borrow().0, self.1[1]))
@@ -2512,7 +2512,7 @@ pub mod records {
 
         /// Sub-index 3: result 1: Ergebnisregister 1: Position bei Funktion 1, Zählerstand bei Funktion 3; durch Schreiben vorbelegbar.
         ///
-        /// INTEGER32, rw. What is not said here is not the same for all objects.
+        /// INTEGER32, rw.
         #[inline]
         pub fn result_1(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[2])
@@ -2520,7 +2520,7 @@ pub mod records {
 
         /// Sub-index 4: result 2: Ergebnisregister 2: Position bei Funktion 2.
         ///
-        /// INTEGER32, rw. What is not said here is not the same for all objects.
+        /// INTEGER32, rw.
         #[inline]
         pub fn result_2(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[3])
@@ -2528,7 +2528,7 @@ pub mod records {
 
         /// Sub-index 5: motion delay: Timer: Verzögerung, bis Sollgeschwindigkeit, Beschleunigung und Zielposition (Subindizes 6 bis 8) wirksam werden.
         ///
-        /// UNSIGNED16, rw, in ms. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw, in ms.
         #[inline]
         pub fn motion_delay(&self) -> super::units::Millisecond<u16> {
             super::units::Millisecond(
@@ -2538,7 +2538,7 @@ pub mod records {
 
         /// Sub-index 6: target velocity: Sollgeschwindigkeit des Fahrbefehls. Im Profile Position Mode folgt ihr Vorzeichen aus der Zielposition.
         ///
-        /// INTEGER32, rw. What is not said here is not the same for all objects.
+        /// INTEGER32, rw.
         #[inline]
         pub fn target_velocity(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[5])
@@ -2546,7 +2546,7 @@ pub mod records {
 
         /// Sub-index 7: acceleration: Beschleunigung des Fahrbefehls.
         ///
-        /// UNSIGNED16, rw. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw.
         #[inline]
         pub fn acceleration(&self) -> u16 {
             super::glue::get_u16(&self.0.borrow().0, self.1[6])
@@ -2554,7 +2554,7 @@ pub mod records {
 
         /// Sub-index 8: target position: Zielposition des Fahrbefehls, im Profile Position Mode.
         ///
-        /// INTEGER32, rw. What is not said here is not the same for all objects.
+        /// INTEGER32, rw.
         #[inline]
         pub fn target_position(&self) -> i32 {
             super::glue::get_i32(&self.0.borrow().0, self.1[7])
@@ -4978,113 +4978,113 @@ pub mod errors {
 #[allow(dead_code, unreachable_pub)]
 pub mod units {
     ::firmware_glue::unit! {
-        #[doc = r" centiampere: one raw step is 0.01 A. Strom; ein Schritt ist 10 mA."]
+        #[doc = " centiampere: one raw step is 0.01 A. Strom; ein Schritt ist 10 mA."]
         pub struct Centiampere = "A", scale 1 / 100, step 1 / 100 of BaseA;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" centivolt: one raw step is 0.01 V. Spannung; ein Schritt ist 10 mV."]
+        #[doc = " centivolt: one raw step is 0.01 V. Spannung; ein Schritt ist 10 mV."]
         pub struct Centivolt = "V", scale 1 / 100, step 1 / 100 of BaseV;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" cia402 acceleration unit: one raw step is 1 AU. The user's unit of acceleration; often the velocity unit per second."]
+        " cia402 acceleration unit: one raw step is 1 AU. The user's unit of acceleration; often the velocity unit per second."]
         pub struct Cia402AccelerationUnit = "AU", scale 1 / 1, step 1 / 1 of BaseAU;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" cia402 increment: one raw step is 1 inc. Step of the position encoder."] pub
+        " cia402 increment: one raw step is 1 inc. Step of the position encoder."] pub
         struct Cia402Increment = "inc", scale 1 / 1, step 1 / 1 of Baseinc;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" cia402 increment per second: one raw step is 1 inc/s. Steps of the encoder per second."]
+        " cia402 increment per second: one raw step is 1 inc/s. Steps of the encoder per second."]
         pub struct Cia402IncrementPerSecond = "inc/s", scale 1 / 1, step 1 / 1 of
         BaseincPers;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" cia402 position unit: one raw step is 1 PU. The user's unit of position; 60A8h or the factors tell which."]
+        " cia402 position unit: one raw step is 1 PU. The user's unit of position; 60A8h or the factors tell which."]
         pub struct Cia402PositionUnit = "PU", scale 1 / 1, step 1 / 1 of BasePU;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" cia402 velocity unit: one raw step is 1 VU. The user's unit of velocity; often the position unit per second."]
+        " cia402 velocity unit: one raw step is 1 VU. The user's unit of velocity; often the position unit per second."]
         pub struct Cia402VelocityUnit = "VU", scale 1 / 1, step 1 / 1 of BaseVU;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" degree celsius: one raw step is 1 °C."] pub struct DegreeCelsius =
+        #[doc = " degree celsius: one raw step is 1 °C."] pub struct DegreeCelsius =
         "°C", scale 1 / 1, step 1 / 1 of BaseDegreeC;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
+        #[doc = " milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
         scale 1 / 1, step 1 / 1000 of BaseA;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millinewton metre: one raw step is 1 mNm."] pub struct
-        MillinewtonMetre = "mNm", scale 1 / 1, step 1 / 1000 of BaseNm;
+        #[doc = " millinewton metre: one raw step is 1 mNm."] pub struct MillinewtonMetre
+        = "mNm", scale 1 / 1, step 1 / 1000 of BaseNm;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale
-        1 / 1, step 1 / 1000 of BaseV;
+        #[doc = " millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale 1
+        / 1, step 1 / 1000 of BaseV;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" per mille of rated current: one raw step is 0.1 %. Share of the rated current 6075h; one raw step is 0.1 %."]
+        " per mille of rated current: one raw step is 0.1 %. Share of the rated current 6075h; one raw step is 0.1 %."]
         pub struct PerMilleOfRatedCurrent = "%", scale 1 / 10, step 1 / 10 of
         BasePercent;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" per mille of rated torque: one raw step is 0.1 %. Share of the rated torque 6076h; one raw step is 0.1 %."]
+        " per mille of rated torque: one raw step is 0.1 %. Share of the rated torque 6076h; one raw step is 0.1 %."]
         pub struct PerMilleOfRatedTorque = "%", scale 1 / 10, step 1 / 10 of BasePercent;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" per mille of rated torque per second: one raw step is 0.1 %/s. Slope, relative to the rated torque 6076h."]
+        " per mille of rated torque per second: one raw step is 0.1 %/s. Slope, relative to the rated torque 6076h."]
         pub struct PerMilleOfRatedTorquePerSecond = "%/s", scale 1 / 10, step 1 / 10 of
         BasePercentPers;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" position unit: one raw step is 1 PU. Positionseinheit des Anwenders; die Formel gibt ihre internen Inkremente."]
+        " position unit: one raw step is 1 PU. Positionseinheit des Anwenders; die Formel gibt ihre internen Inkremente."]
         pub struct PositionUnit = "PU", scale 1 / 1, step 1 / 1 of BasePU;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" revolution per minute: one raw step is 1 U/min. Umdrehungen je Minute."] pub
+        " revolution per minute: one raw step is 1 U/min. Umdrehungen je Minute."] pub
         struct RevolutionPerMinute = "U/min", scale 1 / 1, step 1 / 60 of BaseUPers;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" revolution per second squared: one raw step is 0.01525 U/s². Beschleunigung; ein Schritt ist 0,01525 U/s²."]
+        " revolution per second squared: one raw step is 0.01525 U/s². Beschleunigung; ein Schritt ist 0,01525 U/s²."]
         pub struct RevolutionPerSecondSquared = "U/s²", scale 61 / 4000, step 61 / 4000
         of BaseUPersUB2;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" velocity unit: one raw step is 1 VU. Geschwindigkeitseinheit des Anwenders; die Formel gibt ihre internen Inkremente je Sekunde."]
+        " velocity unit: one raw step is 1 VU. Geschwindigkeitseinheit des Anwenders; die Formel gibt ihre internen Inkremente je Sekunde."]
         pub struct VelocityUnit = "VU", scale 1 / 1, step 1 / 1 of BaseVU;
     }
 

@@ -2715,7 +2715,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2723,7 +2723,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2762,7 +2762,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2770,7 +2770,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -6542,87 +6542,86 @@ pub mod errors {
 pub mod units {
     ::firmware_glue::unit! {
         #[doc =
-        r" centihertz: one raw step is 0.01 Hz. Frequency; one raw step is 0.01 Hz."] pub
+        " centihertz: one raw step is 0.01 Hz. Frequency; one raw step is 0.01 Hz."] pub
         struct Centihertz = "Hz", scale 1 / 100, step 1 / 100 of BaseHz;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" decicelsius: one raw step is 0.1 °C. Temperature; one raw step is 0.1 °C."]
+        " decicelsius: one raw step is 0.1 °C. Temperature; one raw step is 0.1 °C."]
         pub struct Decicelsius = "°C", scale 1 / 10, step 1 / 10 of BaseDegreeC;
     }
 
     ::firmware_glue::unit! {
-        #[doc =
-        r" decihertz: one raw step is 0.1 Hz. Frequency; one raw step is 0.1 Hz."] pub
-        struct Decihertz = "Hz", scale 1 / 10, step 1 / 10 of BaseHz;
+        #[doc = " decihertz: one raw step is 0.1 Hz. Frequency; one raw step is 0.1 Hz."]
+        pub struct Decihertz = "Hz", scale 1 / 10, step 1 / 10 of BaseHz;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" decivolt: one raw step is 0.1 V. Voltage; one raw step is 0.1 V."] pub
+        #[doc = " decivolt: one raw step is 0.1 V. Voltage; one raw step is 0.1 V."] pub
         struct Decivolt = "V", scale 1 / 10, step 1 / 10 of BaseV;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" encoder increment: one raw step is 1 inc."] pub struct
-        EncoderIncrement = "inc", scale 1 / 1, step 1 / 1 of Baseinc;
+        #[doc = " encoder increment: one raw step is 1 inc."] pub struct EncoderIncrement
+        = "inc", scale 1 / 1, step 1 / 1 of Baseinc;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" kilohertz: one raw step is 1 kHz."] pub struct Kilohertz = "kHz",
-        scale 1 / 1, step 1 / 1 of BasekHz;
+        #[doc = " kilohertz: one raw step is 1 kHz."] pub struct Kilohertz = "kHz", scale
+        1 / 1, step 1 / 1 of BasekHz;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
+        #[doc = " milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
         scale 1 / 1, step 1 / 1000 of BaseA;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale
-        1 / 1, step 1 / 1000 of BaseV;
+        #[doc = " millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale 1
+        / 1, step 1 / 1000 of BaseV;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" permille: one raw step is 0.1 %. Ratio; one raw step is 0.1 %."] pub
+        #[doc = " permille: one raw step is 0.1 %. Ratio; one raw step is 0.1 %."] pub
         struct Permille = "%", scale 1 / 10, step 1 / 10 of BasePercent;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" position unit: one raw step is 1 PU. The user's unit of position; 0.01° in a pitch system."]
+        " position unit: one raw step is 1 PU. The user's unit of position; 0.01° in a pitch system."]
         pub struct PositionUnit = "PU", scale 1 / 1, step 1 / 100 of BaseDegree;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" position unit per second: one raw step is 1 PU/s."] pub struct
+        #[doc = " position unit per second: one raw step is 1 PU/s."] pub struct
         PositionUnitPerSecond = "PU/s", scale 1 / 1, step 1 / 100 of BaseDegreePers;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" position unit per second squared: one raw step is 1 PU/s²."] pub
+        #[doc = " position unit per second squared: one raw step is 1 PU/s²."] pub
         struct PositionUnitPerSecondSquared = "PU/s²", scale 1 / 1, step 1 / 100 of
         BaseDegreePersUB2;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" reciprocal second: one raw step is 1 1/s."] pub struct
-        ReciprocalSecond = "1/s", scale 1 / 1, step 1 / 1 of Base1Pers;
+        #[doc = " reciprocal second: one raw step is 1 1/s."] pub struct ReciprocalSecond
+        = "1/s", scale 1 / 1, step 1 / 1 of Base1Pers;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" revolution per minute: one raw step is 1 rpm."] pub struct
+        #[doc = " revolution per minute: one raw step is 1 rpm."] pub struct
         RevolutionPerMinute = "rpm", scale 1 / 1, step 1 / 1 of Baserpm;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" volt: one raw step is 1 V."] pub struct Volt = "V", scale 1 / 1, step
-        1 / 1 of BaseV;
+        #[doc = " volt: one raw step is 1 V."] pub struct Volt = "V", scale 1 / 1, step 1
+        / 1 of BaseV;
     }
 
     /// What units have in common that convert into each other.

@@ -2573,7 +2573,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2581,7 +2581,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2620,7 +2620,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2628,7 +2628,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -3350,7 +3350,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorBattery<D> {
         /// Sub-index 1: warning limit: Warning from this temperature on.
         ///
-        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. What is not said here is not the same for all objects.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. The objects differ in the rest.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3360,7 +3360,7 @@ pub mod records {
 
         /// Sub-index 2: error limit: Fault with an emergency message from this temperature on.
         ///
-        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. What is not said here is not the same for all objects.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. The objects differ in the rest.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3370,7 +3370,7 @@ pub mod records {
 
         /// Sub-index 3: lower limit: Warning below this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. What is not said here is not the same for all objects.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. The objects differ in the rest.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3417,7 +3417,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> TemperatureControllerBattery<D> {
         /// Sub-index 1: heater: Heater and fan run below this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters. What is not said here is not the same for all objects.
+        /// INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
         #[inline]
         pub fn heater(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3427,7 +3427,7 @@ pub mod records {
 
         /// Sub-index 2: cooler: Cooler and fan run above this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters. What is not said here is not the same for all objects.
+        /// INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
         #[inline]
         pub fn cooler(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3437,7 +3437,7 @@ pub mod records {
 
         /// Sub-index 3: hysteresis: Heating ends this much above the heater threshold, cooling this much below the cooler threshold.
         ///
-        /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters. What is not said here is not the same for all objects.
+        /// INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
         #[inline]
         pub fn hysteresis(&self) -> super::units::Decikelvin<i16> {
             super::units::Decikelvin(super::glue::get_i16(&self.0.borrow().0, self.1[2]))
@@ -3445,7 +3445,7 @@ pub mod records {
 
         /// Sub-index 4: output heater: Outputs that switch the heater.
         ///
-        /// UNSIGNED16, rw, stored with the application parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw, stored with the application parameters. The objects differ in the rest.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3455,7 +3455,7 @@ pub mod records {
 
         /// Sub-index 5: output cooler: Outputs that switch the cooler.
         ///
-        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
         #[inline]
         pub fn output_cooler(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3465,7 +3465,7 @@ pub mod records {
 
         /// Sub-index 6: output fan: Outputs that switch the fan.
         ///
-        /// UNSIGNED16, rw, stored with the application parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw, stored with the application parameters. The objects differ in the rest.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3475,7 +3475,7 @@ pub mod records {
 
         /// Sub-index 7: delay fan off: Time for which the fan runs on after heating or cooling.
         ///
-        /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters. What is not said here is not the same for all objects.
+        /// UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
         #[inline]
         pub fn delay_fan_off(&self) -> super::units::Second<u16> {
             super::units::Second(super::glue::get_u16(&self.0.borrow().0, self.1[6]))
@@ -6261,82 +6261,82 @@ pub mod errors {
 #[allow(dead_code, unreachable_pub)]
 pub mod units {
     ::firmware_glue::unit! {
-        #[doc = r" ampere: one raw step is 1 A."] pub struct Ampere = "A", scale 1 / 1,
+        #[doc = " ampere: one raw step is 1 A."] pub struct Ampere = "A", scale 1 / 1,
         step 1 / 1 of BaseA;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" centidegree: one raw step is 0.01 °. Blade angle; one raw step is 0.01°."]
+        " centidegree: one raw step is 0.01 °. Blade angle; one raw step is 0.01°."]
         pub struct Centidegree = "°", scale 1 / 100, step 1 / 100 of BaseDegree;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" decicelsius: one raw step is 0.1 °C. Temperature; one raw step is 0.1 °C."]
+        " decicelsius: one raw step is 0.1 °C. Temperature; one raw step is 0.1 °C."]
         pub struct Decicelsius = "°C", scale 1 / 10, step 1 / 10 of BaseDegreeC;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" decikelvin: one raw step is 0.1 K. Temperature difference; one raw step is 0.1 K."]
+        " decikelvin: one raw step is 0.1 K. Temperature difference; one raw step is 0.1 K."]
         pub struct Decikelvin = "K", scale 1 / 10, step 1 / 10 of BaseK;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" microhenry: one raw step is 1 µH."] pub struct Microhenry = "µH",
+        #[doc = " microhenry: one raw step is 1 µH."] pub struct Microhenry = "µH",
         scale 1 / 1, step 1 / 1_000_000 of BaseH;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
+        #[doc = " milliampere: one raw step is 1 mA."] pub struct Milliampere = "mA",
         scale 1 / 1, step 1 / 1000 of BaseA;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" milliampere hour: one raw step is 1 mAh. Electric charge. The objects are named after Ah but count in mAh."]
+        " milliampere hour: one raw step is 1 mAh. Electric charge. The objects are named after Ah but count in mAh."]
         pub struct MilliampereHour = "mAh", scale 1 / 1, step 1 / 1000 of BaseAh;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" milliohm: one raw step is 1 mOhm."] pub struct Milliohm = "mOhm",
-        scale 1 / 1, step 1 / 1000 of BaseOhm;
+        #[doc = " milliohm: one raw step is 1 mOhm."] pub struct Milliohm = "mOhm", scale
+        1 / 1, step 1 / 1000 of BaseOhm;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale
-        1 / 1, step 1 / 1000 of BaseV;
+        #[doc = " millivolt: one raw step is 1 mV."] pub struct Millivolt = "mV", scale 1
+        / 1, step 1 / 1000 of BaseV;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" minute: one raw step is 1 min."] pub struct Minute = "min", scale 1 /
+        #[doc = " minute: one raw step is 1 min."] pub struct Minute = "min", scale 1 /
         1, step 60 / 1 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" percent: one raw step is 1 %."] pub struct Percent = "%", scale 1 / 1,
+        #[doc = " percent: one raw step is 1 %."] pub struct Percent = "%", scale 1 / 1,
         step 1 / 1 of BasePercent;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" second: one raw step is 1 s."] pub struct Second = "s", scale 1 / 1,
+        #[doc = " second: one raw step is 1 s."] pub struct Second = "s", scale 1 / 1,
         step 1 / 1 of Bases;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" volt: one raw step is 1 V."] pub struct Volt = "V", scale 1 / 1, step
-        1 / 1 of BaseV;
+        #[doc = " volt: one raw step is 1 V."] pub struct Volt = "V", scale 1 / 1, step 1
+        / 1 of BaseV;
     }
 
     ::firmware_glue::unit! {
         #[doc =
-        r" volt per second: one raw step is 1 V/s. Ramp of an output voltage; the manual prints V/sec."]
+        " volt per second: one raw step is 1 V/s. Ramp of an output voltage; the manual prints V/sec."]
         pub struct VoltPerSecond = "V/s", scale 1 / 1, step 1 / 1 of BaseVPers;
     }
 

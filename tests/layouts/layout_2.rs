@@ -972,12 +972,12 @@ pub mod specials {
 #[allow(dead_code, unreachable_pub)]
 pub mod units {
     ::firmware_glue::unit! {
-        #[doc = r" decibar: one raw step is 0.1 bar."] pub struct Decibar = "bar", scale
-        1 / 10, step 1 / 10 of Basebar;
+        #[doc = " decibar: one raw step is 0.1 bar."] pub struct Decibar = "bar", scale 1
+        / 10, step 1 / 10 of Basebar;
     }
 
     ::firmware_glue::unit! {
-        #[doc = r" millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
+        #[doc = " millisecond: one raw step is 1 ms."] pub struct Millisecond = "ms",
         scale 1 / 1, step 1 / 1000 of Bases;
     }
 

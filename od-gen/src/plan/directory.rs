@@ -47,7 +47,7 @@ fn seeded(hash: u32, seed: u8) -> u32 {
 
 /// The upper half of a hash, scaled to positions in a list.
 fn scaled(hash: u32, length: usize) -> usize {
-    usize::try_from(hash >> 16).unwrap_or_default() * length >> 16
+    (usize::try_from(hash >> 16).unwrap_or_default() * length) >> 16
 }
 
 impl Directory {

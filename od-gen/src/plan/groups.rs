@@ -23,8 +23,8 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
-    /// Objects with one group, where `position` is the first of them.
-    pub(crate) fn from_first(&self, position: usize) -> Option<&[usize]> {
+    /// The objects with one group, if `position` is the first of them.
+    pub(crate) fn alike(&self, position: usize) -> Option<&[usize]> {
         self.alike.get(&position).map(Vec::as_slice)
     }
 

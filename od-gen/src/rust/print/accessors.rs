@@ -288,7 +288,7 @@ impl Plan<'_> {
         let shared = self.groups();
         let (groups, can_change): (Vec<_>, Vec<bool>) = (0..)
             .zip(&self.objects)
-            .filter_map(|(at, object)| match (&object.shape, shared.first(at), shared.from_first(at)) {
+            .filter_map(|(at, object)| match (&object.shape, shared.first(at), shared.alike(at)) {
                 (Shape::Group { type_name }, None, _) => Some(self.group(object, type_name)),
                 (Shape::Group { type_name }, Some(_), Some(alike)) => {
                     Some((self.shared_group(object, type_name, alike), true))
