@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use crate::data_type::DataType;
+use crate::directory::{APPLICATION, Directory, NUMBERS};
 use crate::fault::{Fault, TableError};
 use crate::mapping::{MAPPING, Mapped, RECEIVE, TRANSMIT, width};
 use crate::stored::at_row;
@@ -22,7 +23,7 @@ impl<'t> Table<'t> {
     pub fn checked(parts: Parts<'t>) -> Result<Self, TableError> {
         // Each relies on what those before it have found.
         check_objects(&parts)?;
-        check_runs(&parts)?;
+        check_directory(&parts)?;
         check_lists(&parts)?;
         each(parts.attributes, |shared| check_attributes(&parts, shared))?;
         each(parts.entries, |entry| check_entry(&parts, *entry))?;
@@ -66,25 +67,27 @@ fn check_objects(parts: &Parts<'_>) -> Result<(), TableError> {
     wrong.map_or(Ok(()), |at| unless(false, Fault::ObjectOrder, at))
 }
 
-fn check_runs(parts: &Parts<'_>) -> Result<(), TableError> {
-    let objects = parts.objects.len() - 1;
-    let last = parts.runs.len().checked_sub(1);
-    let ends =
-        parts.runs.last().is_some_and(|run| run.index == u16::MAX && usize::from(run.object) == objects);
-    unless(ends, Fault::RunEnd, last.unwrap_or_default())?;
-    unless(parts.runs.first().is_some_and(|run| run.object == 0), Fault::RunOrder, 0)?;
-    for (at, pair) in parts.runs.windows(2).enumerate() {
-        let [run, next] = pair else { continue };
-        unless(run.index < next.index && run.object < next.object, Fault::RunOrder, at)?;
-        unless(next.index - run.index >= next.object - run.object, Fault::RunLength, at)?;
+fn check_directory(parts: &Parts<'_>) -> Result<(), TableError> {
+    let Directory { blocks, order, .. } = parts.directory;
+    let (mut objects, mut before, mut communication) = (0, None, 0);
+    for (at, place) in order.iter().enumerate() {
+        let block =
+            blocks.get(usize::from(*place)).filter(|block| block.present > 0 && block.number < NUMBERS);
+        let block =
+            block.filter(|block| before < Some(block.number) && usize::from(block.objects) == objects);
+        let block = block.ok_or(TableError { fault: Fault::BlockOrder, at })?;
+        let found = parts.directory.place(block.number);
+        unless(found == Some(usize::from(*place)), Fault::BlockPlace, at)?;
+        before = Some(block.number);
+        objects += usize::try_from(block.present.count_ones()).unwrap_or_default();
+        if block.number < APPLICATION {
+            communication = objects;
+        }
     }
-    let first = parts.runs.iter().position(|run| run.index >= 0x2000).unwrap_or_default();
-    let (run, before) = (parts.runs.get(first), first.checked_sub(1).and_then(|at| parts.runs.get(at)));
-    // The run before may reach beyond 2000h.
-    let object = run
-        .zip(before)
-        .map_or(0, |(run, before)| run.object.min(before.object.saturating_add(0x2000 - before.index)));
-    let row = parts.objects.get(usize::from(object));
+    let used = blocks.iter().filter(|block| block.present > 0).count();
+    let is_all = used == order.len() && objects == parts.objects.len() - 1;
+    unless(is_all, Fault::BlockCount, order.len())?;
+    let row = parts.objects.get(communication);
     unless(row == Some(&parts.first_application_row), Fault::FirstApplicationRow, 0)
 }
 

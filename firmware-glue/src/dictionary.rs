@@ -16,7 +16,7 @@ use crate::value::{Value, number};
 /// the rest follows.
 ///
 /// ```
-/// use firmware_glue::table::{Attributes, EntryRow, Flags, Limits, NONE, Parts, Place, Run};
+/// use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, Limits, NONE, Parts, Place};
 /// use firmware_glue::{AbortCode, DataType, Dictionary, EntryId, Storage, Table, TableDictionary};
 ///
 /// // 2000h "set pressure": UNSIGNED16, rw, 0 to 160, default 25. The generator makes this of a specification.
@@ -31,8 +31,10 @@ use crate::value::{Value, number};
 ///     values: NONE,
 ///     condition: NONE,
 /// };
+/// let (mut blocks, mut seeds, mut order) = ([Block::FREE; 1], [0; 1], [0; 1]);
+/// let directory = Directory::arrange(&[0x2000], &mut blocks, &mut seeds, &mut order);
 /// let table = Table::checked(Parts {
-///     runs: &[Run { index: 0x2000, object: 0 }, Run { index: 0xFFFF, object: 1 }],
+///     directory: directory.ok_or("there is a block for each object")?,
 ///     objects: &[0, 1],
 ///     entries: &[EntryRow { attributes: 0, place: 0 }],
 ///     attributes: &[SET_PRESSURE],
@@ -83,6 +85,16 @@ pub trait Dictionary<'t>: Entries {
     #[inline]
     fn info(&self, entry: Self::Entry) -> Info<'t> {
         Info::new(self.table(), self.row(entry))
+    }
+
+    /// What is known about the entry at an index and sub-index: what a server asks first, in one search.
+    ///
+    /// # Errors
+    /// As [`find`](Self::find).
+    #[inline]
+    fn info_at(&self, index: u16, sub: u8) -> Result<Info<'t>, AbortCode> {
+        let table = self.table();
+        table.lookup(index, sub).map(|found| Info::of(table, found))
     }
 
     /// The value of an entry, as an SDO client reads it.

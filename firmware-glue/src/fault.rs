@@ -11,7 +11,7 @@ pub struct TableError {
     pub at: usize,
 }
 
-/// `runs[1]: a run ends before the index of the next`.
+/// `directory.order[1]: a block is where it is looked for`.
 impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}[{}]: {}", self.fault.list(), self.at, self.fault.rule())
@@ -44,9 +44,9 @@ macro_rules! faults {
 }
 
 faults! {
-    RunOrder = "runs", "the first begins with object 0, and index and object ascend";
-    RunLength = "runs", "a run ends before the index of the next";
-    RunEnd = "runs", "the last is index FFFFh with the number of objects";
+    BlockOrder = "directory.order", "each is the place of a block with objects, and its number and the objects before it ascend";
+    BlockPlace = "directory.order", "a block is where it is looked for";
+    BlockCount = "directory.order", "all blocks with objects are there, and have as many objects as the table";
     ObjectOrder = "objects", "the first begins in row 0, each has 1 to 256 entries, and the number of entries ends them";
     EntryCount = "entries", "there are at most 65,534";
     EntryAttributes = "entries", "the position is in the list of attributes";

@@ -2,7 +2,7 @@
 
 use crate::data_type::DataType;
 use crate::id::EntryId;
-use crate::table::{Attributes, Flags, Limits, Place, Row, Storage, Table};
+use crate::table::{Attributes, Flags, Found, Limits, Place, Row, Storage, Table};
 
 /// What is known about an entry.
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +17,12 @@ impl<'t> Info<'t> {
     #[inline]
     pub fn new(table: &'t Table<'t>, row: Row) -> Self {
         Self { table, row, shared: table.attributes(row) }
+    }
+
+    /// What is known about an entry that was found.
+    #[inline]
+    pub(crate) fn of(table: &'t Table<'t>, found: Found<'t>) -> Self {
+        Self { table, row: found.row, shared: found.shared }
     }
 
     /// Index and sub-index.

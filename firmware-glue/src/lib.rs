@@ -31,12 +31,13 @@ mod communication;
 mod constraint;
 mod data_type;
 mod dictionary;
+mod directory;
 mod effect;
 mod entries;
 mod fault;
 mod flags;
 #[doc(hidden)]
-pub mod generated_for_layout_1;
+pub mod generated_for_layout_2;
 mod id;
 pub mod image;
 mod info;

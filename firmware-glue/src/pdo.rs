@@ -4,7 +4,7 @@
 //! like the default one. For the default mappings, the generator also prints structures with straight-line code.
 //!
 //! ```
-//! use firmware_glue::table::{Attributes, EntryRow, Flags, NONE, Parts, Pdo, Place, Run};
+//! use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Pdo, Place};
 //! use firmware_glue::{DataType, Dictionary, Storage, Table, TableDictionary, pdo};
 //!
 //! // 1400h, 1600h: RPDO 1 with COB-ID 201h, which carries 2000h.0, an UNSIGNED16. The generator makes this of a specification.
@@ -21,7 +21,8 @@
 //! };
 //! let row = |attributes, place| EntryRow { attributes, place };
 //! let written = Flags::READ.with(Flags::WRITE);
-//! let runs = [(0x1400, 0), (0x1600, 1), (0x2000, 2), (0xFFFF, 3)].map(|(index, object)| Run { index, object });
+//! let (mut blocks, mut seeds, mut order) = ([Block::FREE; 3], [0; 2], [0; 3]);
+//! let directory = Directory::arrange(&[0x1400, 0x1600, 0x2000], &mut blocks, &mut seeds, &mut order);
 //! let entries = [row(0, 0), row(1, 4), row(0, 1), row(1, 8), row(2, 2)];
 //! let attributes = [
 //!     entry(DataType::Unsigned8, Flags::READ),
@@ -29,7 +30,7 @@
 //!     entry(DataType::Unsigned16, written.with(Flags::RECEIVE)),
 //! ];
 //! let table = Table::checked(Parts {
-//!     runs: &runs,
+//!     directory: directory.ok_or("there is a block for each object")?,
 //!     pdos: &[Pdo { index: 0x1400, cob_id: 1, mapping: 2, rows: &[4] }],
 //!     first_application_row: 4,
 //!     objects: &[0, 2, 4, 5],

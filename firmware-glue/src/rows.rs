@@ -2,6 +2,7 @@
 
 use crate::alias::View;
 use crate::data_type::DataType;
+use crate::directory::Directory;
 use crate::flags::{Dummies, Flags};
 use crate::image::NodeIdPlace;
 
@@ -14,9 +15,8 @@ pub const NONE: u16 = u16::MAX;
 /// Everything about a dictionary but the values in RAM.
 #[derive(Debug, Clone, Copy)]
 pub struct Parts<'t> {
-    /// Objects whose indices follow each other without a gap, by ascending index, and one that ends them: index FFFFh and
-    /// the number of objects.
-    pub runs: &'t [Run],
+    /// The indices of the objects.
+    pub directory: Directory<'t>,
     /// PDOs by ascending index.
     pub pdos: &'t [Pdo<'t>],
     /// The first row at or above index 2000h: the rows before are communication objects.
@@ -52,7 +52,7 @@ pub struct Parts<'t> {
 impl Parts<'_> {
     /// The parts of a dictionary without entries.
     pub const EMPTY: Self = Self {
-        runs: &[Run { index: u16::MAX, object: 0 }],
+        directory: Directory::EMPTY,
         pdos: &[],
         first_application_row: 0,
         objects: &[0],
@@ -69,15 +69,6 @@ impl Parts<'_> {
         granularity: 8,
         dummies: Dummies::NONE,
     };
-}
-
-/// Objects with consecutive indices.
-#[derive(Debug, Clone, Copy)]
-pub struct Run {
-    /// Index of the first.
-    pub index: u16,
-    /// Its position in [`Parts::objects`].
-    pub object: u16,
 }
 
 /// A PDO and its default mapping.
@@ -102,13 +93,12 @@ pub struct EntryRow {
     pub place: u16,
 }
 
-/// Entries from pairs of attributes and place.
-pub const fn entries<const N: usize>(pairs: [[u16; 2]; N]) -> [EntryRow; N] {
+/// Entries from their attributes and places in turn.
+pub const fn entries<const N: usize>(numbers: &[u16]) -> [EntryRow; N] {
     let mut rows = [EntryRow { attributes: 0, place: 0 }; N];
     let mut at = 0;
     while at < N {
-        let [attributes, place] = pairs[at];
-        rows[at] = EntryRow { attributes, place };
+        rows[at] = EntryRow { attributes: numbers[2 * at], place: numbers[2 * at + 1] };
         at += 1;
     }
     rows

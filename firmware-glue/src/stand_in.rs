@@ -6,7 +6,7 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! stand_in {
-    (1, $dictionary:ident, $entry:ident) => {};
+    (2, $dictionary:ident, $entry:ident) => {};
     ($other_layout:literal, $dictionary:ident, $entry:ident) => {
         impl $crate::Entries for $dictionary {
             type Entry = $entry;

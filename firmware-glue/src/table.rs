@@ -3,11 +3,11 @@
 use core::ops::Range;
 
 use crate::abort::AbortCode;
+pub use crate::directory::{Block, Directory};
 pub use crate::flags::{Dummies, Flags};
 use crate::id::EntryId;
 pub use crate::rows::{
-    Alias, Attributes, EntryRow, Limits, NONE, Parts, Pdo, Place, Region, Row, Run, SparseObject, Storage,
-    entries,
+    Alias, Attributes, EntryRow, Limits, NONE, Parts, Pdo, Place, Region, Row, SparseObject, Storage, entries,
 };
 
 /// Everything about a dictionary but the values in RAM, of which every part fits the others. Of generated code, it is
@@ -59,7 +59,7 @@ impl<'t> Table<'t> {
     /// # Versions
     ///
     /// What [`Parts`] has and means changes with the versions of this crate. A generated file therefore names, in its only
-    /// import, the layout that it was made for: `use ::firmware_glue::generated_for_layout_1 as glue;`. There is a module of
+    /// import, the layout that it was made for: `use ::firmware_glue::generated_for_layout_2 as glue;`. There is a module of
     /// this name for the present layout alone, and everything but the macros that make types is reached through it. So a file
     /// of another layout is one error, "no `generated_for_layout_…` in the root", and not one for each part that has changed: of what
     /// comes from an import that failed, the compiler says no more. (A number that is compared, in a constant or by a trait,
@@ -101,16 +101,7 @@ impl<'t> Table<'t> {
     /// The rows of an object.
     #[inline]
     pub(crate) fn object(&self, index: u16) -> Result<Range<Row>, AbortCode> {
-        let after = self.0.runs.partition_point(|run| run.index <= index);
-        let (Some(run), Some(next)) =
-            (after.checked_sub(1).and_then(|at| self.0.runs.get(at)), self.0.runs.get(after))
-        else {
-            return Err(AbortCode::NO_OBJECT);
-        };
-        let object = usize::from(run.object) + usize::from(index - run.index);
-        if object >= usize::from(next.object) {
-            return Err(AbortCode::NO_OBJECT);
-        }
+        let object = self.0.directory.position(index).ok_or(AbortCode::NO_OBJECT)?;
         match self.0.objects.get(object..).and_then(<[Row]>::first_chunk::<2>) {
             Some([first, end]) => Ok(*first..*end),
             None => Err(AbortCode::NO_OBJECT),
@@ -159,20 +150,11 @@ impl<'t> Table<'t> {
         else {
             return NOBODY;
         };
-        let Some(run) = self
-            .0
-            .runs
-            .partition_point(|run| usize::from(run.object) <= at)
-            .checked_sub(1)
-            .and_then(|at| self.0.runs.get(at))
-        else {
-            return NOBODY;
-        };
+        let Some(index) = self.0.directory.index(at) else { return NOBODY };
         // The end of the list stands for rows that nothing has.
         if self.0.entries.get(usize::from(row)).is_none() {
             return NOBODY;
         }
-        let index = run.index + (u16::try_from(at).unwrap_or_default() - run.object);
         let distance = row - first;
         let sub = if self.attributes(row).flags.has(Flags::SPARSE) {
             let sparse = self.0.sparse.binary_search_by_key(&first, |object| object.first);

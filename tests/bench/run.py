@@ -148,6 +148,8 @@ def own(odgen: Path, work: Path, sizes: list[int]) -> Iterator[Measured]:
         out, dcf = work / f"new-{size}", work / f"dcf-{size}"
         yield Measured("odgen check", [program, "check", str(spec)], size)
         yield Measured("odgen build", [program, "build", str(spec), "--out", str(out)], size, fresh=out)
+        rust = work / f"rust-{size}"
+        yield Measured("odgen build --rust", [program, "build", str(spec), "--rust", "--out", str(rust)], size, fresh=rust)
         one_file = ["--device", "controller", "--node", NODE, "--out", str(dcf / "controller.dcf")]
         yield Measured("odgen dcf", [program, "dcf", str(spec), *one_file], size, fresh=dcf)
         for form in ("md", "html"):

@@ -40,7 +40,7 @@ devices:
     product: {count}
     bit-rates: [125, 250, 500, 1000]
     device-type: 0x00000000
-    features: [device type, identity, device name, heartbeat producer, emergency, store parameters, restore defaults, sdo server]
+    features: [device type, identity, device name, heartbeat producer, emergency, sync consumer, store parameters, restore defaults, sdo server]
     eds: {{description: Measures how fast a compiler is, created: 2024-01-31 12:00, created-by: Example Works}}
     about: A device that nobody builds, with as many objects as a measurement needs.
 units:
@@ -224,6 +224,7 @@ SHAPES = (
     """\
     name: channel {channel} label
     type: visible-string
+    capacity: 16
     access: rw
     stored: application
     default: CH-{channel:05}

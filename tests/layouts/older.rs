@@ -1,6 +1,6 @@
 // A program with a file that was generated for an older layout of `firmware-glue`: one error, in the file's import.
 
-#[path = "layout_0.rs"]
+#[path = "layout_1.rs"]
 mod pump;
 
 use firmware_glue::{Application, Dictionary, pdo};

@@ -1,7 +1,7 @@
 // The same with a file of the present layout, as the generator printed it when the layout began: as long as it compiles, the
 // layout is the same. When it no longer does, the layout needs a new number, and this file a successor.
 
-#[path = "layout_1.rs"]
+#[path = "layout_2.rs"]
 mod pump;
 
 use firmware_glue::{Application, Dictionary, pdo};

@@ -2,15 +2,17 @@
 
 use firmware_glue::image::NodeIdPlace;
 use firmware_glue::table::{
-    Alias, Attributes, Dummies, EntryRow, Flags, Limits, NONE, Parts, Pdo, Place, Region, Row, Run,
-    SparseObject,
+    Alias, Attributes, Block, Directory, Dummies, EntryRow, Flags, Limits, NONE, Parts, Pdo, Place, Region,
+    Row, SparseObject,
 };
 use firmware_glue::{Application, DataType, Entries, EntryId, Outside, Storage, View};
 
 /// What a program owns that makes a table: the lists that [`Parts`] points at.
 #[derive(Debug, Clone)]
 pub(crate) struct Owned {
-    pub(crate) runs: Vec<Run>,
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) seeds: Vec<u8>,
+    pub(crate) order: Vec<u16>,
     pub(crate) pdos: Vec<OwnedPdo>,
     pub(crate) first_application_row: Row,
     pub(crate) objects: Vec<Row>,
@@ -64,7 +66,7 @@ impl Owned {
             .collect();
         let values: Vec<&[i64]> = self.values.iter().map(Vec::as_slice).collect();
         look(Parts {
-            runs: &self.runs,
+            directory: Directory { blocks: &self.blocks, seeds: &self.seeds, order: &self.order },
             pdos: &pdos,
             first_application_row: self.first_application_row,
             objects: &self.objects,
@@ -144,10 +146,13 @@ pub(crate) fn node() -> Owned {
     factory.extend([0, 0]); // 6040h at 16
     factory.extend([255, 2, 7, 8]); // 1400h.2, 1600h.0, 2001h.1, 2001h.5 at 18 to 21
     factory.extend(*b"virtual\0\0\0\0\0"); // 2000h at 22
+    let (mut blocks, mut seeds, mut order) = (vec![Block::FREE; 7], vec![0; 3], vec![0; 6]);
+    let indices = [0x1400, 0x1600, 0x2000, 0x2001, 0x507A, 0x6040, 0x607A];
+    Directory::arrange(&indices, &mut blocks, &mut seeds, &mut order).unwrap();
     Owned {
-        runs: [(0x1400, 0), (0x1600, 1), (0x2000, 2), (0x507A, 4), (0x6040, 5), (0x607A, 6), (0xFFFF, 7)]
-            .map(|(index, object)| Run { index, object })
-            .into(),
+        blocks,
+        seeds,
+        order,
         pdos: vec![OwnedPdo { index: 0x1400, cob_id: 1, mapping: 3, rows: vec![11, 12] }],
         first_application_row: 6,
         objects: vec![0, 3, 6, 7, 10, 11, 12, 13],

@@ -103,6 +103,7 @@ fn a_specification_with_mistakes_is_an_error_of_the_compiler() {
 fn a_file_for_another_layout_is_one_error() {
     let cases = trybuild::TestCases::new();
     cases.compile_fail("layouts/older.rs");
+    cases.compile_fail("layouts/older_still.rs");
     cases.pass("layouts/present.rs");
 }
 

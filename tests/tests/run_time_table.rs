@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use firmware_glue::pdo::{self, PdoError, Refused};
-use firmware_glue::table::Limits;
+use firmware_glue::table::{Block, Directory, Limits};
 use firmware_glue::{
     AbortCode, Application, Dictionary, Entries, EntryId, OtherLayout, Storage, Table, TableDictionary,
     WrongSize,
@@ -54,6 +54,8 @@ fn values_are_read_and_written_with_limits_and_access() {
         assert_eq!(read(0x2001, 0).unwrap(), [5]);
         assert_eq!(read(0x1400, 1).unwrap(), 0x205u32.to_le_bytes(), "node-ID added");
         assert_eq!(od.info(id(0x2001, 5)).id(), id(0x2001, 5));
+        assert_eq!(od.info_at(0x2001, 5).map(|info| info.id()), Ok(id(0x2001, 5)));
+        assert_eq!(od.info_at(0x2001, 2).map(|info| info.id()), Err(AbortCode::NO_SUB_INDEX));
         assert_eq!(od.info(id(0x607A, 0)).limits(), Some(Limits { low: -1000, high: 1000 }));
         assert_eq!(od.find(0x9999, 0), Err(AbortCode::NO_OBJECT));
         let saved = od.stored(Storage::Application).to_vec();
@@ -109,6 +111,34 @@ fn what_the_generator_makes_passes_the_checks() {
     ] {
         assert_eq!(Table::checked(*table.parts()).err(), None);
     }
+}
+
+#[test]
+fn a_program_arranges_indices_as_the_generator_does() {
+    for table in [
+        Pmc::new(1).table(),
+        Pmm::new(1).table(),
+        Fullmo::new(1).table(),
+        everything::Everything::new(1).table(),
+    ] {
+        let generated = table.parts().directory;
+        let firsts = table.parts().objects.split_last().unwrap().1;
+        let indices: Vec<u16> = firsts.iter().map(|row| table.id(*row).index).collect();
+        let mut blocks = vec![Block::FREE; generated.blocks.len()];
+        let (mut seeds, mut order) = (vec![0; generated.seeds.len()], vec![0; generated.order.len()]);
+        let arranged = Directory::arrange(&indices, &mut blocks, &mut seeds, &mut order).unwrap();
+        assert_eq!(arranged.blocks, generated.blocks);
+        assert_eq!((arranged.seeds, arranged.order), (generated.seeds, generated.order));
+        // Every index there is has its object, and no other has one.
+        for index in 0..=u16::MAX {
+            let found = table.find(index, 0).map(|row| table.id(row).index);
+            let expected = indices.binary_search(&index).map(|_| index);
+            assert_eq!(found, expected.map_err(|_| AbortCode::NO_OBJECT));
+        }
+    }
+    assert!(Directory::arrange(&[2, 1], &mut [Block::FREE; 4], &mut [0; 2], &mut [0; 4]).is_none());
+    assert!(Directory::arrange(&[1, 99], &mut [Block::FREE; 4], &mut [0; 2], &mut [0; 1]).is_none());
+    assert!(Directory::arrange(&[1, 99], &mut [Block::FREE; 1], &mut [0; 2], &mut [0; 4]).is_none());
 }
 
 /// Nothing that a dictionary gives or takes is longer, and something has this length.

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use firmware_glue::table::{Attributes, EntryRow, Flags, NONE, Parts, Place, Run};
+use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place};
 use firmware_glue::{AbortCode, DataType, Dictionary, Storage, Table, TableDictionary};
 
 #[path = "../shared/server.rs"]
@@ -52,7 +52,11 @@ fn download<'t, const BUFFER: usize>(
 fn a_value_of_more_than_255_bytes_is_announced_with_its_length() {
     let factory = [0; LARGEST + 2];
     let table = Table::checked(Parts {
-        runs: &[Run { index: 0x2000, object: 0 }, Run { index: 0xFFFF, object: 1 }],
+        directory: Directory {
+            blocks: &[Block { number: 0x100, objects: 0, present: 1 }],
+            seeds: &[0],
+            order: &[0],
+        },
         objects: &[0, 1],
         entries: &[EntryRow { attributes: 0, place: 0 }],
         attributes: &[TEXT],

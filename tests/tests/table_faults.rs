@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use firmware_glue::pdo;
-use firmware_glue::table::{Attributes, EntryRow, Flags, Place};
+use firmware_glue::table::{Attributes, Block, EntryRow, Flags, Place};
 use firmware_glue::{DataType, Dictionary, EntryId, Fault, Storage, Table, TableDictionary, TableError};
 use proptest::prelude::*;
 use proptest::sample::Index as Pick;
@@ -15,6 +15,19 @@ use node::{Log, Owned, OwnedSparse, RW, id, node, plain};
 
 fn error(owned: &Owned) -> Option<TableError> {
     owned.with(|parts| Table::checked(parts).err())
+}
+
+impl Owned {
+    /// A block of the directory, by ascending index.
+    fn block(&mut self, at: usize) -> &mut Block {
+        &mut self.blocks[usize::from(self.order[at])]
+    }
+
+    /// The free place of the directory.
+    fn free(&self) -> u16 {
+        let free = self.blocks.iter().position(|block| *block == Block::FREE);
+        u16::try_from(free.unwrap()).unwrap()
+    }
 }
 
 /// What a program can get wrong, with the fault that it is told.
@@ -29,12 +42,22 @@ const fn mistake(fault: Fault, at: usize, make: fn(&mut Owned)) -> Mistake {
 }
 
 static MISTAKES: &[Mistake] = &[
-    mistake(Fault::RunOrder, 1, |owned| owned.runs[2].index = 0x1500),
-    mistake(Fault::RunOrder, 0, |owned| owned.runs[0].object = 1),
-    mistake(Fault::RunLength, 2, |owned| owned.runs[3].index = 0x2001),
-    mistake(Fault::RunEnd, 6, |owned| owned.runs[6].object = 8),
-    mistake(Fault::RunEnd, 5, |owned| owned.runs.truncate(6)),
-    mistake(Fault::RunEnd, 0, |owned| owned.runs.clear()),
+    mistake(Fault::BlockOrder, 2, |owned| owned.order.swap(2, 3)),
+    mistake(Fault::BlockOrder, 5, |owned| owned.order[5] = 7),
+    mistake(Fault::BlockOrder, 1, |owned| owned.order[1] = owned.free()),
+    mistake(Fault::BlockOrder, 5, |owned| owned.block(5).number = 0x800),
+    mistake(Fault::BlockOrder, 3, |owned| owned.block(2).present = 0b111),
+    mistake(Fault::BlockOrder, 3, |owned| owned.block(3).objects = 5),
+    mistake(Fault::BlockPlace, 0, |owned| owned.block(0).number = 0xA1),
+    mistake(Fault::BlockPlace, 0, |owned| owned.seeds.clear()),
+    mistake(Fault::BlockPlace, 0, |owned| owned.seeds.fill(0)),
+    mistake(Fault::BlockCount, 6, |owned| owned.block(5).present = 0b11),
+    mistake(Fault::BlockCount, 5, |owned| owned.order.truncate(5)),
+    mistake(Fault::BlockCount, 0, |owned| owned.order.clear()),
+    mistake(Fault::BlockCount, 6, |owned| {
+        let free = usize::from(owned.free());
+        owned.blocks[free] = Block::new(0x400, 7, 1);
+    }),
     mistake(Fault::ObjectOrder, 0, |owned| owned.objects.clear()),
     mistake(Fault::ObjectOrder, 0, |owned| owned.objects[0] = 1),
     mistake(Fault::ObjectOrder, 1, |owned| owned.objects[2] = 3),
@@ -109,8 +132,8 @@ fn every_part_that_does_not_fit_is_refused() {
         make(&mut owned);
         assert_eq!(error(&owned), Some(TableError { fault: *fault, at: *at }), "mistake {number}");
     }
-    let error = TableError { fault: Fault::RunLength, at: 2 };
-    assert_eq!(error.to_string(), "runs[2]: a run ends before the index of the next");
+    let error = TableError { fault: Fault::BlockPlace, at: 2 };
+    assert_eq!(error.to_string(), "directory.order[2]: a block is where it is looked for");
 }
 
 /// Does everything to a dictionary that can be done.
@@ -190,9 +213,13 @@ impl Change {
         let [byte, high, ..] = self.number.to_le_bytes();
         let word = u16::from_le_bytes([byte, high]);
         match self.part {
-            0 => self.item(&mut owned.runs, |run| {
-                *(if self.is_first() { &mut run.index } else { &mut run.object }) = word;
-            }),
+            0 => match self.field % 5 {
+                0 => self.item(&mut owned.blocks, |block| block.number = word),
+                1 => self.item(&mut owned.blocks, |block| block.objects = word),
+                2 => self.item(&mut owned.blocks, |block| block.present = self.number),
+                3 => self.item(&mut owned.seeds, |seed| *seed = byte),
+                _ => self.item(&mut owned.order, |place| *place = word),
+            },
             1 => self.item(&mut owned.objects, |row| *row = word),
             2 => self.item(&mut owned.entries, |entry| {
                 *(if self.is_first() { &mut entry.attributes } else { &mut entry.place }) = word;

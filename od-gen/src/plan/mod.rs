@@ -4,8 +4,10 @@
 //! identifier is spelled, and which are taken. A second language is a printer beside the first.
 
 mod condition;
+mod directory;
 mod entries;
 mod foreign;
+mod groups;
 mod language;
 mod layout;
 mod names;
@@ -23,7 +25,9 @@ use od_spec::model::{
 use od_spec::source::Span;
 
 pub(crate) use self::condition::{Compare, Condition, Sum};
+pub(crate) use self::directory::{Block, Directory};
 pub(crate) use self::foreign::decided;
+pub(crate) use self::groups::Groups;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
 pub(crate) use self::layout::{Layout, Place, lay_out};
 use self::names::Scope;
@@ -97,7 +101,7 @@ pub(crate) struct PlannedEntry<'a> {
 }
 
 /// What values of an entry are in code.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ValueKind {
     pub data_type: DataType,
     /// The enum or bit field around the number.

@@ -97,8 +97,8 @@ fn space_out(code: &str) -> String {
     let mut out = String::with_capacity(code.len() + code.len() / 16);
     let mut before = "";
     for line in code.lines() {
-        let uses = before.trim_start().starts_with("use ") && line.trim_start().starts_with("use ");
-        if indent(line) == indent(before) && ends_item(before) && starts_item(line) && !uses {
+        let uses = || before.trim_start().starts_with("use ") && line.trim_start().starts_with("use ");
+        if ends_item(before) && indent(line) == indent(before) && starts_item(line) && !uses() {
             out.push('\n');
         }
         out.push_str(line);

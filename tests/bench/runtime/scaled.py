@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Write the scaled model, for measurements at run time: the same objects in three languages.
 
-    scaled.py OBJECTS --format od|toml|eds [--out FILE]
+    scaled.py MODEL --format od|toml|eds|rs [--out FILE]
 
 `od` is a specification of this project, `toml` the device configuration of zencan-build, `eds` an
-electronic data sheet, which canopen-host turns into Rust. The same size always gives the same bytes.
+electronic data sheet, which canopen-host turns into Rust, `rs` what the bench has to know of the model.
+MODEL says at which indices the objects are: `150` has 150 that follow each other, `gappy150` has every
+second index free, `pmc` and `pmm` have the indices of these two devices of a real system above 1FFFh.
+The same model always gives the same bytes.
 Of every ten objects six are scalars (u16, i16, u32, i32, u8, i32), two are records of four members,
 one is an array u16[8] and one a string of 16 characters: 2.6 entries and 6.7 bytes per object,
 without sub-indices 0. Nothing has limits, because neither peer has any. TPDO 1 maps setpoint and
@@ -14,6 +17,8 @@ position of the channel in the middle, RPDO 1 its setpoint and speed.
 from __future__ import annotations
 
 import argparse
+import json
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -23,6 +28,7 @@ FIRST_AREA, FIRST_AREA_SIZE = 0x2000, 0x3FF0
 SECOND_AREA, SECOND_AREA_SIZE = 0x6000, 0x4000
 BLOCK = 10
 LEAST_OBJECTS, MOST_OBJECTS = BLOCK, FIRST_AREA_SIZE + SECOND_AREA_SIZE
+DEVICES = Path(__file__).resolve().parents[3] / "generated" / "pitch-control-system.json"
 ARRAY_LENGTH = 8
 STRING_CAPACITY = 16
 VENDOR, PRODUCT, REVISION = 0x123, 0x150, 0x0001_0000
@@ -67,17 +73,38 @@ class Object:
     entries: tuple[Entry, ...]
 
 
+def indices_of(model: str) -> list[int]:
+    """The indices of a model's objects; ValueError where there is no such model."""
+    if model in ("pmc", "pmm"):
+        devices = json.loads(DEVICES.read_text(encoding="utf-8"))["devices"]
+        (device,) = (device for device in devices if device["key"] == model)
+        indices = (int(one["index"], 16) for one in device["objects"])
+        return [index for index in indices if index >= FIRST_AREA]
+    if not (number := re.fullmatch(r"(gappy)?(\d+)", model)):
+        raise ValueError(f"there is no model {model}")
+    count, most = int(number[2]), MOST_OBJECTS // 2 if number[1] else MOST_OBJECTS
+    if not LEAST_OBJECTS <= count <= most:
+        raise ValueError(f"the model has {LEAST_OBJECTS} to {most} objects, not {count}")
+    if number[1]:
+        return [FIRST_AREA + 2 * number for number in range(count)]
+    return [index_of(number) for number in range(count)]
+
+
 def objects(count: int) -> Iterator[Object]:
-    for number in range(count):
+    """Those of the model without gaps."""
+    return objects_at([index_of(number) for number in range(count)])
+
+
+def objects_at(indices: list[int]) -> Iterator[Object]:
+    for number, index in enumerate(indices):
         channel = number // BLOCK + 1
         name, entries = shape(number % BLOCK, channel)
         full = f"channel {channel} {name}"
         kind = {"controller": "record", "supervision": "record", "samples": "array"}.get(name, "var")
-        yield Object(index_of(number), full, kind, entries)
+        yield Object(index, full, kind, entries)
 
 
 def index_of(number: int) -> int:
-    """benches/dictionary knows this, too."""
     if number < FIRST_AREA_SIZE:
         return FIRST_AREA + number
     return SECOND_AREA + number - FIRST_AREA_SIZE
@@ -115,18 +142,18 @@ def shape(number: int, channel: int) -> tuple[str, tuple[Entry, ...]]:
     return "label", (Entry("", STRING, default=f"CH-{channel:05}"),)
 
 
-def od(count: int) -> Iterator[str]:
+def od(model: str, indices: list[int]) -> Iterator[str]:
     yield f"""\
-# The scaled model: written by tests/bench/runtime/scaled.py {count}
+# The scaled model: written by tests/bench/runtime/scaled.py {model}
 od-spec: 1
-title: Scaled model of {count} objects
+title: Scaled model of {len(indices)} objects
 vendor: {{name: Example Works, number: 0x{VENDOR:X}}}
 uses: [cia301]
 devices:
   controller: {{name: Scaled model, product: 0x{PRODUCT:X}, product-revision: 0x{REVISION:X}, bit-rates: [125, 500], features: [heartbeat producer]}}
 objects:
 """
-    for one in objects(count):
+    for one in objects_at(indices):
         head = f"  0x{one.index:04X}: {{name: {one.name}, "
         first = one.entries[0]
         if one.kind == "var":
@@ -142,8 +169,8 @@ objects:
     yield f"""\
 pdos:
   controller:
-    receive: {{1: {{map: [{places(receive(count))}]}}}}
-    transmit: {{1: {{no-rtr: yes, map: [{places(transmit(count))}]}}}}
+    receive: {{1: {{map: [{places(receive(indices))}]}}}}
+    transmit: {{1: {{no-rtr: yes, map: [{places(transmit(indices))}]}}}}
 """
 
 
@@ -161,27 +188,27 @@ def od_entry(entry: Entry) -> str:
 Mapped = tuple[tuple[int, int, Type], ...]
 
 
-def middle(count: int) -> int:
-    """Where a search from the start has to go half the way. benches/dictionary knows this, too."""
-    return count // 2 // BLOCK * BLOCK
+def middle(indices: list[int]) -> int:
+    """Where a search from the start has to go half the way."""
+    return len(indices) // 2 // BLOCK * BLOCK
 
 
-def receive(count: int) -> Mapped:
-    return ((index_of(middle(count)), 0, U16), (index_of(middle(count) + 3), 0, I32))
+def receive(indices: list[int]) -> Mapped:
+    return ((indices[middle(indices)], 0, U16), (indices[middle(indices) + 3], 0, I32))
 
 
-def transmit(count: int) -> Mapped:
-    return ((index_of(middle(count)), 0, U16), (index_of(middle(count) + 5), 0, I32))
+def transmit(indices: list[int]) -> Mapped:
+    return ((indices[middle(indices)], 0, U16), (indices[middle(indices) + 5], 0, I32))
 
 
 def places(mapped: Mapped) -> str:
     return ", ".join(f"0x{index:04X}" for index, _, _ in mapped)
 
 
-def toml(count: int) -> Iterator[str]:
+def toml(model: str, indices: list[int]) -> Iterator[str]:
     # 5000h is an object of the model where there are many: zencan's own must not take its place
     yield f"""\
-# The scaled model: written by tests/bench/runtime/scaled.py {count}
+# The scaled model: written by tests/bench/runtime/scaled.py {model}
 device_name = "Scaled model"
 autostart = "unsupported"
 support_storage = false
@@ -195,13 +222,13 @@ revision_number = {REVISION}
 num_rpdo = 1
 num_tpdo = 1
 """
-    for direction, cob_id, mapped in (("rpdo", 0x200, receive(count)), ("tpdo", 0x180, transmit(count))):
+    for direction, cob_id, mapped in (("rpdo", 0x200, receive(indices)), ("tpdo", 0x180, transmit(indices))):
         yield f"\n[pdos.{direction}.0]\nenabled = true\ncob_id = 0x{cob_id:X}\nadd_node_id = true\ntransmission_type = 254\n"
         yield "mappings = [\n"
         for index, sub, kind in mapped:
             yield f"    {{ index = 0x{index:04X}, sub = {sub}, size = {8 * kind.size} }},\n"
         yield "]\n"
-    for one in objects(count):
+    for one in objects_at(indices):
         yield f'\n[[objects]]\nindex = 0x{one.index:04X}\nparameter_name = "{one.name}"\nobject_type = "{one.kind}"\n'
         first = one.entries[0]
         if one.kind == "record":
@@ -226,7 +253,7 @@ def written(value: int | str) -> str:
     return f'"{value}"' if isinstance(value, str) else str(value)
 
 
-def eds(count: int) -> Iterator[str]:
+def eds(model: str, indices: list[int]) -> Iterator[str]:
     standard = [
         Object(0x1000, "Device type", "var", (Entry("", U32, "ro", default=0),)),
         Object(0x1001, "Error register", "var", (Entry("", U8, "ro", default=0),)),
@@ -243,7 +270,7 @@ def eds(count: int) -> Iterator[str]:
             ),
         ),
     ]
-    for base, cob_id, mapped in ((0x1400, "0x200", receive(count)), (0x1800, "0x40000180", transmit(count))):
+    for base, cob_id, mapped in ((0x1400, "0x200", receive(indices)), (0x1800, "0x40000180", transmit(indices))):
         communication = (
             Entry("COB-ID", U32, default=f"$NODEID+{cob_id}"),
             Entry("Transmission type", U8, default=255),
@@ -255,7 +282,7 @@ def eds(count: int) -> Iterator[str]:
             Object(base + 0x200, "PDO mapping parameter", "record", mapping),
         ]
     yield f"""\
-; The scaled model: written by tests/bench/runtime/scaled.py {count}
+; The scaled model: written by tests/bench/runtime/scaled.py {model}
 [FileInfo]
 FileName=controller.eds
 FileVersion=1
@@ -269,8 +296,8 @@ ProductName=Scaled model
 ProductNumber=0x{PRODUCT:X}
 RevisionNumber=0x{REVISION:X}
 """
-    mapped_subs = {0x1600: len(receive(count)), 0x1A00: len(transmit(count))}
-    for one in (*sorted(standard, key=lambda one: one.index), *objects(count)):
+    mapped_subs = {0x1600: len(receive(indices)), 0x1A00: len(transmit(indices))}
+    for one in (*sorted(standard, key=lambda one: one.index), *objects_at(indices)):
         if one.kind == "var":
             yield f"\n[{one.index:04X}]\nParameterName={one.name}\nObjectType=0x7\n{eds_entry(one.entries[0])}"
             continue
@@ -299,15 +326,25 @@ def eds_entry(entry: Entry) -> str:
     return "\n".join(lines) + "\n"
 
 
+def rs(model: str, indices: list[int]) -> Iterator[str]:
+    """A value of the bench's `Model`."""
+    setpoints = ", ".join(f"0x{index:04X}" for index in indices[::BLOCK])
+    mapped = [index for index, _, _ in (*transmit(indices), receive(indices)[1])]
+    mapped = ", ".join(f"0x{index:04X}" for index in mapped)
+    yield f'Model {{ name: "{model}", setpoints: &[{setpoints}], position: 0x{indices[5]:04X}, mapped: [{mapped}] }}\n'
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
-    parser.add_argument("objects", type=int)
-    parser.add_argument("--format", choices=["od", "toml", "eds"], required=True)
+    parser.add_argument("model", help="150, gappy150, pmc, …")
+    parser.add_argument("--format", choices=["od", "toml", "eds", "rs"], required=True)
     parser.add_argument("--out", type=Path, help="file to write; standard output without it")
     options = parser.parse_args()
-    if not LEAST_OBJECTS <= options.objects <= MOST_OBJECTS:
-        parser.error(f"the model has {LEAST_OBJECTS} to {MOST_OBJECTS} objects, not {options.objects}")
-    text = "".join({"od": od, "toml": toml, "eds": eds}[options.format](options.objects))
+    try:
+        indices = indices_of(options.model)
+    except ValueError as error:
+        parser.error(str(error))
+    text = "".join({"od": od, "toml": toml, "eds": eds, "rs": rs}[options.format](options.model, indices))
     if options.out:
         options.out.write_text(text, encoding="utf-8", newline="\n")
     else:

@@ -8,7 +8,7 @@ use super::docs::{doc, escape};
 use super::glue;
 use super::literal::decimal;
 use super::value::{At, Get, Store, Values, view_name};
-use crate::plan::{Place, Plan, PlannedEntry, PlannedObject, Shape, ValueKind};
+use crate::plan::{Groups, Place, Plan, PlannedEntry, PlannedObject, Shape, ValueKind};
 
 impl Plan<'_> {
     /// The type of the dictionary with the methods of its objects.
@@ -26,7 +26,8 @@ impl Plan<'_> {
             self.entries.len()
         );
         let about = doc(&format!("{facts}\n\n{about}"));
-        let objects = self.objects.iter().map(|object| self.methods(object));
+        let groups = self.groups();
+        let objects = (0..).zip(&self.objects).map(|(at, object)| self.methods(at, object, &groups));
         quote! {
             #about
             #[allow(unreachable_pub)]
@@ -54,7 +55,7 @@ impl Plan<'_> {
     }
 
     /// The methods of one object.
-    fn methods(&self, object: &PlannedObject<'_>) -> TokenStream {
+    fn methods(&self, at: usize, object: &PlannedObject<'_>, groups: &Groups) -> TokenStream {
         match &object.shape {
             Shape::Var => {
                 let Some(entry) = self.entry(object.first_row) else { return quote!() };
@@ -71,25 +72,34 @@ impl Plan<'_> {
                 let (get, get_mut) =
                     (format_ident!("{}", object.name), format_ident!("{}", mutable(&object.name)));
                 let group = format_ident!("{type_name}");
+                let made = self.made(at, object, groups).unwrap_or_else(|| quote!(records::#group(self)));
                 quote! {
                     #about
                     #[inline]
                     pub const fn #get(&self) -> records::#group<&Self> {
-                        records::#group(self)
+                        #made
                     }
 
                     #about_mut
                     #[inline]
                     pub const fn #get_mut(&mut self) -> records::#group<&mut Self> {
-                        records::#group(self)
+                        #made
                     }
                 }
             }
         }
     }
 
-    fn entries_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
-        self.entries.iter().skip(object.first_row.into()).take(object.object.entries.len())
+    /// How a group is made that several objects have: with the places of this one's values.
+    fn made(&self, at: usize, object: &PlannedObject<'_>, groups: &Groups) -> Option<TokenStream> {
+        let first = self.objects.get(groups.first(at)?)?;
+        let Shape::Group { type_name } = &first.shape else { return None };
+        let group = format_ident!("{type_name}");
+        let places = self.accessible(object).filter_map(|entry| match entry.place {
+            Place::Image(place) => Some(Literal::usize_unsuffixed(place)),
+            Place::Constant(_) | Place::Alias | Place::Application => None,
+        });
+        Some(quote!(records::#group(self, [#(#places),*])))
     }
 
     /// Reading an entry. A constant is one in code, too.
@@ -108,11 +118,16 @@ impl Plan<'_> {
 
     /// Writing an entry from inside the device: no access, lock or limit stands in the way.
     fn setter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
-        let values = Values { plan: self };
         let Place::Image(offset) = entry.place else { return self.alias_setter(entry, name, at) };
         let offset = Literal::usize_unsuffixed(offset);
+        self.setter_at(entry, name, at, &quote!(#offset))
+    }
+
+    /// Writing the value at an offset of the image.
+    fn setter_at(&self, entry: &PlannedEntry<'_>, name: &str, at: &At, offset: &TokenStream) -> TokenStream {
+        let values = Values { plan: self };
         let raw = values.encode(&entry.kind, &at.root, &quote!(value));
-        let Store { code: store, error } = values.store(&entry.kind, entry.size, at, &quote!(#offset), &raw);
+        let Store { code: store, error } = values.store(&entry.kind, entry.size, at, offset, &raw);
         let parameter = values.parameter_type(&entry.kind, &at.root);
         let limited = entry.entry.low.is_some() || entry.entry.high.is_some();
         let unchecked =
@@ -270,12 +285,18 @@ impl Plan<'_> {
 
     /// `mod records`: groups of accessors.
     pub(super) fn records_module(&self) -> TokenStream {
-        let (groups, can_change): (Vec<_>, Vec<bool>) = self
-            .objects
-            .iter()
-            .filter_map(|object| match &object.shape {
-                Shape::Group { type_name } => Some(self.group(object, type_name)),
-                _ => None,
+        let shared = self.groups();
+        let (groups, can_change): (Vec<_>, Vec<bool>) = (0..)
+            .zip(&self.objects)
+            .filter_map(|(at, object)| match (&object.shape, shared.first(at), shared.alike(at)) {
+                (Shape::Group { type_name }, None, _) => Some(self.group(object, type_name)),
+                (Shape::Group { type_name }, Some(_), Some(alike)) => {
+                    Some((self.shared_group(object, type_name, alike), true))
+                }
+                (Shape::Group { type_name }, Some(first), None) => {
+                    Some((self.same_group(object, type_name, first)?, false))
+                }
+                (Shape::Var | Shape::Indexed { .. }, ..) => None,
             })
             .unzip();
         if groups.is_empty() {
@@ -298,10 +319,7 @@ impl Plan<'_> {
         let at = At::group();
         let (group, name) = (format_ident!("{type_name}"), format_ident!("{}", self.name));
         let about = doc(&self.object_doc(object.object));
-        // The number of entries is a constant of the shape, not a value.
-        let is_count =
-            |entry: &PlannedEntry<'_>| entry.id.sub.0 == 0 && matches!(entry.place, Place::Constant(_));
-        let entries: Vec<_> = self.entries_of(object).filter(|entry| !is_count(entry)).collect();
+        let entries: Vec<_> = self.accessible(object).collect();
         let getters: Vec<_> = entries.iter().map(|entry| self.getter(entry, &entry.member, &at)).collect();
         let setters: TokenStream =
             entries.iter().map(|entry| self.setter(entry, &entry.member, &at)).collect();
@@ -323,6 +341,59 @@ impl Plan<'_> {
             #setters
         };
         (group, can_change)
+    }
+
+    /// A group that several objects have. It knows the places of its values.
+    fn shared_group(&self, object: &PlannedObject<'_>, type_name: &str, alike: &[usize]) -> TokenStream {
+        let (at, values) = (At::group(), Values { plan: self });
+        let (group, name) = (format_ident!("{type_name}"), format_ident!("{}", self.name));
+        let others = alike.len() - 1;
+        let others =
+            if others == 1 { "another object".to_owned() } else { format!("{others} other objects") };
+        let about = doc(&format!("{}\n\nThe group of {others}, too.", self.object_doc(object.object)));
+        let objects: Vec<_> = alike.iter().filter_map(|at| self.objects.get(*at)).collect();
+        let entries: Vec<_> = self.accessible(object).collect();
+        let accessors = entries.iter().enumerate().map(|(member, entry)| {
+            let same = objects.iter().filter_map(|object| self.accessible(object).nth(member));
+            let about = doc(&self.shared_doc(entry, same));
+            let (get, position) = (format_ident!("{}", entry.member), Literal::usize_unsuffixed(member));
+            let offset = quote!(self.1[#position]);
+            let value_type = values.value_type(&entry.kind, &at.root);
+            let raw = values.load(&entry.kind, entry.size, &at, &offset);
+            let value = values.decode(&entry.kind, &at.root, &raw);
+            let getter = quote! {
+                #about
+                #[inline]
+                pub fn #get(&self) -> #value_type {
+                    #value
+                }
+            };
+            let setter = self.setter_at(entry, &entry.member, &at, &offset);
+            (getter, setter)
+        });
+        let (getters, setters): (Vec<_>, Vec<_>) = accessors.unzip();
+        let places = Literal::usize_unsuffixed(entries.len());
+        quote! {
+            #about
+            #[derive(Debug)]
+            pub struct #group<D>(pub(super) D, pub(super) [usize; #places]);
+
+            impl<D: Borrow<super::#name>> #group<D> {
+                #(#getters)*
+            }
+
+            impl<D: BorrowMut<super::#name>> #group<D> {
+                #(#setters)*
+            }
+        }
+    }
+
+    /// Another object's name for the group that it shares.
+    fn same_group(&self, object: &PlannedObject<'_>, type_name: &str, first: usize) -> Option<TokenStream> {
+        let Shape::Group { type_name: first } = &self.objects.get(first)?.shape else { return None };
+        let (about, group, first) =
+            (doc(&self.object_doc(object.object)), format_ident!("{type_name}"), format_ident!("{first}"));
+        Some(quote!(#about pub type #group<D> = #first<D>;))
     }
 
     /// The constants that say how aliases show their targets.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use od_spec::model::{Entry, Object, Outside, Text};
 use od_spec::wording::{Notation, Wording};
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::plan::{Place, Plan, PlannedEntry, Shape};
@@ -15,7 +15,21 @@ pub(super) const WORDING: Wording = Wording::english(Notation::Rust);
 /// `#[doc]` attributes, one for each line.
 pub(super) fn doc(text: &str) -> TokenStream {
     let lines = text.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
+    let lines = lines.map(|line| raw(&line).unwrap_or_else(|| Literal::string(&line)));
     quote!(#(#[doc = #lines])*)
+}
+
+/// The same inside a macro, where it is printed as it stands: without the prefix of raw literals.
+pub(super) fn doc_in_macro(text: &str) -> TokenStream {
+    let lines = text.lines().map(|line| Literal::string(&format!(" {line}")));
+    quote!(#(#[doc = #lines])*)
+}
+
+/// A literal without escapes: documentation is a large part of the code, and a printer without optimisations spends much of its
+/// time on reading escapes.
+fn raw(line: &str) -> Option<Literal> {
+    use std::str::FromStr as _;
+    (!line.contains(['"', '\r', '\0'])).then(|| Literal::from_str(&format!("r\"{line}\"")).ok()).flatten()
 }
 
 /// Text in which nothing is markup: rustdoc takes brackets for links and angles for tags.
@@ -52,6 +66,42 @@ impl Plan<'_> {
             text.push_str(&line);
         }
         text
+    }
+
+    /// What is said of a member that several objects have: what is the same for all of them.
+    pub(super) fn shared_doc<'p>(
+        &self,
+        first: &PlannedEntry<'_>,
+        others: impl Iterator<Item = &'p PlannedEntry<'p>>,
+    ) -> String {
+        let (name, about) = (&first.entry.name, self.words(&first.entry.about));
+        let own = facts(first);
+        let mut common = own.clone();
+        let (mut is_named, mut is_about, mut is_all) = (true, true, !self.is_related(first));
+        for other in others {
+            is_named &= other.entry.name == *name;
+            is_about &= self.words(&other.entry.about) == about;
+            let its = facts(other);
+            is_all &= its == own && !self.is_related(other);
+            common.retain(|fact| its.contains(fact));
+        }
+        let mut text = format!("Sub-index {}", first.id.sub);
+        for part in [is_named.then(|| escape(name)), is_about.then_some(about)].into_iter().flatten() {
+            if !part.is_empty() {
+                text.push_str(": ");
+                text.push_str(&part);
+            }
+        }
+        let end = if text.ends_with('.') { "" } else { "." };
+        let rest = if is_named && is_about && is_all { "" } else { " The objects differ in the rest." };
+        format!("{text}{end}\n\n{}.{rest}", common.join(", "))
+    }
+
+    /// Whether more is said of an entry than its facts.
+    fn is_related(&self, planned: &PlannedEntry<'_>) -> bool {
+        self.related(planned, "").is_some()
+            || self.pdos_of(planned, "").is_some()
+            || condition(planned.entry).is_some()
     }
 
     /// Heading and meaning of an object that is more than one entry.

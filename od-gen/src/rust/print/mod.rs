@@ -18,7 +18,7 @@ use quote::{format_ident, quote};
 use crate::plan::Plan;
 
 /// The layout of `firmware-glue` that is printed for: `firmware_glue::table::Table::generated` tells when it changes.
-const LAYOUT: u32 = 1;
+const LAYOUT: u32 = 2;
 
 /// The items of a dictionary's module.
 pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {

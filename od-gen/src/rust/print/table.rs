@@ -12,10 +12,13 @@ use super::docs::{doc, escape};
 use super::glue;
 use super::literal::{decimal, hex};
 use super::value::{At, Values, view_name};
-use crate::plan::{Compare, Condition, Place, Plan, PlannedEntry, Sum};
+use crate::plan::{Block, Compare, Condition, Directory, Place, Plan, PlannedEntry, Sum};
 
 /// Bytes in a line of a byte string.
 const LINE: usize = 16;
+
+/// Arms of a match over rows.
+const ARMS: usize = 500;
 
 impl Plan<'_> {
     /// The enumeration of all entries.
@@ -75,10 +78,7 @@ impl Plan<'_> {
             quote!(match number { #(#conditions)* _ => true, })
         };
         let constraints = self.constraints();
-        let rows = self.entries.iter().enumerate().map(|(row, entry)| {
-            let (row, variant) = (Literal::usize_unsuffixed(row), format_ident!("{}", entry.variant));
-            quote!(#row => Some(Entry::#variant),)
-        });
+        let entry_of_row = self.entry_of_row();
         quote! {
             impl glue::Entries for #name {
                 type Entry = Entry;
@@ -93,11 +93,7 @@ impl Plan<'_> {
                 #[allow(clippy::too_many_lines)]
                 #[inline]
                 fn entry(&self, row: u16) -> Option<Entry> {
-                    // The compiler sees that row and entry are the same number.
-                    match row {
-                        #(#rows)*
-                        _ => None,
-                    }
+                    #entry_of_row
                 }
 
                 #[inline]
@@ -123,6 +119,34 @@ impl Plan<'_> {
 
             #constraints
         }
+    }
+
+    /// The match that makes an entry of a row: the compiler sees that they are the same number. It needs a time for it that
+    /// grows with the square of the arms, so that there are several where there are many.
+    fn entry_of_row(&self) -> TokenStream {
+        let arm = |row: usize, entry: &PlannedEntry<'_>| {
+            let (row, variant) = (Literal::usize_unsuffixed(row), format_ident!("{}", entry.variant));
+            quote!(#row => Entry::#variant,)
+        };
+        let arms: Vec<_> = self.entries.iter().enumerate().map(|(row, entry)| arm(row, entry)).collect();
+        if arms.len() <= ARMS {
+            return quote!(Some(match row { #(#arms)* _ => return None, }));
+        }
+        let parts = arms.chunks(ARMS).enumerate().map(|(part, arms)| {
+            let function = format_ident!("part_{part}");
+            quote! {
+                #[inline]
+                fn #function(row: u16) -> Option<Entry> {
+                    Some(match row { #(#arms)* _ => return None, })
+                }
+            }
+        });
+        let calls = arms.chunks(ARMS).enumerate().map(|(part, arms)| {
+            let function = format_ident!("part_{part}");
+            let [first, last] = [part * ARMS, part * ARMS + arms.len() - 1].map(Literal::usize_unsuffixed);
+            quote!(#first..=#last => #function(row),)
+        });
+        quote!(#(#parts)* match row { #(#calls)* _ => None, })
     }
 
     fn constraints(&self) -> TokenStream {
@@ -176,19 +200,32 @@ impl Plan<'_> {
         }
     }
 
-    /// Objects whose indices follow each other: index and position of the first, then what ends them.
-    fn runs(&self) -> Vec<(u16, usize)> {
-        let mut runs = Vec::new();
-        let mut expected = None;
-        for (at, object) in self.objects.iter().enumerate() {
-            let index = object.object.index.0;
-            if expected != Some(index) {
-                runs.push((index, at));
+    /// Where objects are found by their index.
+    fn directory(&self) -> TokenStream {
+        let indices: Vec<u16> = self.objects.iter().map(|object| object.object.index.0).collect();
+        let Directory { blocks, seeds, order } = Directory::of(&indices);
+        let [block_count, bucket_count, order_count] =
+            [blocks.len(), seeds.len(), order.len()].map(Literal::usize_unsuffixed);
+        let blocks = blocks.into_iter().map(|block| match block {
+            Some(Block { number, objects, present }) => {
+                let (number, present) = (hex(number.into(), 3), hex(present.into(), 8));
+                let objects = Literal::usize_unsuffixed(objects);
+                quote!(glue::table::Block::new(#number, #objects, #present))
             }
-            expected = index.checked_add(1);
+            None => quote!(glue::table::Block::FREE),
+        });
+        let seeds = seeds.into_iter().map(Literal::u8_unsuffixed);
+        let order = order.into_iter().map(Literal::usize_unsuffixed);
+        quote! {
+            /// Which of 32 indices have an object, where the directory looks for them.
+            static BLOCKS: [glue::table::Block; #block_count] = [#(#blocks),*];
+
+            /// What leads to the place of each block.
+            static SEEDS: [u8; #bucket_count] = [#(#seeds),*];
+
+            /// The blocks by ascending index.
+            static ORDER: [u16; #order_count] = [#(#order),*];
         }
-        runs.push((u16::MAX, self.objects.len()));
-        runs
     }
 
     /// The tables by which an index and a sub-index become a row and a place.
@@ -199,12 +236,7 @@ impl Plan<'_> {
             .map(|object| usize::from(object.first_row))
             .chain([self.entries.len()])
             .map(Literal::usize_unsuffixed);
-        let runs = self.runs();
-        let run_count = Literal::usize_unsuffixed(runs.len());
-        let runs = runs.into_iter().map(|(index, object)| {
-            let (index, object) = (hex(index.into(), 4), Literal::usize_unsuffixed(object));
-            quote!(glue::table::Run { index: #index, object: #object })
-        });
+        let directory = self.directory();
         let entries = self.entries.iter().map(|entry| {
             let place = match entry.place {
                 Place::Image(at) | Place::Constant(at) => at & 0xFFFF,
@@ -216,7 +248,7 @@ impl Plan<'_> {
             };
             let (attributes, place) =
                 (Literal::u16_unsuffixed(entry.attributes), Literal::usize_unsuffixed(place));
-            quote!([#attributes, #place])
+            quote!(#attributes, #place)
         });
         let (count, object_count) = (
             Literal::usize_unsuffixed(self.entries.len()),
@@ -226,11 +258,10 @@ impl Plan<'_> {
             /// Rows of the first entries of the objects, by ascending index, and the number of entries.
             static OBJECTS: [u16; #object_count] = [#(#objects),*];
 
-            /// Runs of indices.
-            static RUNS: [glue::table::Run; #run_count] = [#(#runs),*];
+            #directory
 
-            /// Entries by row: attributes and place.
-            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries([#(#entries),*]);
+            /// Entries by row: attributes and place in turn.
+            static ENTRIES: [glue::table::EntryRow; #count] = glue::table::entries(&[#(#entries),*]);
         }
     }
 
@@ -295,7 +326,11 @@ impl Plan<'_> {
         quote! {
             /// What every entry is.
             static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
-                runs: &RUNS,
+                directory: glue::table::Directory {
+                    blocks: &BLOCKS,
+                    seeds: &SEEDS,
+                    order: &ORDER,
+                },
                 pdos: &[#(#pdos),*],
                 first_application_row: #application,
                 objects: &OBJECTS,

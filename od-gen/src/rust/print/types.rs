@@ -8,7 +8,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::language;
-use super::docs::{WORDING, doc, escape};
+use super::docs::{WORDING, doc, doc_in_macro, escape};
 use super::literal::{decimal, hex};
 use crate::plan::{
     Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
@@ -46,7 +46,7 @@ impl Plan<'_> {
         let about = self.words(&unit.about);
         let text =
             format!("{}: one raw step is {}.", escape(&unit.name), escape(&WORDING.counted_step(unit)));
-        let about = doc(format!("{text} {about}").trim());
+        let about = doc_in_macro(format!("{text} {about}").trim());
         let (name, base, symbol) =
             (format_ident!("{name}"), format_ident!("{}", base_name(planned)), &unit.symbol);
         let [n, d, sn, sd] = [scale.numerator, scale.denominator, step.numerator, step.denominator]

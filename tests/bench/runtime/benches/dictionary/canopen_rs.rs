@@ -5,7 +5,7 @@ use std::hint::black_box;
 use canopen_rs::pdo::{pack, unpack};
 use canopen_rs::{Address, MappingEntry, ObjectDictionary, PdoMapping, Value};
 
-use crate::{Dictionary, model};
+use crate::{Dictionary, Model};
 
 pub struct CanopenRs<const N: usize> {
     od: ObjectDictionary<N>,
@@ -14,24 +14,25 @@ pub struct CanopenRs<const N: usize> {
 }
 
 impl<const N: usize> CanopenRs<N> {
-    pub fn new(objects: u16, od: ObjectDictionary<N>) -> Box<Self> {
+    pub fn new(model: &Model, od: ObjectDictionary<N>) -> Box<Self> {
         // what `Node::configure_pdos_from_od` does
+        let [setpoint, position, speed] = model.mapped;
         let mapping = |second| {
             let mut mapping = PdoMapping::new();
-            for (offset, bits) in [(0, 16), (second, 32)] {
-                let entry = MappingEntry::new(model::mapped(objects) + offset, 0, bits);
+            for (index, bits) in [(setpoint, 16), (second, 32)] {
+                let entry = MappingEntry::new(index, 0, bits);
                 mapping.push(entry).expect("two entries fit");
             }
             mapping
         };
-        Box::new(Self { od, transmit: mapping(5), receive: mapping(3) })
+        Box::new(Self { od, transmit: mapping(position), receive: mapping(speed) })
     }
 }
 
-/// The dictionary of one size.
+/// The dictionary of one model.
 macro_rules! dictionary {
-    ($size:ident, $objects:literal) => {
-        $crate::canopen_rs::CanopenRs::new($objects, bench_canopen_rs::$size::device_od())
+    ($name:ident, $model:expr) => {
+        $crate::canopen_rs::CanopenRs::new($model, bench_canopen_rs::$name::device_od())
     };
 }
 pub(crate) use dictionary;

@@ -1,4 +1,4 @@
-//! The same operations on the same objects, on each contender's dictionary, at each enabled size.
+//! The same operations on the same objects, on each contender's dictionary, of each enabled model.
 //!
 //! One iteration does an operation for 1024 keys, so that neither the loop nor the clock counts;
 //! `run.py` divides. Keys are drawn from the scalars of type u16, the same ones for all contenders.
@@ -17,21 +17,24 @@ mod ours;
 #[cfg(feature = "zencan")]
 mod zencan;
 
-/// What the model (`scaled.py`) says.
+/// What the bench has to know of a model; `scaled.py` writes it down.
+struct Model {
+    name: &'static str,
+    /// Indices of all setpoints, the only scalars of type u16.
+    setpoints: &'static [u16],
+    /// Index of a position, which is read-only.
+    position: u16,
+    /// Indices of the setpoint and position that TPDO 1 maps, and of the speed that RPDO 1 maps beside the setpoint.
+    mapped: [u16; 3],
+}
+
+/// The same in all models.
 mod model {
-    pub const FIRST: u16 = 0x2000;
-    /// One setpoint, the only scalar of type u16, in so many objects.
-    pub const BLOCK: u16 = 10;
     /// Default of the first setpoint.
     pub const SETPOINT: u16 = 51;
-    /// A position, which is read-only.
-    pub const POSITION: u16 = FIRST + 5;
     pub const PDO_SIZE: usize = 6;
-
-    /// The setpoint that both PDOs map.
-    pub fn mapped(objects: u16) -> u16 {
-        FIRST + objects / 2 / BLOCK * BLOCK
-    }
+    /// An index without an object.
+    pub const FREE: u16 = 0x9FFF;
 }
 
 /// A contender. Operations that it does not have give `None`.
@@ -65,22 +68,21 @@ trait Dictionary {
 const KEYS: usize = 1024;
 
 /// Indices of existing u16 scalars in a random order that is always the same.
-fn keys(objects: u16) -> Vec<u16> {
-    let channels = u64::from(objects / model::BLOCK);
+fn keys(setpoints: &[u16]) -> Vec<u16> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut next = || {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
-        u16::try_from((state >> 33) % channels).expect("there are fewer channels than objects")
+        usize::try_from(state >> 33).expect("31 bits are left") % setpoints.len()
     };
-    (0..KEYS).map(|_| model::FIRST + model::BLOCK * next()).collect()
+    (0..KEYS).map(|_| setpoints[next()]).collect()
 }
 
 /// Fails unless a contender does what is going to be measured.
-fn assert_works(dictionary: &mut impl Dictionary, objects: u16, keys: &[u16]) {
-    let mapped = model::mapped(objects);
-    assert_eq!(dictionary.read(model::FIRST, 0), Some(model::SETPOINT.to_le_bytes()));
+fn assert_works(dictionary: &mut impl Dictionary, model: &Model, keys: &[u16]) {
+    let (first, [mapped, ..]) = (model.setpoints[0], model.mapped);
+    assert_eq!(dictionary.read(first, 0), Some(model::SETPOINT.to_le_bytes()));
     assert!(dictionary.setpoint().is_none_or(|value| value == model::SETPOINT));
     for (number, &index) in keys.iter().enumerate() {
         let bytes = u16::try_from(number).expect("there are few keys").to_le_bytes();
@@ -90,12 +92,12 @@ fn assert_works(dictionary: &mut impl Dictionary, objects: u16, keys: &[u16]) {
         );
         assert_eq!(dictionary.read(index, 0), Some(bytes));
     }
-    assert!(!dictionary.find(0x5FF0, 0) && !dictionary.find(model::FIRST, 1));
-    assert!(!dictionary.write(model::POSITION, 0, [0; 2]), "a read-only entry was written");
+    assert!(!dictionary.find(model::FREE, 0) && !dictionary.find(first, 1));
+    assert!(!dictionary.write(model.position, 0, [0; 2]), "a read-only entry was written");
     if dictionary.unpack(&[0x34, 0x12, 1, 2, 3, 4]).is_some() {
         assert_eq!(dictionary.read(mapped, 0), Some([0x34, 0x12]));
     }
-    assert!(dictionary.write(model::FIRST, 0, [0x78, 0x56]) && dictionary.write(mapped, 0, [0xCD, 0xAB]));
+    assert!(dictionary.write(first, 0, [0x78, 0x56]) && dictionary.write(mapped, 0, [0xCD, 0xAB]));
     assert!(dictionary.setpoint().is_none_or(|value| value == 0x5678));
     let mut frame = [0xFF; 8];
     if let Some(length) = dictionary.pack(&mut frame) {
@@ -104,13 +106,13 @@ fn assert_works(dictionary: &mut impl Dictionary, objects: u16, keys: &[u16]) {
     assert!(dictionary.pack_default().is_none_or(|frame| frame == [0xCD, 0xAB, 0, 0, 0, 0]));
 }
 
-/// All operations of one contender at one size.
-fn measure<D: Dictionary>(criterion: &mut Criterion, objects: u16, dictionary: &mut D) {
-    let keys = keys(objects);
-    assert_works(dictionary, objects, &keys);
+/// All operations of one contender on one model.
+fn measure<D: Dictionary>(criterion: &mut Criterion, model: &Model, dictionary: &mut D) {
+    let keys = keys(model.setpoints);
+    assert_works(dictionary, model, &keys);
     let mut bench = |operation: &str, run: &mut dyn FnMut()| {
         group(criterion, operation)
-            .bench_function(format!("{}/{objects}", D::NAME), |bencher| bencher.iter(&mut *run));
+            .bench_function(format!("{}/{}", D::NAME, model.name), |bencher| bencher.iter(&mut *run));
     };
     bench("read u16", &mut || {
         for &index in &keys {
@@ -172,7 +174,8 @@ fn group<'a>(criterion: &'a mut Criterion, operation: &str) -> BenchmarkGroup<'a
 
 /// What the loop itself costs.
 fn floor(criterion: &mut Criterion) {
-    let keys = keys(150);
+    let setpoints: Vec<u16> = (0x2000..0x2100).collect();
+    let keys = keys(&setpoints);
     group(criterion, "empty loop").bench_function("floor/0", |bencher| {
         bencher.iter(|| {
             for &index in &keys {
@@ -182,33 +185,34 @@ fn floor(criterion: &mut Criterion) {
     });
 }
 
+/// Measures all contenders that are enabled on a model. `OBJECT` is zencan's name of the first setpoint.
+macro_rules! contenders {
+    ($criterion:ident, $feature:literal $model:ident $object:ident $(, $canopen_rs:literal)?) => {
+        #[cfg(feature = $feature)]
+        {
+            const MODEL: Model = include!(concat!(env!("OUT_DIR"), "/", $feature, "/controller.rs"));
+            #[cfg(feature = "ours")]
+            measure($criterion, &MODEL, &mut ours::$model::dictionary());
+            #[cfg(feature = "zencan")]
+            measure($criterion, &MODEL, &mut zencan::dictionary!($model, $object));
+            $(
+                #[cfg(feature = $canopen_rs)]
+                measure($criterion, &MODEL, &mut *canopen_rs::dictionary!($model, &MODEL));
+            )?
+        }
+    };
+}
+
 fn dictionaries(criterion: &mut Criterion) {
     floor(criterion);
-    #[cfg(feature = "size150")]
-    {
-        #[cfg(feature = "ours")]
-        measure(criterion, 150, &mut ours::size150::dictionary());
-        #[cfg(feature = "zencan")]
-        measure(criterion, 150, &mut zencan::dictionary!(size150));
-        #[cfg(feature = "canopen-rs")]
-        measure(criterion, 150, &mut *canopen_rs::dictionary!(size150, 150));
-    }
-    #[cfg(feature = "size2000")]
-    {
-        #[cfg(feature = "ours")]
-        measure(criterion, 2000, &mut ours::size2000::dictionary());
-        #[cfg(feature = "zencan")]
-        measure(criterion, 2000, &mut zencan::dictionary!(size2000));
-        #[cfg(feature = "canopen-rs-2000")]
-        measure(criterion, 2000, &mut *canopen_rs::dictionary!(size2000, 2000));
-    }
-    #[cfg(feature = "size10000")]
-    {
-        #[cfg(feature = "ours")]
-        measure(criterion, 10000, &mut ours::size10000::dictionary());
-        #[cfg(feature = "zencan")]
-        measure(criterion, 10000, &mut zencan::dictionary!(size10000));
-    }
+    contenders!(criterion, "pmc" pmc OBJECT2030, "canopen-rs");
+    contenders!(criterion, "pmm" pmm OBJECT2030, "canopen-rs");
+    contenders!(criterion, "size150" size150 OBJECT2000, "canopen-rs");
+    contenders!(criterion, "gappy150" gappy150 OBJECT2000, "canopen-rs");
+    contenders!(criterion, "size2000" size2000 OBJECT2000, "canopen-rs-2000");
+    contenders!(criterion, "gappy2000" gappy2000 OBJECT2000);
+    contenders!(criterion, "size10000" size10000 OBJECT2000);
+    contenders!(criterion, "gappy10000" gappy10000 OBJECT2000);
 }
 
 criterion_group! {

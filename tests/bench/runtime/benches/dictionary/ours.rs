@@ -7,12 +7,12 @@ use firmware_glue::pdo::{pack, unpack};
 
 const NODE: u8 = 5;
 
-macro_rules! sizes {
-    ($($feature:literal $size:ident),*) => {$(
+macro_rules! models {
+    ($($feature:literal $model:ident),*) => {$(
         #[cfg(feature = $feature)]
-        pub mod $size {
+        pub mod $model {
             use super::*;
-            use bench_ours::$size::{Controller, pdos::Tpdo1};
+            use bench_ours::$model::{Controller, pdos::Tpdo1};
 
             pub struct Ours(Controller);
 
@@ -33,7 +33,7 @@ macro_rules! sizes {
 
                 fn find(&self, index: u16, sub: u8) -> bool {
                     // with access and size, which the peers' lookups give
-                    black_box(self.0.find(index, sub).map(|entry| self.0.info(entry))).is_ok()
+                    black_box(self.0.info_at(index, sub)).is_ok()
                 }
 
                 fn setpoint(&self) -> Option<u16> {
@@ -58,4 +58,13 @@ macro_rules! sizes {
     )*};
 }
 
-sizes!("size150" size150, "size2000" size2000, "size10000" size10000);
+models!(
+    "size150" size150,
+    "size2000" size2000,
+    "size10000" size10000,
+    "gappy150" gappy150,
+    "gappy2000" gappy2000,
+    "gappy10000" gappy10000,
+    "pmc" pmc,
+    "pmm" pmm
+);

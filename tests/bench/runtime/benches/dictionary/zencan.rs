@@ -30,11 +30,11 @@ impl<F: Fn() -> u16> Zencan<F> {
     }
 }
 
-/// The dictionary of one size. It is static: there is one in a program.
+/// The dictionary of one model, with the name of its first setpoint. It is static: there is one in a program.
 macro_rules! dictionary {
-    ($size:ident) => {{
-        use bench_zencan::$size::{OBJECT2000, OD_TABLE, RPDOS, TPDOS};
-        $crate::zencan::Zencan::new(&OD_TABLE, &TPDOS[0], &RPDOS[0], || OBJECT2000.get_value())
+    ($model:ident, $setpoint:ident) => {{
+        use bench_zencan::$model::{$setpoint, OD_TABLE, RPDOS, TPDOS};
+        $crate::zencan::Zencan::new(&OD_TABLE, &TPDOS[0], &RPDOS[0], || $setpoint.get_value())
     }};
 }
 pub(crate) use dictionary;

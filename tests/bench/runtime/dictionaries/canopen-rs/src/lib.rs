@@ -9,3 +9,18 @@ pub mod size150 {
 pub mod size2000 {
     include!(concat!(env!("OUT_DIR"), "/size2000/dictionary.rs"));
 }
+
+#[cfg(feature = "gappy150")]
+pub mod gappy150 {
+    include!(concat!(env!("OUT_DIR"), "/gappy150/dictionary.rs"));
+}
+
+#[cfg(feature = "pmc")]
+pub mod pmc {
+    include!(concat!(env!("OUT_DIR"), "/pmc/dictionary.rs"));
+}
+
+#[cfg(feature = "pmm")]
+pub mod pmm {
+    include!(concat!(env!("OUT_DIR"), "/pmm/dictionary.rs"));
+}

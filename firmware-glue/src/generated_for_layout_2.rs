@@ -1,6 +1,6 @@
 //! What generated code of the present layout uses, and nothing else: the contract between the generator and this crate.
 //!
-//! A generated file imports this module under the name of the layout that it was made for, `generated_for_layout_1`. Whoever
+//! A generated file imports this module under the name of the layout that it was made for, `generated_for_layout_2`. Whoever
 //! changes something here, or what it means, so that a file made before no longer compiles or does something else, changes the
 //! number: in `lib.rs`, and in the generator (`od-gen`, `LAYOUT`). The macros that make types have no layout; see
 //! [`Table::generated`].
