@@ -1,0 +1,67 @@
+//! Specifications with one mistake, each with the code of the rule that has to find it; and the right specifications that are
+//! nearest to them, about which nothing at all is said. A case may also be about settings of a node.
+//!
+//! A specification is written as in the examples of the rules: what it leaves out of version, title, `uses:` and `devices:` stands
+//! above it. Its devices have the features `heartbeat producer` and `emergency`, unless it says otherwise.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod case;
+mod cob_ids;
+mod pdo;
+mod standard_objects;
+mod values;
+
+use std::collections::BTreeSet;
+
+use case::{Case, Right, said};
+
+fn wrong() -> Vec<Case> {
+    [cob_ids::wrong(), standard_objects::wrong(), values::wrong(), pdo::wrong()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn right() -> Vec<Right> {
+    [cob_ids::right(), standard_objects::right(), values::right(), pdo::right()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Every mistake is found, and nothing else is said about it.
+#[test]
+fn what_is_wrong_is_found() {
+    let missed: Vec<String> = wrong()
+        .iter()
+        .filter_map(|case| {
+            let found = said(&case.specification, case.set);
+            let is_found = found.iter().any(|(code, _)| *code == case.code)
+                && found.iter().all(|(code, _)| *code == case.code);
+            (!is_found).then(|| format!("{}: expected {}, found {found:#?}", case.name, case.code))
+        })
+        .collect();
+    assert!(missed.is_empty(), "{} cases:\n{}", missed.len(), missed.join("\n"));
+}
+
+/// No warning and no note, either.
+#[test]
+fn what_is_right_passes_without_a_word() {
+    let blamed: Vec<String> = right()
+        .iter()
+        .filter_map(|case| {
+            let found = said(&case.specification, case.set);
+            (!found.is_empty()).then(|| format!("{}: {found:#?}", case.name))
+        })
+        .collect();
+    assert!(blamed.is_empty(), "{} cases:\n{}", blamed.len(), blamed.join("\n"));
+}
+
+#[test]
+fn every_case_has_a_name_of_its_own() {
+    let names: Vec<&str> =
+        wrong().iter().map(|case| case.name).chain(right().iter().map(|case| case.name)).collect();
+    let distinct: BTreeSet<&str> = names.iter().copied().collect();
+    assert_eq!(distinct.len(), names.len());
+}

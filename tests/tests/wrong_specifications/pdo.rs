@@ -1,0 +1,11 @@
+//! PDOs as a whole: transmission, timers, mapping.
+
+use crate::case::{Case, Right};
+
+pub(crate) fn wrong() -> Vec<Case> {
+    vec![]
+}
+
+pub(crate) fn right() -> Vec<Right> {
+    vec![]
+}
