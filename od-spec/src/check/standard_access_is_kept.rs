@@ -25,17 +25,19 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for object in subject.device.objects.values().filter(|object| !is_from_library(object)) {
+    for object in subject.device.objects.values() {
         for entry in &object.entries {
             let Some(known) = subject.standard.entry(object.index, entry.sub) else { continue };
-            for (problem, fact) in
-                [access(object, entry, known), mapping(object, entry, known)].into_iter().flatten()
-            {
+            let access = access(object, entry, known).filter(|_| !is_from_library(object));
+            for (problem, fact) in [access, mapping(object, entry, known)].into_iter().flatten() {
                 let id = EntryId { index: object.index, sub: entry.sub };
                 let message = format!("{id} ({}) {problem}", entry.name);
-                findings.push(
-                    Diagnostic::new(CODE, subject.place(entry, fact), message).help(help(subject, object)),
-                );
+                let help = if is_from_library(object) {
+                    "leave the mapping out; masters do not expect it".to_owned()
+                } else {
+                    help(subject, object)
+                };
+                findings.push(Diagnostic::new(CODE, subject.place(entry, fact), message).help(help));
             }
         }
     }
@@ -68,6 +70,8 @@ fn access(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fact
     Some((problem, Fact::Access))
 }
 
+/// What an entry is mapped as although CiA 301 does not have it so, whoever describes it: no departure from the standard makes
+/// process data of a parameter.
 fn mapping(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fact)> {
     // CiA 301 leaves it to the device whether these are mappable.
     let is_free = matches!(object.index.0, 0x1001 | 0x1002 | 0x1013 | 0x1026);

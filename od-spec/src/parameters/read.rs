@@ -43,10 +43,8 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
     } else {
         text.trim()
     };
-    let unit = entry.unit.as_deref();
-    let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
-    let value =
-        values::read(text, value_span, expected).map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
+    let value = values::read(text, value_span, expected(entry))
+        .map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
     let holder = match &entry.alias {
         Some(alias) => {
             let raw = value.integer_for(node);
@@ -63,9 +61,16 @@ pub(super) fn setting(device: &Dictionary, node: u8, assignment: &Assignment) ->
 
 /// Reads the value of a known entry.
 pub(super) fn parameter(entry: &Entry, text: &Spanned<String>) -> Result<Value, Box<Diagnostic>> {
-    let unit = entry.unit.as_deref();
-    let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
-    values::read(&text.value, text.span, expected)
+    values::read(&text.value, text.span, expected(entry))
+}
+
+fn expected(entry: &Entry) -> values::Expected<'_> {
+    values::Expected {
+        data_type: entry.data_type,
+        named: entry.named_type.as_deref(),
+        unit: entry.unit.as_deref(),
+        special: &entry.special,
+    }
 }
 
 fn find<'a>(device: &'a Dictionary, name: &str, span: Span) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {

@@ -5,7 +5,7 @@ use crate::check::codes as rule_codes;
 use crate::decode::nearest;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
+use crate::model::{DataType, NamedType, Ratio, SpecialValue, TypeKind, Unit, Value};
 use crate::scalar::{self, NumberError};
 use crate::source::Span;
 
@@ -15,6 +15,8 @@ pub(crate) struct Expected<'a> {
     pub data_type: DataType,
     pub named: Option<&'a NamedType>,
     pub unit: Option<&'a Unit>,
+    /// Values that are allowed beside those of an enum.
+    pub special: &'a [SpecialValue],
 }
 
 /// Reads a value that is written at `span`.
@@ -140,7 +142,8 @@ fn integer(text: &str, span: Span, expected: Expected<'_>) -> Result<Value, Box<
         }
     };
     fits(raw, span, expected.data_type, &format!("{raw}"))?;
-    if !values.is_empty() && !values.iter().any(|value| value.value == raw) {
+    let is_special = expected.special.iter().any(|special| special.value == raw);
+    if !values.is_empty() && !is_special && !values.iter().any(|value| value.value == raw) {
         return Err(Box::new(
             Diagnostic::new(
                 rule_codes::UNKNOWN_ENUM_VALUE,
