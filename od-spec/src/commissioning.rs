@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, Value, Write, download};
+use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, System, Value, Write, download};
 
 /// Values of single entries, by entry.
 pub type ParameterValues = BTreeMap<EntryId, Value>;
@@ -122,7 +122,7 @@ impl Commissioning {
     ///
     /// # Errors
     /// A value that no entry of the device can have.
-    pub fn download(&self, device: &Dictionary) -> Result<Vec<Write>, NoSuchValue> {
-        download(device, &self.values, self.node)
+    pub fn download(&self, system: &System, device: &Dictionary) -> Result<Vec<Write>, NoSuchValue> {
+        download(system, device, &self.values, self.node)
     }
 }

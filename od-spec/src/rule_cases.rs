@@ -119,10 +119,12 @@ fn an_emcy_that_does_not_exist_has_no_cob_id() {
 }
 
 #[test]
-fn an_enum_has_no_special_values() {
+fn an_enum_has_the_special_values_of_its_entry() {
     let text = "types:\n  mode: {base: unsigned16, values: {0: off, 1: on}}\nobjects:\n  0x2000: {name: mode, type: mode, access: rw, special: {7: none}}\n  0x2001: {name: short mode, alias: mode, type: unsigned8}";
-    assert_eq!(said(text, 5, &["2000=7"]), ["OD0403"]);
-    assert_eq!(said(text, 5, &["2001=7"]), ["OD0403"]);
+    assert_eq!(said(text, 5, &["2000=7"]), NONE);
+    assert_eq!(said(text, 5, &["2001=7"]), NONE);
+    assert_eq!(said(text, 5, &["2000=8"]), ["OD0403"]);
+    assert_eq!(said(text, 5, &["2001=8"]), ["OD0403"]);
 }
 
 const THREE: &str = "devices:

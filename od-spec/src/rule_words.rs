@@ -187,6 +187,20 @@ fn pdo_with_times(index: u16, transmission: &str) -> String {
     structured(index, 9, ("const", "DefaultValue=5"), &subs)
 }
 
+/// The communication parameters of a PDO that begins with SYNC 3, beside other objects.
+fn pdo_with_sync_start(index: u16, transmission: &str, others: &str) -> String {
+    let transmission = format!("DefaultValue={transmission}");
+    let subs = [
+        (7, "rw", "DefaultValue=$NODEID+0x80000180"),
+        (5, "rw", &transmission),
+        (6, "rw", "DefaultValue=0"),
+        (5, "rw", ""),
+        (6, "rw", "DefaultValue=0"),
+        (5, "rw", "DefaultValue=3"),
+    ];
+    others.to_owned() + &structured(index, 9, ("const", "DefaultValue=6"), &subs)
+}
+
 /// Entries that PDOs map.
 fn levels() -> String {
     var(0x2000, "level", 5, "ro", "PDOMapping=1") + &var(0x2001, "set level", 5, "rww", "PDOMapping=1")
@@ -255,6 +269,7 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0510", structured(0x1016, 8, ("const", "DefaultValue=2"), &[(7, "rw", "DefaultValue=0x50064"); 2])),
         ("OD0511", pdo(Pdo { count: ("rw", "254"), ..TPDO })),
         ("OD0512", pdo(Pdo { mapped: &[("ro", "0x20000008")], ..TPDO })),
+        ("OD0516", pdo(Pdo { cob_id: ("rw", "$NODEID+0x40000180"), transmission: "253", ..TPDO })),
         ("OD0602", info("BaudRate_125=0") + &level("")),
         ("OD0611", info("VendorNumber=5") + &structured(0x1018, 9, ("const", "DefaultValue=1"), &[(7, "ro", "DefaultValue=6")])),
         ("OD0801", level("")),
@@ -290,10 +305,15 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0824", pdo_with_times(TPDO.index, "1")),
         ("OD0824", pdo_with_times(TPDO.index, "253")),
         ("OD0824", pdo_with_times(RPDO.index, "255")),
+        ("OD0824", pdo_with_times(TPDO.index, "255").replacen("DefaultValue=100", "DefaultValue=2000", 1)),
         ("OD0825", var(0x2000, "level", 5, "wo", &default("1"))),
         ("OD0826", var(0x2000, "level", 0x16, "ro", "")),
         ("OD0827", info("GroupMessaging=1") + &level("")),
         ("OD0827", info("GroupMessaging=1") + &pdo(Pdo { count: ("ro", "1"), ..TPDO })),
+        ("OD0836", pdo_with_sync_start(TPDO.index, "1", "")),
+        ("OD0836", pdo_with_sync_start(TPDO.index, "1", &var(0x1019, "counter", 5, "rw", &default("2")))),
+        ("OD0836", pdo_with_sync_start(TPDO.index, "254", "")),
+        ("OD0836", pdo_with_sync_start(RPDO.index, "1", "")),
     ]
 }
 
@@ -362,17 +382,25 @@ fn faults_of_nodes() -> Vec<(&'static str, String)> {
                 + &set("rw", "")
                 + &var(0x2001, "mode", 5, "rw", "DefaultValue=0"),
         ),
+        (
+            "OD0838",
+            ";writable only while 0x2001 == 120\n".to_owned()
+                + &set("rw", "DefaultValue=0")
+                + ";writable only while 0x2000 == 120\n"
+                + &var(0x2001, "mode", 5, "rw", "DefaultValue=0\nParameterValue=120"),
+        ),
         ("OD0814", pdo("1800sub2", "1")),
     ]
 }
 
 /// Rules that nothing in an EDS or DCF can break, and why.
-const OUT_OF_REACH: [(&str, &str); 5] = [
+const OUT_OF_REACH: [(&str, &str); 6] = [
     ("OD0420", "it has no views of other entries"),
     ("OD0601", "an EDS has keys for the bit rates of CiA 301 alone"),
     ("OD0606", "it has no conditions between entries"),
     ("OD0806", "it defines units and types where entries have them"),
     ("OD0808", "it has no list of error codes"),
+    ("OD0837", "where it states no default, it says nothing about the start"),
 ];
 
 #[test]

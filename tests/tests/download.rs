@@ -51,7 +51,7 @@ fn configured(specification: &str, device: &str, settings: &[&str]) -> Configure
     let mut node = Commissioning::of_node(device, NODE);
     node.values = assign(&system, device, NODE, &settings, &mut diagnostics);
     assert!(!diagnostics.has_errors(), "{diagnostics:?}");
-    let writes = node.download(device).unwrap();
+    let writes = node.download(&system, device).unwrap();
     Configured { device: device.clone(), node, writes }
 }
 

@@ -1,8 +1,9 @@
 //! `[Comments]` (CiA 306 4.6.5): what a person should know about the whole file.
 
 use od_spec::eds::Document;
-use od_spec::model::{Date, Dictionary, Entry, Fact, Storage, System};
+use od_spec::model::{Date, Dictionary, System};
 
+use super::withheld::Withheld;
 use super::writer::SectionWriter;
 
 /// The lines of `[Comments]`.
@@ -21,11 +22,9 @@ pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dicti
                 .to_owned(),
         );
     }
-    let withheld = || device.entries().filter(|(.., entry)| entry.default.is_some() && !entry.eds.default);
-    let kept = |entry: &Entry| entry.locked || entry.stored != Storage::No;
-    let of_the_standard =
-        withheld().filter(|(.., entry)| entry.is_only_standard(Fact::Default) && !kept(entry)).count();
-    let of_the_maker = withheld().count() - of_the_standard;
+    let withheld = |why| device.entries().filter(move |(.., entry)| Withheld::of(entry) == Some(why)).count();
+    let (of_the_maker, of_the_standard) = (withheld(Withheld::Kept), withheld(Withheld::Standard));
+    let no_promise = withheld(Withheld::NoPromise);
     if of_the_maker > 0 {
         lines.push(format!(
             "{of_the_maker} defaults of stored or locked parameters are left out, so that no PLC writes them back at boot."
@@ -36,7 +35,12 @@ pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dicti
             "{of_the_standard} defaults are left out because only the standard states them; the device may have others."
         ));
     }
-    if of_the_maker + of_the_standard > 0 {
+    if no_promise > 0 {
+        lines.push(format!(
+            "{no_promise} values that the device starts with are left out because its maker does not promise them."
+        ));
+    }
+    if of_the_maker + of_the_standard + no_promise > 0 {
         lines.push("The comments above each section list them, with units and meanings.".to_owned());
     }
     let mut section = SectionWriter::new("Comments", &[]);

@@ -5,6 +5,8 @@ use od_spec::model::{
 };
 use od_spec::wording::{Notation, Wording};
 
+use super::withheld::Withheld;
+
 /// Enums and bit fields up to this many members are listed.
 const MOST_MEMBERS: usize = 40;
 
@@ -59,10 +61,13 @@ fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
     {
         facts.push(format!("range {range}, or a special value"));
     }
-    if let (Some(default), false) = (&entry.default, entry.eds.default) {
-        let whose =
-            if entry.is_only_standard(Fact::Default) { "default of the standard" } else { "factory default" };
-        facts.push(format!("{whose} {}", WORDING.value(Some(index), entry, default)));
+    if let Some((default, why)) = entry.default.as_ref().zip(Withheld::of(entry)) {
+        let what = match why {
+            _ if entry.is_only_standard(Fact::Default) => "default of the standard",
+            Withheld::Standard | Withheld::Kept => "factory default",
+            Withheld::NoPromise => "start value",
+        };
+        facts.push(format!("{what} {}", WORDING.value(Some(index), entry, default)));
     }
     (!facts.is_empty()).then(|| facts.join("; "))
 }

@@ -11,6 +11,7 @@ mod entry;
 mod file_info;
 mod objects;
 mod value;
+mod withheld;
 mod writer;
 
 use od_spec::Commissioning;

@@ -63,15 +63,19 @@ mod placeholders_are_accepted;
 mod predefined_cob_ids_are_kept;
 mod real_defaults;
 mod real_values_are_kept;
+mod remote_frames_are_answered;
 mod reserved_bits_are_zero;
 mod sdo_clients_talk_to_one_server;
 mod services_have_their_objects;
 mod set_entries_are_writable;
+mod settings_have_an_order;
 mod standard_access_is_kept;
 mod standard_objects_are_complete;
 mod standard_objects_keep_their_type;
+mod start_values_are_allowed;
 mod stored_entries_can_be_stored;
 mod structures_have_entries;
+mod sync_start_has_an_effect;
 pub(crate) mod texts_fit_eds;
 mod times_fit_the_transmission;
 mod transmission_types_are_defined;
@@ -177,6 +181,10 @@ pub(crate) static RULES: &[Rule] = &[
     drive_objects_keep_their_type::RULE,
     real_values_are_kept::RULE,
     views_show_values::RULE,
+    remote_frames_are_answered::RULE,
+    sync_start_has_an_effect::RULE,
+    start_values_are_allowed::RULE,
+    settings_have_an_order::RULE,
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.

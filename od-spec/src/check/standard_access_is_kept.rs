@@ -72,6 +72,8 @@ fn access(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fact
     Some((problem, Fact::Access))
 }
 
+/// What an entry is mapped as although CiA 301 does not have it so, whoever describes it: no departure from the standard makes
+/// process data of a parameter.
 fn mapping(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fact)> {
     // CiA 301 leaves it to the device whether these are mappable.
     let is_free = matches!(object.index.0, 0x1001 | 0x1002 | 0x1013 | 0x1026);

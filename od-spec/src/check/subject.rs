@@ -1,13 +1,13 @@
 //! What a rule looks at: one device, as a type that may become any node, or as one configured node.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
 use super::standard::Standard;
 use crate::diag::Diagnostic;
 use crate::model::{
-    Author, Dictionary, Entry, EntryId, EntryRef, Fact, Index, Object, Ratio, SubIndex, System, Value,
-    Values, convert,
+    Author, Dictionary, Entry, EntryId, EntryRef, Fact, Held, Index, Object, Ratio, SubIndex, System, Value,
+    Values,
 };
 use crate::source::{FileId, Span};
 
@@ -63,14 +63,6 @@ impl<'a> Subject<'a> {
         self.device.entries().filter_map(|(id, _, entry)| Some((id, entry, entry.default.as_ref()?)))
     }
 
-    /// The raw number of a value, where it does not depend on an unknown node-ID.
-    fn fixed(&self, value: &Value) -> Option<i128> {
-        match self.node {
-            Some(node) => value.integer_for(node),
-            None => value.integer(),
-        }
-    }
-
     /// Where a fact of an entry stands; the place of the device for what a library says, which is right.
     pub(super) fn place(&self, entry: &Entry, fact: Fact) -> Span {
         match entry.facts.get(fact) {
@@ -121,25 +113,22 @@ pub(super) const fn entry_id(index: u16, sub: u8) -> EntryId {
     EntryId { index: Index(index), sub: SubIndex(sub) }
 }
 
+/// Nothing is written over the values of the device: settings are laid over its defaults already.
+static NOTHING_WRITTEN: BTreeMap<EntryId, i128> = BTreeMap::new();
+
+impl<'a> Subject<'a> {
+    const fn held(&self) -> Held<'a> {
+        Held { system: self.system, device: self.device, node: self.node, written: &NOTHING_WRITTEN }
+    }
+}
+
 /// The values of a device, in physical units.
 impl Values for Subject<'_> {
     fn value(&self, entry: &EntryRef) -> Option<Ratio> {
-        let raw = Ratio::whole(self.raw(entry)?);
-        match self.named(entry)?.entry(entry.id)?.unit.as_ref() {
-            Some(unit) => raw.checked_mul(unit.step()?),
-            None => Some(raw),
-        }
+        self.held().value(entry)
     }
 
     fn raw(&self, entry: &EntryRef) -> Option<i128> {
-        let device = self.named(entry)?;
-        let found = device.entry(entry.id)?;
-        if let Some(alias) = &found.alias {
-            let target = EntryRef { id: alias.target, ..entry.clone() };
-            return convert(self.raw(&target)?, alias.factor, alias.rounding, alias.outside, found.data_type);
-        }
-        let value = found.default.as_ref()?;
-        // Nothing is known about the node-ID of another device.
-        if device.key == self.device.key { self.fixed(value) } else { value.integer() }
+        self.held().raw(entry)
     }
 }

@@ -1,11 +1,13 @@
-//! A value of an enum is one of those that the enum lists.
+//! A value of an enum is one of those that the enum lists and the device supports, or a special one.
 
 use super::findings::Findings;
 use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, TypeKind};
+use crate::model::{Fact, TypeKind, Value};
+use crate::source::Span;
+use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -15,8 +17,9 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "not a value of the enum",
-    explanation: "The entry's type lists its values; this one is not among them. A device refuses a mode or command that it does not know, \
-        with abort code 0609 0030h. Write the name of a value, or add the value to the type.",
+    explanation: "The entry's type lists its values; this one is not among them, or is one that the device does not support (`supported: no`). A device refuses a mode or \
+        command that it does not know, with abort code 0609 0030h, and whatever it starts with is a value that it has. Write the name of a value, add the value to the type, \
+        or make it `special` at the entry.",
     clause: None,
     example: Some(Example::new(
         "types:\n  mode: {base: unsigned16, values: {0: off, 1: on}}\nobjects:\n  0x2000: {name: mode, type: mode, access: rw}\n  0x2001: {name: short mode, alias: mode, type: unsigned8}\n# --set 2001=2",
@@ -33,17 +36,32 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if entry.alias.is_some() && !entry.is_set() {
             continue;
         }
-        let is_listed = |raw: i128| values.iter().any(|listed| listed.value == raw);
+        let is_special = |raw: i128| entry.special.iter().any(|special| special.value == raw);
+        let is_supported = |raw: i128| values.iter().any(|listed| listed.value == raw && listed.supported);
         let mut raw = subject.nodes_of(value).filter_map(|node| value.integer_for(node));
-        if let Some(stranger) = raw.find(|raw| !is_listed(*raw)) {
-            let message = format!("{id} ({}): {stranger} is not a value of its enum", entry.name);
-            let help = subject.help(Help {
-                specification: "write the name of a value, or add the value to the type",
-                eds: "write one of its values, or add the value to the comment",
-                setting: "write one of its values; the device refuses any other",
-            });
-            let diagnostic = Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help);
-            findings.push(subject.seen_through(id, diagnostic));
-        }
+        let Some(stranger) = raw.find(|raw| !is_special(*raw) && !is_supported(*raw)) else { continue };
+        let is_listed = values.iter().any(|listed| listed.value == stranger);
+        let (message, specification) = if is_listed {
+            let shown = format_value(entry, &Value::Integer(stranger));
+            (
+                format!("{id} ({}): {shown} is a value that the device does not support", entry.name),
+                "write a supported value, or remove `supported: no`",
+            )
+        } else {
+            (
+                format!("{id} ({}): {stranger} is not a value of its enum", entry.name),
+                "write the name of a value, or add the value to the type",
+            )
+        };
+        let help = subject.help(Help {
+            specification,
+            eds: "write one of its values, or correct the comment",
+            setting: "write one of its values; the device refuses any other",
+        });
+        // Where a library says the value, it is the maker's type that does not fit.
+        let places = [Fact::Default, Fact::Type].map(|fact| subject.place(entry, fact));
+        let is_makers = |place: &&Span| **place != subject.device.span && **place != entry.span;
+        let place = places.iter().find(is_makers).unwrap_or(&places[0]);
+        findings.push(subject.seen_through(id, Diagnostic::new(CODE, *place, message).help(help)));
     }
 }

@@ -2,12 +2,13 @@
 //!
 //! Some parameters can be changed only while what they belong to is switched off (CiA 301 7.5.2): a PDO's mapping while the
 //! PDO does not exist, the number of mapped entries before the entries, an identifier while its message does not exist. So
-//! a download has phases: off, set, on; the commands that keep what was written come last.
+//! a download has phases: off, set, on; the commands that keep what was written come last. Among the values, conditions between
+//! entries may ask for an order of their own.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{Dictionary, EntryId, Index, Pdo, SubIndex, Value};
+use super::{Course, Dictionary, EntryId, Index, Pdo, Stuck, SubIndex, System, Value};
 
 /// One SDO download.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,9 +39,13 @@ impl std::error::Error for NoSuchValue {}
 /// mapping is written, with the defaults for the rest, so that the PDO carries what was meant whatever it carried before. A
 /// PDO that is touched ends with the COB-ID that is given, or else its default.
 ///
+/// Conditions between entries hold after each write where they held before, for a node that begins with its defaults; where no
+/// order does that, what the device refuses comes last.
+///
 /// # Errors
 /// A value that no entry of the device can have. Values from [`assign`](crate::assign) always can.
 pub fn download(
+    system: &System,
     device: &Dictionary,
     values: &BTreeMap<EntryId, Value>,
     node: u8,
@@ -52,7 +57,7 @@ pub fn download(
     for id in values.keys() {
         order.single(*id)?;
     }
-    Ok(order.writes.into_iter().map(|((_, id), bytes)| Write { id, bytes }).collect())
+    Ok(order.arranged(system))
 }
 
 /// When an entry is written; within a phase, ascending.
@@ -140,6 +145,23 @@ impl Order<'_> {
         Ok(())
     }
 
+    /// The writes by phase; in that of the values, conditions between them are kept.
+    fn arranged(self, system: &System) -> Vec<Write> {
+        let values = self.writes.keys().filter(|(phase, _)| *phase == Phase::Set);
+        let values = values.filter_map(|(_, id)| Some((*id, self.intended(*id)?)));
+        let ordered = match Course::new(system, self.device, self.node).order(values) {
+            Ok(ordered) => ordered,
+            Err(Stuck { ordered, left }) => ordered.into_iter().chain(left).collect(),
+        };
+        let rank: BTreeMap<EntryId, usize> = ordered.into_iter().zip(0..).collect();
+        let mut writes: Vec<((Phase, EntryId), Vec<u8>)> = self.writes.into_iter().collect();
+        writes.sort_by_key(|((phase, id), _)| {
+            let at = if *phase == Phase::Set { rank.get(id).copied() } else { None };
+            (*phase, at, *id)
+        });
+        writes.into_iter().map(|((_, id), bytes)| Write { id, bytes }).collect()
+    }
+
     fn mapping(&mut self, mapping: u16) -> Result<(), NoSuchValue> {
         let number = id(mapping, 0);
         let count = self.intended_integer(number).unwrap_or_default();
@@ -219,22 +241,29 @@ objects:
   0x1016: {from: cia301, array: {count: 2}}
   0x2000: {name: brightness, type: unsigned8, access: rw, pdo: receive}
   0x2001: {name: label, type: visible-string, access: rw, capacity: 8}
+  0x2002: {name: low, type: unsigned8, access: rw, default: 20}
+  0x2003: {name: high, type: unsigned8, access: rw, default: 40}
+  0x2004: {name: calibration, type: unsigned8, access: rw, default: 2, writable-when: \"0x2005 == 1\"}
+  0x2005: {name: service, type: unsigned8, access: rw, default: 0}
 pdos:
   lamp:
     receive: {1: {map: [0x2000]}}
+constraints:
+  thresholds keep their order: {require: \"0x2002 < 0x2003\"}
 ";
 
-    fn lamp() -> Dictionary {
+    fn lamp() -> System {
         let mut sources = SourceMap::new();
         let root = sources.add("lamp.od.yaml", SPECIFICATION);
         let compiled = compile(&mut sources, root, &mut NoFiles);
-        compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics)).devices.remove(0)
+        compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
     }
 
     /// The download as text, an entry and a number each.
     fn order(values: &[(EntryId, i128)]) -> Vec<String> {
         let values = values.iter().map(|(id, raw)| (*id, Value::Integer(*raw))).collect();
-        let writes = download(&lamp(), &values, 5).unwrap();
+        let system = lamp();
+        let writes = download(&system, &system.devices[0], &values, 5).unwrap();
         let number =
             |bytes: &[u8]| bytes.iter().rev().fold(0u64, |number, byte| number << 8 | u64::from(*byte));
         writes.iter().map(|write| format!("{}={:X}h", write.id, number(&write.bytes))).collect()
@@ -291,8 +320,21 @@ pdos:
     }
 
     #[test]
+    fn conditions_between_values_are_kept_on_the_way() {
+        assert_eq!(order(&[(id(0x2002, 0), 50), (id(0x2003, 0), 60)]), ["2003h=3Ch", "2002h=32h"]);
+        assert_eq!(order(&[(id(0x2002, 0), 5), (id(0x2003, 0), 10)]), ["2002h=5h", "2003h=Ah"]);
+        assert_eq!(order(&[(id(0x2004, 0), 3), (id(0x2005, 0), 1)]), ["2005h=1h", "2004h=3h"]);
+        assert_eq!(
+            order(&[(id(0x2004, 0), 3), (id(0x2005, 0), 2)]),
+            ["2005h=2h", "2004h=3h"],
+            "what the device refuses comes last"
+        );
+    }
+
+    #[test]
     fn formulas_are_resolved_and_what_does_not_fit_is_told() {
-        let write = |id, value| download(&lamp(), &BTreeMap::from([(id, value)]), 5);
+        let system = lamp();
+        let write = |id, value| download(&system, &system.devices[0], &BTreeMap::from([(id, value)]), 5);
         let writes = write(id(0x1014, 0), Value::NodeId(0x80)).unwrap();
         assert_eq!(writes.last().map(|write| write.bytes.as_slice()), Some(&[0x85, 0, 0, 0][..]));
         assert_eq!(write(id(0x2000, 0), Value::Integer(256)), Err(NoSuchValue(id(0x2000, 0))));

@@ -3,12 +3,14 @@
 //! A [`System`] holds what its devices share and one [`Dictionary`] per device. Every backend works
 //! from here and from nothing else.
 
+mod arranged;
 mod condition;
 mod device;
 mod document;
 mod download;
 mod dynamic_channel;
 mod fact;
+mod held;
 mod machine;
 mod named_type;
 mod object;
@@ -25,6 +27,7 @@ mod views;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+pub(crate) use arranged::{Course, Stuck};
 pub use condition::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outcome, Term, Values};
 pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
@@ -33,6 +36,7 @@ pub use document::{
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
+pub(crate) use held::Held;
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};

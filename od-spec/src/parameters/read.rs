@@ -49,9 +49,7 @@ pub(super) fn setting(
     } else {
         text.trim()
     };
-    let unit = entry.unit.as_deref();
-    let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
-    let value = values::read(text, value_span, expected, suggestions)
+    let value = values::read(text, value_span, expected(entry), suggestions)
         .map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
     let holder = match &entry.alias {
         Some(alias) => {
@@ -73,9 +71,16 @@ pub(super) fn parameter(
     text: &Spanned<String>,
     suggestions: &mut Suggestions,
 ) -> Result<Value, Box<Diagnostic>> {
-    let unit = entry.unit.as_deref();
-    let expected = values::Expected { data_type: entry.data_type, named: entry.named_type.as_deref(), unit };
-    values::read(&text.value, text.span, expected, suggestions)
+    values::read(&text.value, text.span, expected(entry), suggestions)
+}
+
+fn expected(entry: &Entry) -> values::Expected<'_> {
+    values::Expected {
+        data_type: entry.data_type,
+        named: entry.named_type.as_deref(),
+        unit: entry.unit.as_deref(),
+        special: &entry.special,
+    }
 }
 
 /// The entries of a device, as settings name them.

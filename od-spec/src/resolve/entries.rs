@@ -66,8 +66,9 @@ pub(super) fn resolve(
     };
     let AccessRight { access, locked } = access.value;
     let unit = decl.unit.as_ref().and_then(|unit| around.scope.unit(unit, diagnostics));
-    let expected = Expected { data_type, named: named_type.as_deref(), unit: unit.as_deref() };
     let special = special_values(decl.special.as_ref(), data_type, diagnostics);
+    let expected =
+        Expected { data_type, named: named_type.as_deref(), unit: unit.as_deref(), special: &special };
     // Values in a unit that is broken or unknown cannot be read; that was said already.
     let readable = decl.unit.is_some() == unit.is_some();
     let (low, high) = if readable { limits(decl, expected, diagnostics) } else { (None, None) };

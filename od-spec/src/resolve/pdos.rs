@@ -103,6 +103,16 @@ fn pdo(
 ) -> Option<Pdo> {
     let valid = decl.valid.is_none_or(|valid| valid.value);
     let used = to_u8(i128::try_from(map.len()).unwrap_or(i128::MAX));
+    if let Some(capacity) = decl.capacity.as_ref().filter(|_| decl.is_fixed()) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::CONFLICTING_KEYS,
+                capacity.span,
+                "`capacity` has no effect here: the mapping is fixed",
+            )
+            .help("remove it; a fixed mapping has the entries of `map:` and no others"),
+        );
+    }
     let capacity = match &decl.capacity {
         _ if decl.is_fixed() => used,
         Some(capacity) => to_u8(capacity.value),
@@ -130,7 +140,7 @@ const FLAGS: i128 = 0b11 << 30;
 
 /// The COB-ID entry with its flag bits.
 fn cob_id(decl: &PdoDecl, valid: bool, diagnostics: &mut Diagnostics) -> Option<Value> {
-    let expected = Expected { data_type: DataType::Unsigned32, named: None, unit: None };
+    let expected = Expected { data_type: DataType::Unsigned32, named: None, unit: None, special: &[] };
     let id = match &decl.cob_id {
         Some(text) => match values::read(&text.value, text.span, expected, &mut diagnostics.suggestions) {
             Ok(value) => without_flags(value, text, diagnostics)?,

@@ -4,7 +4,7 @@ use crate::ast::Name;
 use crate::check::codes as rule_codes;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
-use crate::model::{DataType, NamedType, Ratio, TypeKind, Unit, Value};
+use crate::model::{DataType, NamedType, Ratio, SpecialValue, TypeKind, Unit, Value};
 use crate::scalar::{self, NumberError};
 use crate::source::Span;
 
@@ -14,6 +14,8 @@ pub(crate) struct Expected<'a> {
     pub data_type: DataType,
     pub named: Option<&'a NamedType>,
     pub unit: Option<&'a Unit>,
+    /// Values that are allowed beside those of an enum.
+    pub special: &'a [SpecialValue],
 }
 
 /// Reads a value that is written at `span`.
@@ -149,7 +151,8 @@ fn integer(
         }
     };
     fits(raw, span, expected.data_type, &format!("{raw}"))?;
-    if !values.is_empty() && !values.iter().any(|value| value.value == raw) {
+    let is_special = expected.special.iter().any(|special| special.value == raw);
+    if !values.is_empty() && !is_special && !values.iter().any(|value| value.value == raw) {
         return Err(Box::new(
             Diagnostic::new(
                 rule_codes::UNKNOWN_ENUM_VALUE,

@@ -75,8 +75,9 @@ fn remark<'t>(remarks: &mut Remarks<'t>, part: &'t str) -> bool {
         remarks.unit = Some(unit);
     } else if let Some(range) = part.strip_prefix("range ") {
         remarks.range = Some(range);
-    } else if let Some(default) =
-        part.strip_prefix("factory default ").or_else(|| part.strip_prefix("default of the standard "))
+    } else if let Some(default) = ["factory default ", "default of the standard ", "start value "]
+        .into_iter()
+        .find_map(|prefix| part.strip_prefix(prefix))
     {
         remarks.default = Some(default);
     } else if let Some(storage) = read::storage(part).filter(|storage| *storage != Storage::No) {

@@ -9,7 +9,9 @@
 mod case;
 mod cob_ids;
 mod pdo;
+mod settings;
 mod standard_objects;
+mod start_values;
 mod values;
 
 use std::collections::BTreeSet;
@@ -17,17 +19,31 @@ use std::collections::BTreeSet;
 use case::{Case, Right, said, said_of_eds};
 
 fn wrong() -> Vec<Case> {
-    [cob_ids::wrong(), standard_objects::wrong(), values::wrong(), pdo::wrong()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        cob_ids::wrong(),
+        standard_objects::wrong(),
+        values::wrong(),
+        start_values::wrong(),
+        pdo::wrong(),
+        settings::wrong(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 fn right() -> Vec<Right> {
-    [cob_ids::right(), standard_objects::right(), values::right(), pdo::right()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        cob_ids::right(),
+        standard_objects::right(),
+        values::right(),
+        start_values::right(),
+        pdo::right(),
+        settings::right(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Every mistake is found, and nothing else is said about it.

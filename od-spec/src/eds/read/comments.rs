@@ -212,6 +212,7 @@ impl Comments {
                 "range ",
                 "factory default ",
                 "default of the standard ",
+                "start value ",
             ];
             prefixes.iter().any(|prefix| fact.starts_with(prefix)) || stored(fact).is_some()
         };
@@ -219,8 +220,9 @@ impl Comments {
             return false;
         }
         for fact in line.split("; ") {
-            let default =
-                fact.strip_prefix("factory default ").or(fact.strip_prefix("default of the standard "));
+            let default = ["factory default ", "default of the standard ", "start value "]
+                .into_iter()
+                .find_map(|prefix| fact.strip_prefix(prefix));
             if let Some(step) = fact.strip_prefix("unit ") {
                 self.unit = step_text(step);
             } else if let Some(text) = default {

@@ -1,0 +1,90 @@
+//! A device starts with values that its entries can have.
+
+use super::findings::Findings;
+use super::rule::{Check, Needs, Rule};
+use super::subject::Subject;
+use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::{DataType, Entry, Fact, SystemSource, TypeKind};
+use crate::wording::allowed;
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
+
+const CODE: &Code = &Code {
+    id: "OD0837",
+    severity: Severity::Warning,
+    foreign: Severity::Note,
+    title: "a value at start that the entry cannot have",
+    explanation: "The entry has no default, so that a generated dictionary starts with 0; but 0 lies outside its limits or is no value of its enum. Until somebody writes another one, the \
+        device shows what it would refuse, and may act on it. State the value that it starts with as `default:`; where it is no promise of the maker, `eds: {default: withheld}` keeps it out \
+        of the EDS. A 0 that says \"not yet known\" is a value of its own: `special: {0: not yet known}`.",
+    clause: None,
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: gain, type: unsigned8, access: rw, min: 1}",
+        "objects:\n  0x2000: {name: gain, type: unsigned8, access: rw, min: 1, default: 1, eds: {default: withheld}}",
+    )),
+};
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    // An EDS without a default says nothing about the start.
+    if subject.node.is_some() || subject.system.source != SystemSource::Specification {
+        return;
+    }
+    for (id, _, entry) in subject.device.entries() {
+        // What nobody can read shows nothing, and a view shows another entry's value.
+        let is_shown = entry.access.is_readable() && entry.alias.is_none() && entry.default.is_none();
+        if !is_shown || starts_right(entry) {
+            continue;
+        }
+        let limit = limit(entry);
+        let range = match limit {
+            Limit::Type => "no value of its enum".to_owned(),
+            Limit::Low | Limit::High => format!("outside {}", allowed(entry)),
+        };
+        let message = format!("{id} ({}) starts with 0, which is {range}", entry.name);
+        findings.push(Diagnostic::new(CODE, subject.place(entry, limit.fact()), message).help(
+            "add `default:`, with `eds: {default: withheld}` where it is no promise; or make 0 a `special` value",
+        ));
+    }
+}
+
+/// Whether an entry can have the value 0; one that has no numbers starts empty.
+fn starts_right(entry: &Entry) -> bool {
+    let is_number = entry.data_type.is_integer() || entry.data_type == DataType::Boolean;
+    !is_number
+        || entry.special.iter().any(|special| special.value == 0)
+        || (entry.allows(0) && is_listed(entry))
+}
+
+/// Whether 0 is among the values that an enum lists, if there is one.
+fn is_listed(entry: &Entry) -> bool {
+    match entry.named_type.as_ref().map(|named| &named.kind) {
+        Some(TypeKind::Enum(values)) => values.iter().any(|listed| listed.value == 0 && listed.supported),
+        Some(TypeKind::Bits(_)) | None => true,
+    }
+}
+
+/// What keeps 0 out.
+#[derive(Clone, Copy)]
+enum Limit {
+    Low,
+    High,
+    Type,
+}
+
+impl Limit {
+    const fn fact(self) -> Fact {
+        match self {
+            Self::Low => Fact::LowLimit,
+            Self::High => Fact::HighLimit,
+            Self::Type => Fact::Type,
+        }
+    }
+}
+
+fn limit(entry: &Entry) -> Limit {
+    match (entry.low, entry.high) {
+        (Some(low), _) if low > 0 => Limit::Low,
+        (_, Some(high)) if high < 0 => Limit::High,
+        (Some(_) | None, Some(_) | None) => Limit::Type,
+    }
+}
