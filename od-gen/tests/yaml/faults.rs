@@ -136,7 +136,7 @@ const FAULTS: &[Fault] = &[
     ),
     (
         "two PDOs with one COB-ID",
-        |s| entry(s, 0x1401, 1).default = Some(Value::NodeId(0x200)),
+        |s| entry(s, 0x1401, 1).default = Some(Value::NodeId(0x180)),
         &[(Place::Device, None, "OD0504")],
     ),
     (

@@ -17,9 +17,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an object of a drive that is not as CiA 402 has it",
-    explanation: "The device type names profile 402, and an object of the axis is no VAR, has another data type, or can be written where CiA 402 has it read-only and the other way round. Motion \
-        controllers know these objects by heart: they map a controlword of two bytes, and a drive that has four refuses the mapping. Where versions of the profile or the drives on the \
-        market disagree about an object, nothing is said. Take the object from the library with `from: cia402`, or correct it.",
+    explanation: "The device type names profile 402, and an object of the axis is an ARRAY or RECORD where CiA 402 has a VAR or the other way round, has another data type, or can be \
+        written where it is read-only there, or not where a master writes it to every drive. Motion controllers know these objects by heart: they map a controlword of two bytes, and a drive \
+        that has four refuses the mapping. Where versions of the profile or the drives on the market disagree about an object, nothing is said. Take the object from the library with \
+        `from: cia402`, or correct it.",
     clause: Some("CiA 402, object dictionary"),
     example: Some(Example::new(
         "uses: [cia301, cia402]\ndevices:\n  io: {name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer, drive]}\npdos:\n  io: {receive: {1: {map: [0x6040]}}, transmit: {1: {map: [0x6041]}}}\nobjects:\n  0x6502: {from: cia402, default: 0}\n  0x607A: {name: target position, type: unsigned32, access: rw}",
