@@ -33,7 +33,7 @@ impl<F: Fn() -> u16> Zencan<F> {
 /// The dictionary of one model, with the name of its first setpoint. It is static: there is one in a program.
 macro_rules! dictionary {
     ($model:ident, $setpoint:ident) => {{
-        use bench_zencan::$model::{$setpoint, OD_TABLE, RPDOS, TPDOS};
+        use bench_zencan::$model::{OD_TABLE, RPDOS, TPDOS, $setpoint};
         $crate::zencan::Zencan::new(&OD_TABLE, &TPDOS[0], &RPDOS[0], || $setpoint.get_value())
     }};
 }
