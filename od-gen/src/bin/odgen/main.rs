@@ -26,6 +26,10 @@ use args::{CheckFormat, Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
 use od_spec::diag::{Code, Diagnostic, codes};
 
+/// The work of the command is many small pieces of memory, given back in bulk.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// The input is without errors, and what was to be written is.
 const SUCCESS: u8 = 0;
 /// Errors in the input, or output that could not be written.
