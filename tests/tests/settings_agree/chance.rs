@@ -89,7 +89,10 @@ fn written(value: &Value) -> String {
         Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
         Value::Real(number) => number.to_string(),
         Value::Text(text) => text.clone(),
-        Value::Bytes(octets) => octets.iter().map(|octet| format!("{octet:02X}")).collect(),
+        Value::Bytes(octets) => {
+            let digits: Vec<String> = octets.iter().map(|octet| format!("{octet:02X}")).collect();
+            digits.concat()
+        }
     }
 }
 

@@ -4,8 +4,6 @@
 //! A specification is written as in the examples of the rules: what it leaves out of version, title, `uses:` and `devices:` stands
 //! above it. Its devices have the features `heartbeat producer` and `emergency`, unless it says otherwise.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 mod case;
 mod cob_ids;
 mod pdo;
