@@ -37,7 +37,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         }
         let limit = limit(entry);
         let range = match limit {
-            Limit::Type => "no value of its enum".to_owned(),
+            Limit::Type => "no supported value of its enum".to_owned(),
             Limit::Low | Limit::High => format!("outside {}", allowed(entry)),
         };
         let message = format!("{id} ({}) starts with 0, which is {range}", entry.name);

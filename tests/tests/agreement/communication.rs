@@ -141,12 +141,21 @@ fn transmission() -> Vec<Case> {
     for kind in [252, 253] {
         cases.push(reserved("remote frames for an RPDO", 0x1400, kind));
         cases.push(accepted("remote frames for a TPDO", &[number(0x1800, 2, kind)]));
+        let forbidden = [number(0x1800, 2, kind), number(0x1800, 1, NO_REMOTE_FRAMES | 0x185)];
+        let case =
+            refused("remote frames that are forbidden", &forbidden, "OD0516", AbortCode::INVALID_VALUE);
+        cases.push(case.but(Device, Said::Accepted, Reason::NeverSentIsHarmless));
     }
     cases
 }
 
 fn sync() -> Vec<Case> {
-    let start = |raw| [number(0x1801, 6, raw)];
+    let start = |raw| [number(0x1801, 6, raw), number(0x1801, 2, 1), number(0x1019, 0, 240)];
+    let warned = || Said::Warned("OD0836".to_owned());
+    let unreached = |about, set: &[_]| {
+        let reason = Reason::NothingReachesIt;
+        accepted(about, set).but(Specification, warned(), reason).but(Settings, warned(), reason)
+    };
     let counter = |raw| [number(0x1019, 0, raw)];
     let never = |raw| {
         refused("a count that SYNC never reaches", &start(raw), "OD0508", AbortCode::INVALID_VALUE).but(
@@ -157,6 +166,12 @@ fn sync() -> Vec<Case> {
     };
     vec![
         accepted("any SYNC", &start(0)),
+        unreached("a SYNC without counter", &[number(0x1801, 6, 1), number(0x1801, 2, 1)]),
+        unreached(
+            "a SYNC beyond the counter",
+            &[number(0x1801, 6, 3), number(0x1801, 2, 1), number(0x1019, 0, 2)],
+        ),
+        unreached("a SYNC for an event", &[number(0x1801, 6, 1), number(0x1019, 0, 2)]),
         accepted("the first SYNC", &start(1)),
         accepted("the last SYNC", &start(240)),
         never(241),

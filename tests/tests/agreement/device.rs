@@ -26,7 +26,7 @@ struct Download {
 pub(crate) fn said(system: &System, case: &Case) -> Said {
     let device = &system.devices[0];
     let mut plant = Plant::new(NODE);
-    for Download { id, bytes } in downloads(device, case) {
+    for Download { id, bytes } in downloads(system, case) {
         let outcome = plant.write_consistent(id.index.0, id.sub.0, &bytes, &mut ());
         if let Err(abort) = outcome {
             // What prepares the value, and what stands beside it, is right.
@@ -50,9 +50,10 @@ fn bytes(device: &Dictionary, set: &Set) -> Vec<u8> {
 }
 
 /// The downloads in the order that a device needs; a value that its type does not have is downloaded as it is, last.
-fn downloads(device: &Dictionary, case: &Case) -> Vec<Download> {
+fn downloads(system: &System, case: &Case) -> Vec<Download> {
+    let device = &system.devices[0];
     let values = case.set.iter().map(|set| (set.id, set.raw.value())).collect();
-    match download(device, &values, NODE) {
+    match download(system, device, &values, NODE) {
         Ok(writes) => writes.into_iter().map(|write| Download { id: write.id, bytes: write.bytes }).collect(),
         Err(_) => {
             let direct = |set: &Set| Download { id: set.id, bytes: bytes(device, set) };

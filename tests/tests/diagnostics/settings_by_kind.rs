@@ -164,7 +164,7 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         1400.2=245: error[OD0505]: 1400h.2: transmission type 245 is reserved for RPDO 1
         1400.2=252: error[OD0505]: 1400h.2: transmission type 252 is reserved for RPDO 1
         1800.2=252: warning[OD0814]: TPDO 1 waits for SYNC, but `views` has no 1005h
-        1800.6=240: 1800h.6 = Integer(240)
+        1800.6=240: warning[OD0836]: 1800h.6: TPDO 1 has a SYNC start value, but transmission type 255
         1800.6=241: error[OD0508]: 1800h.6: the SYNC counter never reaches 241
         1600.0=9: error[OD0508]: 1600h: RPDO 1 maps 9 entries, but offers 8
         1600.0=0: 1600h = Integer(0)

@@ -4,8 +4,7 @@ use crate::case::{self, Case, Right};
 
 /// A device with RPDO 1 and TPDO 1, `features` beside heartbeat, `objects`, and more keys of the two PDOs.
 fn device(features: &str, objects: &str, receive: &str, transmit: &str) -> String {
-    let features: String = features.split(',').map(|feature| format!(", {}", feature.trim())).collect();
-    let features = features.trim_end_matches(", ");
+    let features = if features.is_empty() { String::new() } else { format!(", {features}") };
     let key = |keys: &str| if keys.is_empty() { String::new() } else { format!("{keys}, ") };
     format!(
         "devices:
@@ -212,10 +211,7 @@ fn right_mapping() -> Vec<Right> {
         ),
         case::right("no capacity of a fixed mapping", rpdo("", "mapping: fixed")),
         case::right("a capacity of a variable mapping", rpdo("", "capacity: 4")),
-        case::right(
-            "a PDO that maps nothing yet",
-            device("", "", "valid: no", "").replace("[target]", "[]"),
-        ),
+        case::right("a PDO that maps nothing yet", device("", "", "valid: no", "").replace("[target]", "[]")),
         case::right("the predefined identifier, by a number", tpdo("", "")).set(&["1800.1=0x185"]),
         case::right("a multiplexed PDO switched off by its number", rpdo("", "")).set(&["1600.0=0"]),
     ]
