@@ -54,6 +54,8 @@ codes! {
         "`uses:` names a built-in library (`cia301`, `cia402`) or the path of a library file, relative to the file that names it. There is no such library."
     NOT_A_LIBRARY Error "OD0114" "a used file is no library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
+    TURNED_TEXT Error "OD0115" "a character that hides what a text says":
+        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":
@@ -153,5 +155,5 @@ codes! {
     NO_CAPACITY Error "OD0903" "a string without a capacity":
         "Generated firmware sets aside memory for every string that can change. Write `capacity:`, the most bytes that the device can hold."
     NOT_IN_FIRMWARE Error "OD0904" "something that generated code cannot do":
-        "Generated code computes with 64-bit integers and addresses entries with 16-bit numbers. The message tells which part of the specification needs more."
+        "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message tells which part of the specification needs more."
 }
