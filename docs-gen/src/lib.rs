@@ -23,6 +23,7 @@ pub mod view;
 use od_spec::model::System;
 
 pub use language::LANGUAGES;
+pub use markdown::escape as escape_markdown;
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
 pub use templates::{Format, Page, TemplateError, Templates};

@@ -7,8 +7,8 @@ use minijinja::{Error, Value};
 /// Columns are filled up to this width, so that a table stands in columns as plain text, too.
 const WIDEST: usize = 32;
 
-/// A text with the signs escaped that Markdown would read as its own.
-pub(crate) fn escape(text: &str) -> String {
+/// A text on one line, with the signs escaped that Markdown would read as its own.
+pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     let mut before = ' ';
     let mut signs = text.chars().peekable();
@@ -26,7 +26,7 @@ pub(crate) fn escape(text: &str) -> String {
         if special {
             escaped.push('\\');
         }
-        escaped.push(sign);
+        escaped.push(if sign.is_control() { ' ' } else { sign });
         before = sign;
     }
     escaped
@@ -52,7 +52,12 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
         match part.get_attr("kind")?.as_str() {
             Some("break") => text.push_str("<br>"),
             Some("code") => {
-                let _ = write!(text, "`{words}`");
+                // Inside of code nothing can be escaped.
+                if words.contains(['`', '|', '\n', '\r']) {
+                    text.push_str(&escape(&words));
+                } else {
+                    let _ = write!(text, "`{words}`");
+                }
             }
             Some("link") => {
                 let target = part.get_attr("page")?.to_string();

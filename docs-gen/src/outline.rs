@@ -133,7 +133,10 @@ pub(crate) fn table_anchor(document: &Document, id: TableId) -> String {
 pub(crate) fn section_anchor(document: &Document, section: usize) -> String {
     let name_of = |section: &Section| match section.number.as_str() {
         "" => slug(section.title.iter().next().map_or("", |(_, title)| title)),
-        number => number.trim_end_matches('.').replace(char::is_whitespace, "-"),
+        // Dots stay, so that the anchor of a number looks like it.
+        number => number
+            .trim_end_matches('.')
+            .replace(|sign: char| !(sign.is_alphanumeric() || matches!(sign, '.' | '_')), "-"),
     };
     let name = name_of(&document.sections[section]);
     let before = document.sections[..section].iter().filter(|earlier| name_of(earlier) == name).count();

@@ -211,7 +211,7 @@ impl Templates {
     fn page(&self, template: &str, path: String, variables: Value) -> Result<Page, TemplateError> {
         let printed = self.environment.get_template(template).and_then(|template| template.render(variables));
         match printed {
-            Ok(text) => Ok(Page { path, text }),
+            Ok(text) => Ok(Page { path, text: without_commands(text) }),
             Err(error) => Err(self.explain(template, &error)),
         }
     }
@@ -259,6 +259,15 @@ fn cut(text: &str, width: usize) -> String {
     }
     let kept: String = text.chars().take(width.saturating_sub(1)).collect();
     kept.trim_end().to_owned() + "…"
+}
+
+/// A page without control characters: of a format that is read at a terminal they would be obeyed, and HTML has none.
+fn without_commands(text: String) -> String {
+    let is_command = |c: char| c.is_control() && !matches!(c, '\n' | '\t' | '\r');
+    // Most pages have none, and only two bytes begin one.
+    let may_be =
+        |byte: u8| (byte < b' ' && !matches!(byte, b'\n' | b'\t' | b'\r')) || matches!(byte, 0x7F | 0xC2);
+    if text.bytes().any(may_be) && text.contains(is_command) { text.replace(is_command, " ") } else { text }
 }
 
 fn environment() -> Environment<'static> {

@@ -11,7 +11,7 @@ use od_spec::model::Devices;
 use od_spec::source::SourceMap;
 
 use crate::expand::unknown_device;
-use crate::files::write_all;
+use crate::files::{Reason, write_all};
 use crate::foreign::condense;
 use crate::rust::{self, Provenance};
 use crate::source::{FileLoader, compile_file};
@@ -124,8 +124,10 @@ impl Builder {
     #[expect(clippy::print_stdout, clippy::print_stderr, reason = "cargo reads what a build script prints")]
     pub fn generate(&self) {
         let outcome = self.run();
-        for path in &outcome.read {
-            println!("cargo::rerun-if-changed={}", path.display());
+        // A line break in a name would begin another instruction.
+        let names = outcome.read.iter().map(|path| path.display().to_string());
+        for name in names.filter(|name| !name.contains(['\n', '\r'])) {
+            println!("cargo::rerun-if-changed={name}");
         }
         if let Some(line) = &outcome.in_short {
             println!("cargo::warning={line}");
@@ -184,16 +186,28 @@ impl Builder {
                 _ if diagnostics.has_errors() => {}
                 Some(directory) => match write_all(&directory, &files) {
                     Ok(_) => written.extend(files.iter().map(|file| directory.join(&file.path))),
-                    Err(error) => diagnostics.push(not_written(&error.to_string())),
+                    Err(error) => {
+                        let help = match error.reason {
+                            Reason::NotGenerated(_) => {
+                                "generate into another directory, or remove what is there"
+                            }
+                            _ => {
+                                "nothing was changed; check the directory, its permissions and the free space"
+                            }
+                        };
+                        diagnostics.push(not_written(&error.to_string(), help));
+                    }
                 },
-                None => diagnostics.push(not_written("there is no `OUT_DIR`, as this is no build script")),
+                None => diagnostics.push(not_written(
+                    "there is no `OUT_DIR`, as this is no build script",
+                    "say where the modules go, with `out_dir`",
+                )),
             }
         }
         Outcome { read, in_short, diagnostics, sources, written }
     }
 }
 
-fn not_written(reason: &str) -> Diagnostic {
-    Diagnostic::without_place(codes::WRITE_FAILED, reason)
-        .help("nothing was changed; check the directory, its permissions and the free space")
+fn not_written(reason: &str, help: &str) -> Diagnostic {
+    Diagnostic::without_place(codes::WRITE_FAILED, reason).help(help)
 }

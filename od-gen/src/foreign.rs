@@ -7,6 +7,7 @@ use od_spec::Compiled;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::summary;
 use od_spec::model::SystemSource;
+use od_spec::visible::visible;
 
 /// Takes the messages about an EDS or DCF away and gives one line for all of them, if there are any: `drive.eds: 3 errors, 14
 /// warnings; …`. The messages about a specification, and about what could not be read at all, stay.
@@ -15,7 +16,8 @@ pub fn condense(path: &Path, compiled: &mut Compiled) -> Option<String> {
         SystemSource::Specification => None,
         SystemSource::Eds => {
             let counts = summary(&std::mem::take::<Diagnostics>(&mut compiled.diagnostics));
-            let path = path.display();
+            let path = path.to_string_lossy();
+            let path = visible(&path);
             (!counts.is_empty()).then(|| format!("{path}: {counts}; `odgen check {path}` shows them"))
         }
     }

@@ -16,6 +16,7 @@ use crate::parameters::of_node;
 use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceMap, Span};
 use crate::standard::{self, LIBRARIES};
+use crate::visible::straight;
 use crate::yaml;
 
 /// Largest file that is read, in bytes.
@@ -267,17 +268,21 @@ pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result
     if bytes.len() <= LARGEST_FILE {
         if eds::has_eds_name(name) {
             let (text, encoding) = encoding::decode(bytes);
+            let text = straight(text);
             return Ok(sources.add_decoded(name, text, encoding));
         }
         // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
         if std::str::from_utf8(&bytes).is_err() {
             let (text, encoding) = encoding::decode(bytes.clone());
+            let text = straight(text);
             if eds::is_eds(name, &text) {
                 return Ok(sources.add_decoded(name, text, encoding));
             }
         }
     }
-    Ok(sources.add(name, read_text(name, bytes)?))
+    let text = read_text(name, bytes)?;
+    let text = if !text.is_ascii() && eds::is_eds(name, &text) { straight(text) } else { text };
+    Ok(sources.add(name, text))
 }
 
 /// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.

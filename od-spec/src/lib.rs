@@ -55,6 +55,7 @@ mod rule_words;
 pub mod scalar;
 pub mod source;
 mod standard;
+pub mod visible;
 pub mod wording;
 pub mod yaml;
 

@@ -9,6 +9,7 @@ use std::ops::Deref;
 use std::sync::OnceLock;
 
 use crate::encoding::Encoding;
+use crate::visible::visible;
 
 /// Identifies one file of a [`SourceMap`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -246,7 +247,7 @@ impl SourceMap {
     /// `name:line:column` of a span's start.
     pub fn place(&self, span: Span) -> String {
         let file = self.file(span.file);
-        format!("{}:{}", file.name, file.line_col(span.start))
+        format!("{}:{}", visible(&file.name), file.line_col(span.start))
     }
 }
 

@@ -46,7 +46,12 @@ pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dicti
     let mut section = SectionWriter::new("Comments", &[]);
     section.key("Lines", lines.len());
     for (number, line) in (1..).zip(lines) {
-        section.key(&format!("Line{number}"), line.replace('=', ":"));
+        section.key(&format!("Line{number}"), plain(&line));
     }
     section.finish(document);
+}
+
+/// A line without what readers take for the end of a value.
+fn plain(line: &str) -> String {
+    line.replace('=', ":").replace(';', ",").replace('#', "No. ")
 }

@@ -1,14 +1,14 @@
 //! `[FileInfo]` (CiA 306 4.4): the file's name, version, times and people.
 
-use od_spec::eds::{Document, date_text, time_text};
+use od_spec::eds::{Document, GENERATED, date_text, time_text};
 use od_spec::model::Dictionary;
 
 use super::writer::SectionWriter;
 
-/// `[FileInfo]` of a file under a name. A DCF names the EDS that it was made from.
+/// `[FileInfo]` of a file under a name, with the comment that tells that it is generated. A DCF names the EDS that it was made from.
 pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, file: &str, last_eds: Option<&str>) {
     let info = &device.file;
-    let mut section = SectionWriter::new("FileInfo", &[]);
+    let mut section = SectionWriter::new("FileInfo", &[GENERATED.to_owned()]);
     section.key("FileName", file);
     section.key("FileVersion", info.version);
     section.key("FileRevision", info.revision);

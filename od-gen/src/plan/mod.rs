@@ -282,6 +282,9 @@ pub(crate) struct PlannedError<'a> {
     pub error: &'a ErrorCode,
 }
 
+/// Rows address their values by 24 bits.
+const LARGEST_IMAGE: usize = 1 << 24;
+
 /// Plans the code of a device in a language. What cannot be code is reported; the plan is of use only if nothing was.
 pub(crate) fn plan<'a>(
     system: &'a System,
@@ -290,6 +293,18 @@ pub(crate) fn plan<'a>(
     diagnostics: &mut Diagnostics,
 ) -> Plan<'a> {
     let layout = lay_out(device, diagnostics);
+    if layout.factory.len().max(layout.constants.len()) > LARGEST_IMAGE {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::NOT_IN_FIRMWARE,
+                device.span,
+                format!("the values of `{}` take more than {} MiB", device.key, LARGEST_IMAGE >> 20),
+            )
+            .help(
+                "give strings a smaller `capacity:`, or let the application keep large values: as a `domain`",
+            ),
+        );
+    }
     let name = language.identifier(Role::Type, &Words::of(&device.key));
     let mut dictionaries = Scope::with_reserved(language.reserved(ScopeKind::Dictionary));
     dictionaries.claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);
@@ -328,6 +343,16 @@ pub(crate) fn plan<'a>(
 /// The row of every entry; not more of them than the table can number.
 fn rows(device: &Dictionary, diagnostics: &mut Diagnostics) -> BTreeMap<EntryId, u16> {
     let count = device.entries().count();
+    if count == 0 {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::NOT_IN_FIRMWARE,
+                device.span,
+                format!("`{}` has no object, and code of nothing is no dictionary", device.key),
+            )
+            .help("describe objects, or take those that every device has with `uses: [cia301]`"),
+        );
+    }
     if count > usize::from(NONE) {
         diagnostics.push(
             Diagnostic::new(

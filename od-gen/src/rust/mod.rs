@@ -12,6 +12,7 @@ use std::path::Path;
 use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::SourceMap;
+use od_spec::visible::visible;
 use proc_macro2::TokenStream;
 
 pub(crate) use self::language::Rust;
@@ -63,7 +64,9 @@ impl Provenance {
     /// Of what was read for a specification; its own file is the first.
     pub fn of(sources: &SourceMap) -> Self {
         let first = sources.files().next().map_or("", |(_, file)| file.name());
-        let name = Path::new(first).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = Path::new(first).file_name().unwrap_or_default().to_string_lossy();
+        // It stands in a comment of one line.
+        let name = visible(&name).into_owned();
         // FNV-1a of 64 bits.
         let hash = sources.files().flat_map(|(_, file)| file.text().lines()).fold(
             0xCBF2_9CE4_8422_2325,

@@ -117,3 +117,22 @@ fn build_makes_documents_when_asked() {
     let names = ["docs/lamp/index.html", "docs/lamp/lamp.html", "eds/lamp.eds", "lamp.json"];
     assert_eq!(files(&scratch.0.join("out")), names);
 }
+
+#[test]
+fn what_would_not_compile_is_refused_by_check_as_by_build() {
+    let scratch = Scratch::new("not-rust");
+    let head = LAMP.split("objects:").next().unwrap();
+    let large =
+        "objects:\n  0x2000..0x2110: {name: \"s {n}\", type: visible-string, access: rw, capacity: 65535}\n";
+    scratch.file("large.od.yaml", format!("{head}{large}"));
+    scratch
+        .file("none.od.yaml", "od-spec: 1\ntitle: Lamp\ndevices:\n  lamp: {name: Lamp, bit-rates: [125]}\n");
+    for name in ["large.od.yaml", "none.od.yaml"] {
+        for arguments in [&["check", "--rust", name][..], &["build", "--rust", name]] {
+            let output = odgen(&scratch.0, arguments);
+            assert_eq!(code(&output), 1, "{}", stderr(&output));
+            assert!(stderr(&output).contains("error[OD0904]"), "{}", stderr(&output));
+        }
+        assert_eq!(code(&odgen(&scratch.0, &["check", name])), 0);
+    }
+}

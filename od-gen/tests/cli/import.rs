@@ -39,7 +39,7 @@ fn a_specification_that_is_there_is_not_overwritten() {
     let path = scratch.file("fan.od.yaml", "mine");
     let output = odgen(&scratch.0, &["import", "fan.eds"]);
     assert_eq!(code(&output), 1);
-    assert!(stderr(&output).contains("fan.od.yaml is there already"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("fan.od.yaml: it is there already"), "{}", stderr(&output));
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert_eq!(code(&odgen(&scratch.0, &["import", "fan.eds", "--force"])), 0);
     assert!(fs::read_to_string(&path).unwrap().starts_with("# Made from fan.eds.\n"));

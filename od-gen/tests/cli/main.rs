@@ -11,6 +11,7 @@ mod codes;
 mod dcf;
 mod diff;
 mod docs;
+mod files;
 mod fix;
 mod foreign;
 mod formats;

@@ -15,6 +15,7 @@ pub(crate) use repeated::Repeated;
 use std::collections::BTreeSet;
 
 use crate::source::Span;
+use crate::visible::{is_hidden, visible};
 use readers::Readers;
 
 /// How serious a [`Diagnostic`] is.
@@ -85,19 +86,18 @@ pub struct Diagnostic {
 pub(crate) fn shorten(text: &str) -> String {
     let text = text.trim_end_matches(['\n', '\r']);
     let keep = if text.chars().count() <= 60 { 60 } else { 57 };
-    let one_line = text.chars().take(keep).map(|c| match c {
-        '`' => '\'',
-        c if c.is_control() => ' ',
-        c => c,
-    });
+    let one_line: String = text.chars().take(keep).map(|c| if c == '`' { '\'' } else { c }).collect();
     let rest = if keep == 60 { "" } else { "..." };
-    one_line.chain(rest.chars()).collect()
+    self::one_line(one_line) + rest
 }
 
 /// Names and values of a specification may hold anything; a message is one line.
 fn one_line(text: impl Into<String>) -> String {
     let text = text.into();
-    if text.contains(char::is_control) { text.replace(char::is_control, " ") } else { text }
+    if !text.contains(is_hidden) {
+        return text;
+    }
+    visible(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
 }
 
 impl Diagnostic {

@@ -10,6 +10,7 @@ use granit_parser::{Event, Parser, ScalarStyle};
 
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
+use crate::visible::turns_text;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 64;
@@ -116,6 +117,7 @@ impl Node {
 
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.
 pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Option<Node> {
+    refuse_turned_text(id, file.text(), diagnostics);
     let options = granit_parser::options! { emit_comments: false, emit_unresolved_aliases: true };
     let mut builder = Builder {
         id,
@@ -163,6 +165,24 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
         }
         root => root,
     }
+}
+
+/// Refuses characters that make the text around them look like another, wherever they stand, in comments, too.
+fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
+    if text.is_ascii() {
+        return;
+    }
+    for (at, c) in text.char_indices().filter(|(_, c)| turns_text(*c)) {
+        let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+        diagnostics.push(turned(Span { file: id, start: place(at), end: place(at + c.len_utf8()) }, c));
+    }
+}
+
+fn turned(span: Span, c: char) -> Diagnostic {
+    let message = format!("found U+{:04X}, which turns the text around it", u32::from(c));
+    Diagnostic::new(codes::TURNED_TEXT, span, message)
+        .label("what is seen here is not what is written")
+        .help("remove the character; letters of every script have a direction of their own")
 }
 
 /// A collection that is being read.
@@ -225,6 +245,7 @@ impl Builder<'_> {
                     NodeKind::Scalar { text: text.into_owned(), plain }
                 };
                 let span = if plain { span } else { self.trimmed(span) };
+                self.refuse_escape_that_turns(&kind, span);
                 return self.add(Node { span, kind }, anchor);
             }
             Event::SequenceStart(_, anchor, tag) => {
@@ -255,6 +276,17 @@ impl Builder<'_> {
             _ => {}
         }
         true
+    }
+
+    /// An escape stands for the character; the character itself is reported already.
+    fn refuse_escape_that_turns(&mut self, kind: &NodeKind, span: Span) {
+        if let NodeKind::Scalar { text, plain: false } = kind
+            && !text.is_ascii()
+            && let Some(c) = text.chars().find(|c| turns_text(*c))
+            && !self.text[span.start as usize..span.end as usize].contains(turns_text)
+        {
+            self.diagnostics.push(turned(span, c));
+        }
     }
 
     fn refuse_tag(&mut self, tagged: bool, value: Span) {

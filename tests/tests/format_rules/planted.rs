@@ -91,8 +91,8 @@ const LINES: &[Fault] = &[
 
 /// What the file says about itself and the device.
 const INFORMATION: &[Fault] = &[
-    fault("EDS201", "[FileInfo]", "[Fileinformation]", "[Fileinformation]", Left),
-    fault("EDS202", "[DummyUsage]", "[Dummies]", "[FileInfo]", Left),
+    fault("EDS201", "[FileInfo]", "[Fileinformation]", "; @generated", Left),
+    fault("EDS202", "[DummyUsage]", "[Dummies]", "; @generated", Left),
     fault("EDS203", "FileVersion=1\r\n", "", "[FileInfo]", Left),
     fault("EDS204", "ProductNumber=", "ProductNumber=\r\nX=", "ProductNumber=\r\nX", Left),
     fault("EDS205", "GroupMessaging=0\r\n", "", "[DeviceInfo]", Left),
@@ -132,7 +132,7 @@ const INFORMATION: &[Fault] = &[
 
 /// Lists and objects.
 const LISTS: &[Fault] = &[
-    fault("EDS301", "[ManufacturerObjects]", "[ManufacturerObject]", "[FileInfo]", Left),
+    fault("EDS301", "[ManufacturerObjects]", "[ManufacturerObject]", "; @generated", Left),
     fault("EDS302", "SupportedObjects=3", "SupportedObjects=4", "SupportedObjects=4", Restored),
     fault("EDS302", "SupportedObjects=3", "SupportedObjects=2", "SupportedObjects=2", Restored),
     fault("EDS302", "SupportedObjects=3\r\n", "", "[MandatoryObjects]", Restored),

@@ -204,6 +204,10 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub docs: Vec<DocsFormat>,
 
+    /// Replace files of these names that odgen did not make
+    #[arg(long)]
+    pub force: bool,
+
     #[command(flatten)]
     pub messages: Messages,
 }
@@ -321,6 +325,10 @@ pub(crate) struct DcfArgs {
     #[arg(long, short, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
+    /// Replace a file of this name that odgen did not make
+    #[arg(long)]
+    pub force: bool,
+
     #[command(flatten)]
     pub messages: Messages,
 }
@@ -427,6 +435,10 @@ pub(crate) struct DocsArgs {
     /// Print what templates see, as JSON, and nothing else
     #[arg(long)]
     pub dump_context: bool,
+
+    /// Replace files of these names that odgen did not make
+    #[arg(long)]
+    pub force: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -482,7 +494,7 @@ pub(crate) struct ImportArgs {
     #[arg(long, short, default_value = ".", value_name = "DIR")]
     pub out: PathBuf,
 
-    /// Overwrite specifications that are there already
+    /// Replace specifications that are there already
     #[arg(long)]
     pub force: bool,
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use od_gen::files::Existing;
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -11,8 +12,8 @@ use od_spec::source::SourceMap;
 
 use super::ERRORS;
 use super::args::BuildArgs;
-use super::output::{clash, overwritten, write};
-use super::report::{Report, Used, node_id};
+use super::output::{clash, forced, overwritten, tidy, write};
+use super::report::{Report, Used, node_id, shown};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
 
@@ -25,6 +26,9 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(specs) => specs,
         Err(code) => return code,
     };
+    if let Err(code) = tidy(&args.out, report) {
+        return code;
+    }
     let Some(mut systems) = compile_all(&specs, args, report) else { return ERRORS };
     let mut set: Vec<Artifact> = Vec::new();
     let mut summary = String::new();
@@ -52,7 +56,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         if node.is_none() && configured.is_some() {
             report.note(&format!(
                 "{} states no node-ID, so no DCF is made; `--node ID` makes one with its values",
-                path.display()
+                shown(path)
             ));
         }
         let configured = configured.as_ref().filter(|_| node.is_some());
@@ -66,14 +70,10 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             }
         }
     }
-    if let Some(path) = clash(&set) {
-        return report.refuse(
-            Diagnostic::without_place(
-                rule_codes::DUPLICATE_NAME,
-                format!("two devices would both write {path}"),
-            )
-            .help("give the devices different keys, or build the specifications into different directories"),
-        );
+    if let Some(what) = clash(&set, "devices") {
+        return report.refuse(Diagnostic::without_place(rule_codes::DUPLICATE_NAME, what).help(
+            "give the devices or specifications other names, or build them into different directories, with `--device` and `--out`",
+        ));
     }
     if let Some(path) = overwritten(&args.out, &set, &specs) {
         return report.refuse(
@@ -86,7 +86,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
     }
     // The process ends next: taking the models apart piece by piece would only cost the user time.
     std::mem::forget(systems);
-    write(&args.out, &set, &summary, report)
+    write(&args.out, &set, forced(args.force, Existing::Generated), &summary, report)
 }
 
 /// A specification that was compiled.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use od_gen::Artifact;
 use od_gen::condense;
 use od_gen::eds::write_dcf;
+use od_gen::files::Existing;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
@@ -14,8 +15,8 @@ use od_spec::{Commissioning, assign, eds_text_problem, rule_codes};
 
 use super::ERRORS;
 use super::args::DcfArgs;
-use super::output::save;
-use super::report::{Report, node_id, print};
+use super::output::{forced, save};
+use super::report::{Report, node_id, print, shown};
 use super::specs;
 
 /// Longest `NodeName` and `NetworkName`: a line has 255 characters.
@@ -71,12 +72,13 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
     let artifact = Artifact { path: name, bytes, purpose: String::new() };
-    save(directory, std::slice::from_ref(&artifact)).map_err(refuse)?;
+    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::Generated))
+        .map_err(refuse)?;
     let plural = if count == 1 { "" } else { "s" };
     let size = artifact.bytes.len().div_ceil(1024);
     Ok(format!(
         "  {}  {size} kB  {} node {node}, {count} value{plural} set{kept}\n",
-        path.display(),
+        shown(&path),
         device.key
     ))
 }

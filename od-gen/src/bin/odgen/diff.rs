@@ -8,18 +8,19 @@ use od_spec::Commissioning;
 use od_spec::diag::{Diagnostic, codes};
 
 use super::args::{Color, DiffArgs, DiffFormat};
-use super::report::{Report, Used, print};
+use super::report::{Report, Used, print, print_json, print_styled};
 use super::{DIFFERS, ERRORS, git};
 
 pub(crate) fn run(args: &DiffArgs, color: Color, report: &Report) -> u8 {
     match difference(args, report) {
         Ok(found) => {
-            let code = print(&match args.format {
-                DiffFormat::Human => human(&found, is_coloured(color)),
-                DiffFormat::Short => short(&found),
-                DiffFormat::Markdown => markdown(&found),
-                DiffFormat::Json => json(&found),
-            });
+            let code = match args.format {
+                DiffFormat::Human if is_coloured(color) => print_styled(&human(&found, true)),
+                DiffFormat::Human => print(&human(&found, false)),
+                DiffFormat::Short => print(&short(&found)),
+                DiffFormat::Markdown => print(&markdown(&found)),
+                DiffFormat::Json => print_json(json(&found).as_bytes()),
+            };
             let fails = args.exit_code.is_some_and(|class| found.class() >= Some(class.into()));
             if fails && code == super::SUCCESS { DIFFERS } else { code }
         }

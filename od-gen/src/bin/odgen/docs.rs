@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_gen::docs;
+use od_gen::files::Existing;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::System;
 use od_spec::rule_codes;
 
 use super::args::{DocsArgs, DocsFormat};
-use super::output::{clash, write};
-use super::report::{Report, print_bytes};
+use super::output::{clash, forced, tidy, write};
+use super::report::{Report, print_json};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
 use super::{ERRORS, SUCCESS};
@@ -23,6 +24,11 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
         Ok(specs) => specs,
         Err(code) => return code,
     };
+    if !args.dump_context
+        && let Err(code) = tidy(&args.out, report)
+    {
+        return code;
+    }
     let Some(systems) = compile_all(&specs, report) else { return ERRORS };
     for key in &args.device {
         if !systems.iter().any(|(_, system)| system.device(key).is_some()) {
@@ -39,7 +45,7 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
     if args.dump_context {
         return systems.iter().fold(SUCCESS, |code, (_, system)| {
             let options = docs::options(system, &args.device, args.lang.as_deref());
-            code.max(print_bytes(&docs::dump_context(system, &options)))
+            code.max(print_json(&docs::dump_context(system, &options)))
         });
     }
     let templates = match templates(&formats(&args), args.templates.as_deref()) {
@@ -57,16 +63,13 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
             Err(error) => return Problem::Template(error, args.templates.clone()).show(report),
         }
     }
-    if let Some(path) = clash(&set) {
+    if let Some(what) = clash(&set, "specifications") {
         return report.refuse(
-            Diagnostic::without_place(
-                rule_codes::DUPLICATE_NAME,
-                format!("two specifications would both write {path}"),
-            )
-            .help("print specifications of one file name into different directories"),
+            Diagnostic::without_place(rule_codes::DUPLICATE_NAME, what)
+                .help("print specifications of one file name into different directories, with `--out`"),
         );
     }
-    write(&args.out, &set, "", report)
+    write(&args.out, &set, forced(args.force, Existing::Generated), "", report)
 }
 
 /// The language of this code, in any case: one whose fixed words are known, or one of the specifications.
@@ -110,5 +113,6 @@ fn export(args: &DocsArgs, target: &Path, report: &Report) -> u8 {
             purpose: "template".to_owned(),
         })
         .collect();
-    write(target, &set, "", report)
+    // What is there may be templates that somebody has changed.
+    write(target, &set, forced(args.force, Existing::None), "", report)
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use od_spec::diag::{Diagnostic, codes};
-use od_spec::model::{Devices, Erratum, ErratumKind, ErratumPlace, Index, System};
+use od_spec::model::{Devices, Erratum, ErratumKind, ErratumPlace, Index, System, Text};
 
 use super::ERRORS;
 use super::args::ErrataArgs;
@@ -61,20 +61,16 @@ fn places(erratum: &Erratum) -> String {
 }
 
 fn plain(system: &System, errata: &[&Erratum]) -> String {
-    let language = system.language();
+    // Each on one line, whatever the text holds.
+    let words = |text: &Text| text.get(system.language()).unwrap_or_default().replace('\n', " ");
     let mut text = String::new();
     for erratum in errata {
         let at = places(erratum);
         let at = if at.is_empty() { String::new() } else { format!("{at} ") };
-        let _ = writeln!(
-            text,
-            "{at}[{}] {}",
-            erratum.kind.word(),
-            erratum.place.get(language).unwrap_or_default()
-        );
-        let _ = writeln!(text, "    prints   {}", erratum.prints.get(language).unwrap_or_default());
-        let _ = writeln!(text, "    read as  {}", erratum.reads.get(language).unwrap_or_default());
-        let _ = writeln!(text, "    because  {}", erratum.because.get(language).unwrap_or_default());
+        let _ = writeln!(text, "{at}[{}] {}", erratum.kind.word(), words(&erratum.place));
+        let _ = writeln!(text, "    prints   {}", words(&erratum.prints));
+        let _ = writeln!(text, "    read as  {}", words(&erratum.reads));
+        let _ = writeln!(text, "    because  {}", words(&erratum.because));
     }
     let _ = writeln!(text, "{} of {} errata", errata.len(), system.errata.len());
     text
@@ -82,9 +78,9 @@ fn plain(system: &System, errata: &[&Erratum]) -> String {
 
 fn markdown(system: &System, errata: &[&Erratum]) -> String {
     let language = system.language();
-    let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
+    let cell = docs_gen::escape_markdown;
     let mut text =
-        format!("# Errata: {}\n\n| at | kind | place | prints | read as | because |\n", system.title);
+        format!("# Errata: {}\n\n| at | kind | place | prints | read as | because |\n", cell(&system.title));
     text.push_str("|---|---|---|---|---|---|\n");
     for erratum in errata {
         let words = [&erratum.place, &erratum.prints, &erratum.reads, &erratum.because];

@@ -4,19 +4,20 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use od_gen::Artifact;
+use od_gen::files::replace;
 use od_spec::diag::{Code, Diagnostic, codes};
 use od_spec::eds::Document;
 use od_spec::encoding::decode;
 use od_spec::source::SourceMap;
+use od_spec::visible::visible;
 use od_spec::{Fixed, fix};
 use similar::{ChangeTag, DiffOp, group_diff_ops};
 
 use super::args::FixArgs;
 use super::line_diff::line_diff;
-use super::output::save;
+use super::output::not_written;
 use super::report::{Report, print};
 use super::{ERRORS, SUCCESS};
 
@@ -31,11 +32,12 @@ pub(crate) fn run(args: &FixArgs, report: &Report) -> u8 {
             Err(diagnostic) => return report.refuse(*diagnostic),
         }
     }
-    let set: Vec<Artifact> = files.iter().map(File::artifact).collect();
-    if args.write
-        && let Err(diagnostic) = save(Path::new("."), &set)
-    {
-        return report.refuse(diagnostic);
+    if args.write {
+        let set: Vec<(PathBuf, Vec<u8>)> =
+            files.iter().map(|file| (PathBuf::from(&file.name), file.fixed.to_bytes())).collect();
+        if let Err(error) = replace(&set) {
+            return report.refuse(not_written(&error));
+        }
     }
     for file in &files {
         if (args.diff || !args.write) && print(&file.diff()) != SUCCESS {
@@ -73,10 +75,6 @@ fn read(path: &PathBuf) -> Result<File, Box<Diagnostic>> {
 }
 
 impl File {
-    fn artifact(&self) -> Artifact {
-        Artifact { path: self.name.clone(), bytes: self.fixed.to_bytes(), purpose: String::new() }
-    }
-
     /// What changes, each part with the codes of what it puts right.
     fn diff(&self) -> String {
         let text = self.fixed.text();
@@ -86,7 +84,7 @@ impl File {
         let mut out = String::new();
         for group in group_diff_ops(line_diff(&old, &new), CONTEXT) {
             if out.is_empty() {
-                let _ = write!(out, "--- {0}\n+++ {0}\n", self.name);
+                let _ = write!(out, "--- {0}\n+++ {0}\n", visible(&self.name));
             }
             let (Some(first), Some(last)) = (group.first(), group.last()) else { continue };
             let (old_range, new_range) = (
@@ -125,7 +123,7 @@ impl File {
             let (plural, them) = if notes == 1 { ("", "it") } else { ("s", "them") };
             report.note(&format!(
                 "{0}: {notes} note{plural}, `odgen check {0} --notes` shows {them}",
-                self.name
+                visible(&self.name)
             ));
         }
     }
@@ -133,7 +131,7 @@ impl File {
     fn summary(&self, written: bool) -> String {
         let counts = self.fixed.counts();
         if counts.is_empty() {
-            return format!("{}: there is nothing to put right without guessing", self.name);
+            return format!("{}: there is nothing to put right without guessing", visible(&self.name));
         }
         let places = self.fixed.changes.len();
         let (plural, would) = match (places, written) {
@@ -142,7 +140,7 @@ impl File {
             (_, true) => ("s", "were"),
             (_, false) => ("s", "would be"),
         };
-        let mut text = format!("{}: {places} place{plural} {would} put right", self.name);
+        let mut text = format!("{}: {places} place{plural} {would} put right", visible(&self.name));
         for (code, count) in counts {
             let _ = write!(text, "\n  {count:>5}  {code}  {}", code.title);
         }

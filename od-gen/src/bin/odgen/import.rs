@@ -4,15 +4,17 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use od_gen::Artifact;
+use od_gen::files::Existing;
 use od_gen::import::{Imported, import};
 use od_gen::source::{FileLoader, compile_file};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::source::SourceMap;
+use od_spec::visible::visible;
 
 use super::ERRORS;
 use super::args::ImportArgs;
-use super::output::{clash, save};
-use super::report::{Report, print};
+use super::output::{clash, forced, save};
+use super::report::{Report, print, shown};
 use super::specs::stem;
 
 pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
@@ -23,27 +25,17 @@ pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
         set.push(artifact);
         summary.push_str(&line);
     }
-    if let Some(path) = clash(&set) {
-        let message = format!("two files would both become {path}");
+    if let Some(message) = clash(&set, "files") {
         return report.refuse(
             Diagnostic::without_place(codes::WRITE_FAILED, message)
                 .help("import them into different directories, with `--out`"),
         );
     }
-    if let Some(existing) =
-        set.iter().map(|one| args.out.join(&one.path)).find(|path| path.exists() && !args.force)
-    {
-        let message = format!("{} is there already", existing.display());
-        return report.refuse(
-            Diagnostic::without_place(codes::WRITE_FAILED, message)
-                .help("choose another directory with `--out`, or overwrite it with `--force`"),
-        );
-    }
-    match save(&args.out, &set) {
+    match save(&args.out, &set, forced(args.force, Existing::None)) {
         Ok(_) => {
             if let [only] = set.as_slice() {
                 let name = args.out.join(&only.path);
-                let _ = writeln!(summary, "next: odgen build --rust --docs html {}", name.display());
+                let _ = writeln!(summary, "next: odgen build --rust --docs html {}", shown(&name));
             }
             print(&summary)
         }
@@ -90,7 +82,7 @@ fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
 /// `drive.od.yaml: 412 objects; 1 rule broken (see allow:)`.
 fn describe(name: &str, objects: usize, imported: &Imported) -> String {
     let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-    let mut line = format!("{name}: {}", counted(objects, "object"));
+    let mut line = format!("{}: {}", visible(name), counted(objects, "object"));
     for (count, what, how) in [
         (imported.allowed.len(), "rule", "broken (see `allow:`)"),
         (imported.repairs.len(), "fact", "changed, as the language takes no other (see the comments)"),

@@ -25,6 +25,7 @@ use std::process::ExitCode;
 use args::{CheckFormat, Cli, Command};
 use clap::{CommandFactory as _, Parser as _};
 use od_spec::diag::{Code, Diagnostic, codes};
+use od_spec::visible::visible;
 
 /// The work of the command is many small pieces of memory, given back in bulk.
 #[global_allocator]
@@ -40,7 +41,10 @@ const USAGE: u8 = 2;
 const DIFFERS: u8 = 3;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(message) => return ExitCode::from(answer(&message)),
+    };
     let report = report::Report::new(cli.message_format().into(), cli.color);
     let (format, directory) = (cli.format, cli.directory.as_path());
     let code = match cli.command {
@@ -64,11 +68,18 @@ fn main() -> ExitCode {
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "odgen", &mut text);
-            let _ = std::io::stdout().write_all(&text);
-            SUCCESS
+            report::print(&String::from_utf8_lossy(&text))
         }
     };
     ExitCode::from(code)
+}
+
+/// Help, the version, or what is wrong with the command line.
+fn answer(message: &clap::Error) -> u8 {
+    match message.print().and_then(|()| std::io::stdout().flush()) {
+        Err(error) if !message.use_stderr() => report::not_printed(&error),
+        _ => u8::try_from(message.exit_code()).unwrap_or(USAGE),
+    }
 }
 
 fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 {
@@ -86,7 +97,7 @@ fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 
         Some(node) => od_gen::json::dump_node(&system, &args.device, &node),
         None => od_gen::json::dump(&system, &args.device),
     };
-    report::print_bytes(&dump)
+    report::print_json(&dump)
 }
 
 fn library(name: Option<&str>, report: &report::Report) -> u8 {
@@ -116,6 +127,7 @@ fn explain(id: &str) -> u8 {
             od_spec::explanation(code)
         )),
         None => {
+            let id = visible(id);
             anstream::eprintln!(
                 "error: there is no code `{id}`; codes look like `OD0301`, `odgen explain all` lists them"
             );

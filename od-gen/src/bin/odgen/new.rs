@@ -4,13 +4,14 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use od_gen::Artifact;
-use od_gen::files::write_all;
+use od_gen::files::{Existing, write_set};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile, is_device_key};
 
 use super::args::{NewArgs, Profile};
-use super::report::{Report, print};
+use super::output::not_written;
+use super::report::{Report, print, shown as shown_path};
 
 /// What a mode of operation means for a starter specification.
 struct Mode {
@@ -167,7 +168,7 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
         Diagnostic::without_place(codes::BAD_NOTATION, message).help("choose another name")
     })?;
     write(&args.out, name, text)?;
-    let path = path.strip_prefix(".").unwrap_or(&path).display();
+    let path = shown_path(path.strip_prefix(".").unwrap_or(&path));
     Ok(format!(
         "  {path}  {kind}, {objects} objects\nnext: fill in what is marked with <--, then `odgen build {path} --docs html`\n"
     ))
@@ -298,10 +299,7 @@ fn count_objects(name: &str, text: &str) -> Option<usize> {
 
 fn write(directory: &Path, path: String, text: String) -> Result<(), Diagnostic> {
     let artifact = Artifact { path, bytes: text.into_bytes(), purpose: String::new() };
-    write_all(directory, &[artifact]).map(drop).map_err(|error| {
-        Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
-            .help("check the directory, its permissions and the free space")
-    })
+    write_set(directory, &[artifact], Existing::None).map(drop).map_err(|error| not_written(&error))
 }
 
 #[cfg(test)]

@@ -1,39 +1,70 @@
 //! What a command has made goes to the disk, all of it or nothing.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::files::{Outcome, write_all};
+use od_gen::files::{Existing, Outcome, Reason, Recovered, WriteError, recover, write_set};
 use od_spec::diag::{Diagnostic, codes};
 
-use super::report::{Report, print};
+use super::report::{Report, print, shown};
 
 /// Writes the files and prints `summary`, then their list.
-pub(crate) fn write(out: &Path, set: &[Artifact], summary: &str, report: &Report) -> u8 {
-    match save(out, set) {
+pub(crate) fn write(out: &Path, set: &[Artifact], existing: Existing, summary: &str, report: &Report) -> u8 {
+    match save(out, set, existing) {
         Ok(outcomes) => print(&format!("{summary}{}", list(out, set, &outcomes))),
         Err(diagnostic) => report.refuse(diagnostic),
     }
 }
 
 /// Writes the files: all of them or, with a message, none.
-pub(crate) fn save(out: &Path, set: &[Artifact]) -> Result<Vec<Outcome>, Diagnostic> {
-    write_all(out, set).map_err(|error| {
-        Diagnostic::without_place(codes::WRITE_FAILED, error.to_string())
-            .help("nothing was changed; check the directory, its permissions and the free space")
-    })
+pub(crate) fn save(out: &Path, set: &[Artifact], existing: Existing) -> Result<Vec<Outcome>, Diagnostic> {
+    write_set(out, set, existing).map_err(|error| not_written(&error))
 }
 
-/// The first path that two artifacts share.
-pub(crate) fn clash(set: &[Artifact]) -> Option<&str> {
-    let mut seen = BTreeSet::new();
-    // Some file systems do not tell capitals from small letters.
-    set.iter()
-        .find(|artifact| !seen.insert(artifact.path.to_lowercase()))
-        .map(|artifact| artifact.path.as_str())
+/// What is to be replaced: with `--force` anything, else only what is ours.
+pub(crate) const fn forced(force: bool, otherwise: Existing) -> Existing {
+    if force { Existing::Any } else { otherwise }
+}
+
+/// Completes or undoes what a killed command began in a directory, before anything else is made of it.
+pub(crate) fn tidy(out: &Path, report: &Report) -> Result<(), u8> {
+    let what = match recover(out) {
+        Ok(None) => return Ok(()),
+        Ok(Some(Recovered::Completed)) => "its new files are in place now",
+        Ok(Some(Recovered::Undone)) => "the files from before are in place",
+        Err(error) => return Err(report.refuse(not_written(&error))),
+    };
+    report.note(&format!("a command that wrote into {} was interrupted; {what}", shown(out)));
+    Ok(())
+}
+
+/// The message about files that could not be written, with a way out.
+pub(crate) fn not_written(error: &WriteError) -> Diagnostic {
+    let help = match &error.reason {
+        Reason::Exists(_) | Reason::NotGenerated(_) => {
+            "nothing was changed; choose another directory with `--out`, rename what is there, or replace it with `--force`"
+        }
+        Reason::Name(_) => {
+            "files are named after the specification and the keys of its devices: rename what this name comes from"
+        }
+        Reason::Clash(_) => {
+            "give devices and specifications names that differ by more than capitals, or write into different directories with `--out`"
+        }
+        _ => "nothing was changed; check the directory, its permissions and the free space",
+    };
+    Diagnostic::without_place(codes::WRITE_FAILED, error.to_string()).help(help)
+}
+
+/// Two files of a set that are one, in words: those of two `owners`.
+pub(crate) fn clash(set: &[Artifact], owners: &str) -> Option<String> {
+    let (first, second) = od_gen::files::clash(set.iter().map(|artifact| artifact.path.as_str()))?;
+    Some(if first == second {
+        format!("two {owners} would both write {first}")
+    } else {
+        format!("two {owners} would write {first} and {second}, which some systems take for one file")
+    })
 }
 
 /// The first path at which something that was read would be written over.
@@ -48,8 +79,7 @@ pub(crate) fn overwritten(out: &Path, set: &[Artifact], read: &[PathBuf]) -> Opt
 
 fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
     let mut text = String::new();
-    let paths: Vec<String> =
-        set.iter().map(|artifact| out.join(&artifact.path).display().to_string()).collect();
+    let paths: Vec<String> = set.iter().map(|artifact| shown(&out.join(&artifact.path))).collect();
     let width = paths.iter().map(|path| path.chars().count()).max().unwrap_or(0);
     for (artifact, path) in set.iter().zip(&paths) {
         let size = artifact.bytes.len().div_ceil(1024);

@@ -11,6 +11,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
+use od_spec::visible::{printable, visible, visible_json};
 use od_spec::{Commissioning, Compiled};
 
 use super::args::Color;
@@ -55,8 +56,8 @@ impl Report {
     }
 
     /// Writes messages that are text already.
-    pub(crate) fn write(text: &str) {
-        let _ = std::io::stderr().write_all(text.as_bytes());
+    pub(crate) fn write(&self, text: &str) {
+        let _ = std::io::stderr().write_all(printable(text, self.colour).as_bytes());
     }
 
     /// Writes what is wrong and, for people, how much it is; notes are for `odgen check --notes`.
@@ -70,7 +71,7 @@ impl Report {
                     Some(_) | None => Most::OfSpecification,
                 };
                 let shows = match source {
-                    Some(file) => format!("`odgen check {} --all`", file.name()),
+                    Some(file) => format!("`odgen check {} --all`", visible(file.name())),
                     None => "`odgen check --all`".to_owned(),
                 };
                 for_people(diagnostics, sources, most, &shows, self.colour)
@@ -83,13 +84,13 @@ impl Report {
             let first = diagnostics.iter().min_by_key(|one| one.severity()).map_or("", |first| first.code.id);
             let _ = writeln!(text, "{summary}; `odgen explain {first}` tells more");
         }
-        let _ = std::io::stderr().write_all(text.as_bytes());
+        self.write(&text);
     }
 
     /// Tells people what the command does unasked; programs that read JSON did not ask.
     pub(crate) fn note(&self, text: &str) {
         if self.format != Format::Json {
-            let _ = writeln!(std::io::stderr(), "note: {text}");
+            self.write(&format!("note: {text}\n"));
         }
     }
 
@@ -173,18 +174,40 @@ pub(crate) fn node_id(text: &str) -> Result<u8, Diagnostic> {
     })
 }
 
-/// Writes a result; a reader that went away early is no error.
+/// Writes a result. What it quotes from outside cannot command a terminal.
 pub(crate) fn print(text: &str) -> u8 {
-    print_bytes(text.as_bytes())
+    write_out(printable(text, false).as_bytes())
 }
 
-/// The same for bytes.
-pub(crate) fn print_bytes(bytes: &[u8]) -> u8 {
-    match std::io::stdout().write_all(bytes) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            anstream::eprintln!("error: cannot write to standard output: {error}");
-            ERRORS
-        }
-        _ => SUCCESS,
+/// Writes a result that is coloured for a terminal.
+pub(crate) fn print_styled(text: &str) -> u8 {
+    write_out(printable(text, true).as_bytes())
+}
+
+/// Writes a result in JSON.
+pub(crate) fn print_json(bytes: &[u8]) -> u8 {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => write_out(visible_json(text).as_bytes()),
+        Err(_) => write_out(bytes),
     }
+}
+
+/// A path on one line.
+pub(crate) fn shown(path: &Path) -> String {
+    visible(&path.to_string_lossy()).into_owned()
+}
+
+fn write_out(bytes: &[u8]) -> u8 {
+    let mut out = std::io::stdout().lock();
+    // What is still in the buffer when the process ends is lost without a word.
+    out.write_all(bytes).and_then(|()| out.flush()).map_or_else(|error| not_printed(&error), |()| SUCCESS)
+}
+
+/// The exit code when a result cannot be written; a reader that went away early is no error.
+pub(crate) fn not_printed(error: &std::io::Error) -> u8 {
+    if error.kind() == std::io::ErrorKind::BrokenPipe {
+        return SUCCESS;
+    }
+    anstream::eprintln!("error: cannot write to standard output: {error}");
+    ERRORS
 }

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use od_gen::source::specifications_in;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
+use od_spec::visible::visible;
 
 use super::USAGE;
-use super::report::Report;
+use super::report::{Report, shown};
 
 /// The specifications of a command line that may name several: those it names, or all of `directory`, by name. The exit
 /// code after a message when there are none.
@@ -76,15 +77,13 @@ fn refuse(message: String, help: String, report: &Report) -> u8 {
 }
 
 fn describe(directory: &Path) -> String {
-    if directory == Path::new(".") {
-        "the current directory".to_owned()
-    } else {
-        directory.display().to_string()
-    }
+    if directory == Path::new(".") { "the current directory".to_owned() } else { shown(directory) }
 }
 
 /// File names, as they lie in one directory.
 fn list(paths: &[PathBuf]) -> String {
-    let names = paths.iter().map(|path| path.file_name().unwrap_or_default().to_string_lossy().into_owned());
+    let names = paths
+        .iter()
+        .map(|path| visible(&path.file_name().unwrap_or_default().to_string_lossy()).into_owned());
     names.collect::<Vec<_>>().join(", ")
 }

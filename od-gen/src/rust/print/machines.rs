@@ -9,6 +9,11 @@ use super::literal::hex;
 use super::value::Values;
 use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine, ValueKind};
 
+/// The name of a machine as the beginning of another: what sets it apart from a keyword is not needed there.
+fn stem(name: &str) -> &str {
+    name.trim_end_matches('_')
+}
+
 impl Plan<'_> {
     /// `mod machines`.
     pub(super) fn machines_module(&self) -> TokenStream {
@@ -35,7 +40,7 @@ impl Plan<'_> {
 
     fn states(&self, planned: &PlannedMachine<'_>, status: &PlannedEntry<'_>) -> TokenStream {
         let machine = planned.machine;
-        let name = format_ident!("{}State", planned.name);
+        let name = format_ident!("{}State", stem(&planned.name));
         let about = doc(&format!("State of the {}, as `{}` shows it.", escape(&machine.name), status.id));
         let (mut variants, mut arms, mut names) = (Vec::new(), Vec::new(), Vec::new());
         for (variant, state) in planned.states.iter().zip(&machine.states) {
@@ -82,7 +87,7 @@ impl Plan<'_> {
         if machine.commands.is_empty() {
             return quote!();
         }
-        let name = format_ident!("{}Command", planned.name);
+        let name = format_ident!("{}Command", stem(&planned.name));
         let about = doc(&format!("Command to the {}, as `{}` takes it.", escape(&machine.name), command.id));
         let (mut variants, mut parts, mut names) = (Vec::new(), Vec::new(), Vec::new());
         for (variant, one) in planned.commands.iter().zip(&machine.commands) {

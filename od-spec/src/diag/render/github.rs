@@ -2,6 +2,7 @@
 
 use crate::diag::{Diagnostic, Severity};
 use crate::source::SourceMap;
+use crate::visible::visible;
 
 /// A message as one command, in one line.
 pub(super) fn command(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
@@ -13,7 +14,7 @@ pub(super) fn command(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let place = diagnostic.labels.first().map(|label| {
         let file = sources.file(label.span.file);
         let start = file.line_col(label.span.start);
-        format!("file={},line={},col={},", property(file.name()), start.line, start.column)
+        format!("file={},line={},col={},", property(&visible(file.name())), start.line, start.column)
     });
     let title = format!("{}: {}", diagnostic.code.id, diagnostic.code.title);
     let label = diagnostic.labels.first().map(|label| label.text.as_str()).filter(|text| !text.is_empty());

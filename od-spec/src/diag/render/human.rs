@@ -6,6 +6,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::diag::{Diagnostic, Label, Severity};
 use crate::source::{FileId, SourceFile, SourceMap};
+use crate::visible::{is_hidden, stand_in, visible};
 
 /// Lines shown around a marked place that spans many.
 const LONGEST_MARK: usize = 6;
@@ -48,7 +49,7 @@ fn snippet<'a>(
     let first = in_file().map(|(_, label)| file.line_index(label.span.start)).min().unwrap_or(0);
     let last = in_file().map(|(_, label)| file.line_index(shown_end(label, file))).max().unwrap_or(0);
     let (start, end) = file.lines(first, last);
-    let text = visible(&file.text()[start..end]);
+    let text = as_long(&file.text()[start..end]);
     let length = text.len();
     let annotations = in_file().map(|(at, label)| {
         let clamp = |offset: u32| (offset as usize).saturating_sub(start).min(length);
@@ -57,14 +58,17 @@ fn snippet<'a>(
         let annotation = kind.span(range);
         if label.text.is_empty() { annotation } else { annotation.label(label.text.as_str()) }
     });
-    Snippet::source(text).line_start(first + 1).path(file.name()).annotations(annotations)
+    Snippet::source(text).line_start(first + 1).path(visible(file.name())).annotations(annotations)
 }
 
-/// A text without the control characters that the renderer does not replace, U+0080 to U+009F: a terminal obeys them. What stands
-/// for them is as long.
-fn visible(text: &str) -> Cow<'_, str> {
-    let is_control = |c: char| matches!(c, '\u{80}'..='\u{9F}');
-    if text.contains(is_control) { text.replace(is_control, "·").into() } else { text.into() }
+/// A text without the hidden characters that the renderer does not replace, those outside ASCII. What stands for them is as long.
+fn as_long(text: &str) -> Cow<'_, str> {
+    let is_hidden = |c: char| !c.is_ascii() && is_hidden(c);
+    if text.contains(is_hidden) {
+        text.chars().map(|c| if is_hidden(c) { stand_in(c) } else { c }).collect::<String>().into()
+    } else {
+        text.into()
+    }
 }
 
 /// The end of a mark; a mark over many lines is cut to its first line.
@@ -81,20 +85,30 @@ mod tests {
     use super::*;
     use crate::diag::Diagnostics;
     use crate::diag::codes;
-    use crate::diag::render::{Format, render};
+    use crate::diag::render::{Format, render, sarif};
 
     #[test]
-    fn no_control_character_of_a_text_reaches_a_terminal() {
+    fn nothing_hidden_in_a_text_reaches_a_terminal() {
+        const HOSTILE: &str = "\u{1b}[31m\u{7}\u{9b}2J\u{7f}\u{202e}\u{61c}\n::error::x\r\u{2028}";
         let mut sources = SourceMap::new();
-        let file = sources.add("a.eds", "Na\u{85}me=\u{9b}31m\u{7f}\u{1b}\u{7}\n");
+        let name = format!("a{HOSTILE}.eds");
+        let file = sources.add(name, "Na\u{85}me=\u{9b}31m\u{7f}\u{1b}\u{7}\u{202e}\u{200f}\n");
         let place = sources.whole(file).part(0, 6);
         let mut diagnostics = Diagnostics::new();
-        diagnostics.push(Diagnostic::new(codes::UNKNOWN_KEY, place, "found").edit(place, "\u{85}"));
+        let diagnostic = Diagnostic::new(codes::UNKNOWN_KEY, place, format!("found {HOSTILE}"));
+        let diagnostic = diagnostic.label(HOSTILE).help(HOSTILE).note(HOSTILE).edit(place, HOSTILE);
+        diagnostics.push(diagnostic.with(place, HOSTILE));
         for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
             let text = render(&diagnostics, &sources, format, false);
-            assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{format:?}: {text:?}");
+            assert!(!text.contains(|c: char| is_hidden(c) && c != '\n'), "{format:?}: {text:?}");
+            let commands = text.lines().filter(|line| line.trim_start().starts_with("::")).count();
+            assert_eq!(commands, usize::from(format == Format::Github), "{text}");
         }
+        let findings =
+            crate::diag::render::Findings { name: HOSTILE, diagnostics: &diagnostics, sources: &sources };
+        let text = sarif("1", &[findings]);
+        assert!(!text.trim_end().contains(is_hidden), "{text}");
         // The mark is as long as what it is under.
-        assert!(human(diagnostics.iter().next().unwrap(), &sources, false).ends_with("\n  | ^^^^^"));
+        assert!(human(diagnostics.iter().next().unwrap(), &sources, false).contains("^^^^^ "));
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use crate::diag::{Diagnostic, Edit};
 use crate::source::{SourceMap, Span};
+use crate::visible::is_hidden;
 
 /// A message as one object in one line.
 pub(super) fn json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
@@ -53,7 +54,7 @@ pub(super) fn quote(text: &str) -> String {
             '\r' => out.push_str("\\r"),
             '\t' => out.push_str("\\t"),
             // Also the control characters that JSON would allow: a terminal obeys them.
-            c if c.is_control() => {
+            c if is_hidden(c) => {
                 let _ = write!(out, "\\u{:04x}", c as u32);
             }
             c => out.push(c),

@@ -18,7 +18,7 @@ use self::policy::Policy;
 use self::progress::Progress;
 use self::summary::Total;
 use super::args::{CheckArgs, CheckFormat};
-use super::report::{Report, print};
+use super::report::{Report, print, print_json};
 use super::{ERRORS, SUCCESS};
 
 pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, report: &Report) -> u8 {
@@ -43,10 +43,10 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
             progress.clear();
             match format {
                 CheckFormat::Human => {
-                    Report::write(&text);
-                    Report::write(&summary::of_file(&checked, inputs.len()).unwrap_or_default());
+                    report.write(&text);
+                    report.write(&summary::of_file(&checked, inputs.len()).unwrap_or_default());
                 }
-                CheckFormat::Short | CheckFormat::Json => Report::write(&text),
+                CheckFormat::Short | CheckFormat::Json => report.write(&text),
                 CheckFormat::Github => written = written.max(print(&text)),
                 CheckFormat::Sarif => {}
             }
@@ -59,10 +59,10 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
     });
     progress.clear();
     match format {
-        CheckFormat::Human => Report::write(&total.text()),
+        CheckFormat::Human => report.write(&total.text()),
         CheckFormat::Sarif => {
             let findings: Vec<Findings<'_>> = document.iter().map(Checked::findings).collect();
-            written = written.max(print(&sarif(env!("CARGO_PKG_VERSION"), &findings)));
+            written = written.max(print_json(sarif(env!("CARGO_PKG_VERSION"), &findings).as_bytes()));
         }
         CheckFormat::Short | CheckFormat::Json | CheckFormat::Github => {}
     }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use od_spec::diag::render::{plural, summary};
 use od_spec::diag::{Code, Diagnostics, Severity};
+use od_spec::visible::visible;
 
 use super::checked::Checked;
 
@@ -28,7 +29,7 @@ pub(super) fn of_file(checked: &Checked, files: usize) -> Option<String> {
     };
     let objects = checked.objects.and_then(|objects| plural(objects, "object"));
     let facts = [Some(counts), objects].into_iter().flatten().collect::<Vec<_>>().join(", ");
-    let mut line = format!("{}: {facts}", checked.name);
+    let mut line = format!("{}: {facts}", visible(&checked.name));
     if let Some(repairs) = repairs(&checked.shown) {
         let _ = write!(line, " ({repairs})");
     }

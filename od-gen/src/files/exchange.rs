@@ -1,0 +1,220 @@
+//! Old files give way to new ones, all or none.
+
+use std::collections::BTreeSet;
+use std::fs::{self, Metadata};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::disk::Disk;
+use super::journal::{self, Journal, Phase, Step, fingerprint, new_name, old_name, target};
+use super::{WriteError, parent};
+
+/// A file that is to have other contents.
+pub(super) struct Change<'a> {
+    /// As the journal names it.
+    path: String,
+    /// Where it lies.
+    target: PathBuf,
+    bytes: &'a [u8],
+    old: Option<Old>,
+}
+
+/// What is there before.
+struct Old {
+    metadata: Metadata,
+    bytes: Vec<u8>,
+}
+
+/// What became of a set whose process was killed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Recovered {
+    /// It is complete now.
+    Completed,
+    /// The old files are there.
+    Undone,
+}
+
+impl<'a> Change<'a> {
+    /// Nothing if the file has these contents already.
+    pub(super) fn of(path: String, target: PathBuf, bytes: &'a [u8]) -> io::Result<Option<Self>> {
+        let metadata = match fs::metadata(&target) {
+            Ok(metadata) => metadata,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(Some(Self { path, target, bytes, old: None }));
+            }
+            Err(error) => return Err(error),
+        };
+        if metadata.is_dir() {
+            return Err(io::Error::new(
+                io::ErrorKind::IsADirectory,
+                "a directory of this name is in the way",
+            ));
+        }
+        if !metadata.is_file() {
+            return Err(io::Error::other("it is no regular file"));
+        }
+        let old = fs::read(&target)?;
+        Ok((old != bytes).then(|| Self { path, target, bytes, old: Some(Old { metadata, bytes: old }) }))
+    }
+
+    /// Whether there is no file yet.
+    pub(super) const fn replaces_none(&self) -> bool {
+        self.old.is_none()
+    }
+
+    /// The contents before.
+    pub(super) fn old_bytes(&self) -> &[u8] {
+        self.old.as_ref().map_or(&[], |old| &old.bytes)
+    }
+
+    fn step(&self) -> Step {
+        let old = self.old.as_ref().map(|old| fingerprint(&old.bytes));
+        Step { path: self.path.clone(), old, new: fingerprint(self.bytes) }
+    }
+}
+
+/// Puts new files in place of old ones. With a directory, a journal in it lets the next process finish what a killed one began.
+pub(super) fn exchange(
+    directory: Option<&Path>,
+    changes: &[Change<'_>],
+    disk: &impl Disk,
+) -> Result<(), WriteError> {
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let note = |phase: Phase| match directory {
+        Some(directory) => {
+            let journal = Journal { phase, steps: changes.iter().map(Change::step).collect() };
+            journal.write(directory, disk).map_err(|error| WriteError::io(directory, error))
+        }
+        None => Ok(()),
+    };
+    let close = || match directory {
+        Some(directory) => Journal::close(directory, disk).map_err(|error| WriteError::io(directory, error)),
+        None => Ok(()),
+    };
+    let prepared = note(Phase::Prepare)
+        .and_then(|()| prepare(changes, disk))
+        .and_then(|()| settle(changes, disk))
+        .and_then(|()| note(Phase::Replace));
+    if let Err(error) = prepared {
+        // A journal that could not be written may still be the one before.
+        if discard(changes, disk).is_ok() {
+            let _ = close();
+        }
+        return Err(error);
+    }
+    let replaced = (0..).zip(changes).try_for_each(|(number, change)| {
+        disk.rename(&new_name(&change.target, number), &change.target)
+            .map_err(|error| WriteError::io(&change.target, error))
+    });
+    if let Err(error) = replaced {
+        let _ = note(Phase::Undo);
+        let undone = (0..)
+            .zip(changes)
+            .try_for_each(|(number, change)| undo(&change.step(), &change.target, number, disk));
+        if undone.is_ok() {
+            let _ = close();
+        }
+        return Err(error);
+    }
+    settle(changes, disk)?;
+    discard(changes, disk).map_err(|(path, error)| WriteError::io(path, error))?;
+    close()
+}
+
+/// Brings all new files to the disk, and second names for the old ones.
+fn prepare(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), WriteError> {
+    (0..).zip(changes).try_for_each(|(number, change)| {
+        let target = &change.target;
+        let old = change.old.as_ref();
+        let kept = disk.write(&new_name(target, number), change.bytes, old.map(|old| &old.metadata));
+        let kept = kept.and_then(|()| match old {
+            Some(_) => disk.keep(target, &old_name(target, number)),
+            None => Ok(()),
+        });
+        kept.map_err(|error| WriteError::io(target, error))
+    })
+}
+
+fn settle(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), WriteError> {
+    let directories: BTreeSet<PathBuf> = changes.iter().map(|change| parent(&change.target)).collect();
+    directories
+        .iter()
+        .try_for_each(|directory| disk.settle(directory).map_err(|error| WriteError::io(directory, error)))
+}
+
+/// Removes what is left of other names.
+fn discard(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), (PathBuf, io::Error)> {
+    (0..).zip(changes).try_for_each(|(number, change)| {
+        [new_name(&change.target, number), old_name(&change.target, number)]
+            .into_iter()
+            .try_for_each(|path| disk.remove(&path).map_err(|error| (path, error)))
+    })
+}
+
+/// Completes or undoes what the journal of a directory tells of.
+pub(super) fn recover(directory: &Path, disk: &impl Disk) -> Result<Option<Recovered>, WriteError> {
+    let failed = |error| WriteError::io(directory, error);
+    let Some(journal) = Journal::read(directory).map_err(failed)? else {
+        if journal::is_there(directory) {
+            Journal::close(directory, disk).map_err(failed)?;
+        }
+        return Ok(None);
+    };
+    let mut directories = BTreeSet::new();
+    for (number, step) in (0..).zip(&journal.steps) {
+        let failed = |error| WriteError::io(directory.join(&step.path), error);
+        let target = target(directory, Path::new(&step.path)).map_err(failed)?;
+        match journal.phase {
+            Phase::Prepare => discard_one(&target, number, disk),
+            Phase::Replace => complete(step, &target, number, disk),
+            Phase::Undo => undo(step, &target, number, disk),
+        }
+        .map_err(failed)?;
+        directories.extend(Some(parent(&target)).filter(|directory| directory.is_dir()));
+    }
+    for directory in &directories {
+        disk.settle(directory).map_err(|error| WriteError::io(directory, error))?;
+    }
+    Journal::close(directory, disk).map_err(failed)?;
+    Ok(Some(match journal.phase {
+        Phase::Replace => Recovered::Completed,
+        Phase::Prepare | Phase::Undo => Recovered::Undone,
+    }))
+}
+
+fn discard_one(target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
+    disk.remove(&new_name(target, number))?;
+    disk.remove(&old_name(target, number))
+}
+
+/// Gives a new file its name, unless somebody has changed the old one since.
+fn complete(step: &Step, target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
+    let new = new_name(target, number);
+    if new.exists() && contents(target)? == step.old {
+        disk.rename(&new, target)?;
+    }
+    discard_one(target, number, disk)
+}
+
+/// Brings an old file back, unless somebody has changed the new one since.
+fn undo(step: &Step, target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
+    if contents(target)? == Some(step.new) {
+        let old = old_name(target, number);
+        if old.exists() {
+            disk.rename(&old, target)?;
+        } else if step.old.is_none() {
+            disk.remove(target)?;
+        }
+    }
+    discard_one(target, number, disk)
+}
+
+fn contents(path: &Path) -> io::Result<Option<u64>> {
+    match fs::read(path) {
+        Ok(bytes) => Ok(Some(fingerprint(&bytes))),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}

@@ -1,0 +1,188 @@
+//! What is going on in a directory, written down before it begins: so that the next process can finish or undo it when this one
+//! is killed.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use super::disk::Disk;
+
+/// The file, in the directory of the set.
+const JOURNAL: &str = ".odgen-journal";
+const HEAD: &str = "odgen journal 1";
+
+/// How far a set has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// New files are written under other names. To undo: remove them.
+    Prepare,
+    /// All new files are on the disk. To finish: give them their names.
+    Replace,
+    /// Something failed. To undo: bring the old files back.
+    Undo,
+}
+
+impl Phase {
+    const ALL: [Self; 3] = [Self::Prepare, Self::Replace, Self::Undo];
+
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Prepare => "prepare",
+            Self::Replace => "replace",
+            Self::Undo => "undo",
+        }
+    }
+}
+
+/// A file that is replaced.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Step {
+    /// Relative to the directory of the set.
+    pub(super) path: String,
+    /// What was there before; nothing, if there was no file.
+    pub(super) old: Option<u64>,
+    /// What is to be there.
+    pub(super) new: u64,
+}
+
+/// A set of files on its way.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Journal {
+    pub(super) phase: Phase,
+    pub(super) steps: Vec<Step>,
+}
+
+/// Whether a directory has one, or the beginning of one.
+pub(super) fn is_there(directory: &Path) -> bool {
+    [JOURNAL.to_owned(), unfinished()].iter().any(|name| directory.join(name).symlink_metadata().is_ok())
+}
+
+/// A journal under this name was never in force.
+fn unfinished() -> String {
+    format!("{JOURNAL}.new")
+}
+
+/// A number that contents are recognised by (FNV-1a).
+pub(super) fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes
+        .iter()
+        .fold(0xCBF2_9CE4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01B3))
+}
+
+impl Journal {
+    /// Writes it so that either this journal or the one before is on the disk.
+    pub(super) fn write(&self, directory: &Path, disk: &impl Disk) -> io::Result<()> {
+        let mut text = format!("{HEAD}\n{}\n", self.phase.word());
+        for step in &self.steps {
+            let old = step.old.map_or("-".to_owned(), |old| format!("{old:016x}"));
+            let path = step.path.replace('\\', "\\\\").replace('\n', "\\n");
+            let _ = writeln!(text, "{old} {:016x} {path}", step.new);
+        }
+        // Without this line the text is cut off.
+        text.push_str("end\n");
+        let new = directory.join(unfinished());
+        disk.write(&new, text.as_bytes(), None)?;
+        disk.rename(&new, &directory.join(JOURNAL))?;
+        disk.settle(directory)
+    }
+
+    /// The journal that a killed process left.
+    pub(super) fn read(directory: &Path) -> io::Result<Option<Self>> {
+        match fs::read_to_string(directory.join(JOURNAL)) {
+            Ok(text) => Self::parse(&text).map(Some).ok_or_else(|| {
+                io::Error::new(
+                    io::ErrorKind::InvalidData,
+                    format!("`{JOURNAL}` is none of this version of odgen; remove it, and build again"),
+                )
+            }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.strip_suffix("end\n")?.lines();
+        if lines.next()? != HEAD {
+            return None;
+        }
+        let word = lines.next()?;
+        let phase = Phase::ALL.into_iter().find(|phase| phase.word() == word)?;
+        let steps = lines.map(|line| {
+            let mut parts = line.splitn(3, ' ');
+            let (old, new, path) = (parts.next()?, parts.next()?, parts.next()?);
+            let number = |text: &str| u64::from_str_radix(text, 16).ok();
+            let old = if old == "-" { None } else { Some(number(old)?) };
+            let path = unescaped(path);
+            // A journal speaks of its own directory only.
+            let inside = |component| matches!(component, Component::Normal(_));
+            Path::new(&path).components().all(inside).then_some(Step { path, old, new: number(new)? })
+        });
+        Some(Self { phase, steps: steps.collect::<Option<_>>()? })
+    }
+
+    /// Removes it: the set is complete, or as it was.
+    pub(super) fn close(directory: &Path, disk: &impl Disk) -> io::Result<()> {
+        disk.remove(&directory.join(unfinished()))?;
+        disk.remove(&directory.join(JOURNAL))
+    }
+}
+
+fn unescaped(text: &str) -> String {
+    let mut out = String::new();
+    let mut chars = text.chars();
+    while let Some(c) = chars.next() {
+        match c {
+            '\\' => out.push(if chars.next() == Some('n') { '\n' } else { '\\' }),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// Where a file of the set lies: what a link leads to, so that the link stays.
+pub(super) fn target(directory: &Path, path: &Path) -> io::Result<PathBuf> {
+    let target = directory.join(path);
+    if target.symlink_metadata().is_ok_and(|metadata| metadata.is_symlink()) {
+        return fs::canonicalize(&target);
+    }
+    Ok(target)
+}
+
+/// Where the new contents of the file with this number wait.
+pub(super) fn new_name(target: &Path, number: usize) -> PathBuf {
+    target.with_file_name(format!(".odgen-{number}.new"))
+}
+
+/// A second name for the old contents.
+pub(super) fn old_name(target: &Path, number: usize) -> PathBuf {
+    target.with_file_name(format!(".odgen-{number}.old"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_journal_is_read_as_it_was_written_or_not_at_all() {
+        let directory = std::env::temp_dir().join(format!("odgen-journal-{}", std::process::id()));
+        fs::create_dir_all(&directory).unwrap();
+        let steps = vec![
+            Step { path: "eds/a b\\n\n.eds".to_owned(), old: None, new: 7 },
+            Step { path: "b".to_owned(), old: Some(u64::MAX), new: 0 },
+        ];
+        for phase in Phase::ALL {
+            let journal = Journal { phase, steps: steps.clone() };
+            journal.write(&directory, &super::super::disk::Real).unwrap();
+            assert_eq!(Journal::read(&directory).unwrap(), Some(journal));
+        }
+        let text = fs::read_to_string(directory.join(JOURNAL)).unwrap();
+        for cut in 0..text.len() {
+            assert_eq!(Journal::parse(&text[..cut]), None, "{cut}");
+        }
+        assert_eq!(Journal::parse("odgen journal 1\nundo\n- 0000000000000000 ../a\nend\n"), None);
+        Journal::close(&directory, &super::super::disk::Real).unwrap();
+        assert_eq!(Journal::read(&directory).unwrap(), None);
+        fs::remove_dir_all(&directory).unwrap();
+    }
+}

@@ -1,0 +1,106 @@
+//! Names of files that every system takes, so that what is made on one machine can be made on the next.
+
+use std::collections::BTreeMap;
+
+/// What is wrong with a path that an output asks for, in words; its parts are separated by `/`.
+pub fn name_problem(path: &str) -> Option<String> {
+    path.split('/').find_map(part_problem)
+}
+
+/// Two of these paths that are one file on systems which do not tell capitals from small letters.
+pub fn clash<'a>(paths: impl IntoIterator<Item = &'a str>) -> Option<(&'a str, &'a str)> {
+    let mut seen: BTreeMap<String, &str> = BTreeMap::new();
+    paths.into_iter().find_map(|path| seen.insert(path.to_lowercase(), path).map(|first| (first, path)))
+}
+
+fn part_problem(part: &str) -> Option<String> {
+    /// What Windows does not take in a name, beside the separators.
+    const FORBIDDEN: [char; 8] = ['<', '>', ':', '"', '\\', '|', '?', '*'];
+    let shown = part.escape_debug();
+    if part.is_empty() {
+        return Some("a part of its path has no name".to_owned());
+    }
+    if part == "." || part == ".." {
+        return Some(format!("`{shown}` is a directory, and no name of a file"));
+    }
+    if part.starts_with('.') && !part.trim_start_matches('.').contains('.') {
+        return Some(format!("there is nothing before the ending of `{shown}`"));
+    }
+    if part.chars().any(char::is_control) {
+        return Some(format!("`{shown}` holds a control character"));
+    }
+    if let Some(c) = part.chars().find(|c| FORBIDDEN.contains(c)) {
+        return Some(format!("`{shown}` holds `{c}`, which is not allowed on Windows"));
+    }
+    if part.ends_with(['.', ' ']) {
+        return Some(format!("`{shown}` ends with a dot or a blank, which Windows leaves out"));
+    }
+    let before_dot = part.split('.').next().unwrap_or_default().trim_end();
+    is_device(before_dot).then(|| format!("Windows keeps the name `{before_dot}` for a device of its own"))
+}
+
+/// `CON`, `NUL`, `COM1`: names that no file can have on Windows, whatever the ending.
+fn is_device(name: &str) -> bool {
+    let name = name.to_ascii_uppercase();
+    let numbered = |kind: &str| {
+        let mut rest = name.strip_prefix(kind).unwrap_or_default().chars();
+        matches!((rest.next(), rest.next()), (Some('0'..='9' | '¹' | '²' | '³'), None))
+    };
+    matches!(name.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
+        || numbered("COM")
+        || numbered("LPT")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_a_system_does_not_take_are_told() {
+        for wrong in [
+            "",
+            "..",
+            "../a",
+            "a//b",
+            "./a",
+            "/etc/a",
+            "a/",
+            "...json",
+            ".json",
+            "aux",
+            "AUX.eds",
+            "eds/nul.eds",
+            "com1.rs",
+            "LPT¹.x",
+            "con .eds",
+            "a.",
+            "a /b",
+            "a:b",
+            "c:\\x",
+            "a\nb",
+            "a\u{9b}b",
+            "what?.eds",
+        ] {
+            assert!(name_problem(wrong).is_some(), "{wrong:?}");
+        }
+        for right in [
+            "a",
+            "eds/pmc.eds",
+            "auxiliary.eds",
+            "com10.eds",
+            "com.eds",
+            ".hidden.json",
+            "größe ².json",
+            "a..b",
+        ] {
+            assert_eq!(name_problem(right), None, "{right:?}");
+        }
+    }
+
+    #[test]
+    fn names_that_differ_by_case_only_clash() {
+        assert_eq!(clash(["eds/a.eds", "eds/b.eds", "EDS/A.eds"]), Some(("eds/a.eds", "EDS/A.eds")));
+        assert_eq!(clash(["ä", "Ä"]), Some(("ä", "Ä")));
+        assert_eq!(clash(["a", "b"]), None);
+    }
+}
