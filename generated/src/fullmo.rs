@@ -111,6 +111,9 @@ impl Fullmo {
     }
 
     /// `1400h` RPDO 1 communication parameter.
+    ///
+    /// - `1400h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x200, stored with the communication parameters.
+    /// - `1400h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_1_communication_parameter(
         &self,
@@ -127,6 +130,9 @@ impl Fullmo {
     }
 
     /// `1401h` RPDO 2 communication parameter.
+    ///
+    /// - `1401h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
+    /// - `1401h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_2_communication_parameter(
         &self,
@@ -143,6 +149,9 @@ impl Fullmo {
     }
 
     /// `1402h` RPDO 3 communication parameter.
+    ///
+    /// - `1402h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
+    /// - `1402h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_3_communication_parameter(
         &self,
@@ -159,6 +168,9 @@ impl Fullmo {
     }
 
     /// `1403h` RPDO 4 communication parameter.
+    ///
+    /// - `1403h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
+    /// - `1403h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_4_communication_parameter(
         &self,
@@ -299,6 +311,9 @@ impl Fullmo {
     }
 
     /// `1800h` TPDO 1 communication parameter.
+    ///
+    /// - `1800h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x180, stored with the communication parameters.
+    /// - `1800h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_1_communication_parameter(
         &self,
@@ -315,6 +330,9 @@ impl Fullmo {
     }
 
     /// `1801h` TPDO 2 communication parameter.
+    ///
+    /// - `1801h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000280, stored with the communication parameters.
+    /// - `1801h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_2_communication_parameter(
         &self,
@@ -331,6 +349,9 @@ impl Fullmo {
     }
 
     /// `1802h` TPDO 3 communication parameter.
+    ///
+    /// - `1802h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000380, stored with the communication parameters.
+    /// - `1802h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_3_communication_parameter(
         &self,
@@ -347,6 +368,9 @@ impl Fullmo {
     }
 
     /// `1803h` TPDO 4 communication parameter.
+    ///
+    /// - `1803h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000480, stored with the communication parameters.
+    /// - `1803h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_4_communication_parameter(
         &self,
@@ -513,6 +537,15 @@ impl Fullmo {
     }
 
     /// `3511h` input functions 1: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3511h.1` edge functions: UNSIGNED16, rw.
+    /// - `3511h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3511h.3` result 1: INTEGER32, rw.
+    /// - `3511h.4` result 2: INTEGER32, rw.
+    /// - `3511h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3511h.6` target velocity: INTEGER32, rw.
+    /// - `3511h.7` acceleration: UNSIGNED16, rw.
+    /// - `3511h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_1(&self) -> records::InputFunctions1<&Self> {
         records::InputFunctions1(self, [648, 650, 328, 332, 652, 336, 654, 340])
@@ -527,6 +560,15 @@ impl Fullmo {
     }
 
     /// `3512h` input functions 2: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3512h.1` edge functions: UNSIGNED16, rw.
+    /// - `3512h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3512h.3` result 1: INTEGER32, rw.
+    /// - `3512h.4` result 2: INTEGER32, rw.
+    /// - `3512h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3512h.6` target velocity: INTEGER32, rw.
+    /// - `3512h.7` acceleration: UNSIGNED16, rw.
+    /// - `3512h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_2(&self) -> records::InputFunctions2<&Self> {
         records::InputFunctions1(self, [656, 658, 344, 348, 660, 352, 662, 356])
@@ -541,6 +583,15 @@ impl Fullmo {
     }
 
     /// `3513h` input functions 3: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3513h.1` edge functions: UNSIGNED16, rw.
+    /// - `3513h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3513h.3` result 1: INTEGER32, rw.
+    /// - `3513h.4` result 2: INTEGER32, rw.
+    /// - `3513h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3513h.6` target velocity: INTEGER32, rw.
+    /// - `3513h.7` acceleration: UNSIGNED16, rw.
+    /// - `3513h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_3(&self) -> records::InputFunctions3<&Self> {
         records::InputFunctions1(self, [664, 666, 360, 364, 668, 368, 670, 372])
@@ -555,6 +606,15 @@ impl Fullmo {
     }
 
     /// `3514h` input functions 4: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3514h.1` edge functions: UNSIGNED16, rw.
+    /// - `3514h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3514h.3` result 1: INTEGER32, rw.
+    /// - `3514h.4` result 2: INTEGER32, rw.
+    /// - `3514h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3514h.6` target velocity: INTEGER32, rw.
+    /// - `3514h.7` acceleration: UNSIGNED16, rw.
+    /// - `3514h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_4(&self) -> records::InputFunctions4<&Self> {
         records::InputFunctions1(self, [672, 674, 376, 380, 676, 384, 678, 388])
@@ -569,6 +629,15 @@ impl Fullmo {
     }
 
     /// `3515h` input functions 5: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3515h.1` edge functions: UNSIGNED16, rw.
+    /// - `3515h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3515h.3` result 1: INTEGER32, rw.
+    /// - `3515h.4` result 2: INTEGER32, rw.
+    /// - `3515h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3515h.6` target velocity: INTEGER32, rw.
+    /// - `3515h.7` acceleration: UNSIGNED16, rw.
+    /// - `3515h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_5(&self) -> records::InputFunctions5<&Self> {
         records::InputFunctions1(self, [680, 682, 392, 396, 684, 400, 686, 404])
@@ -583,6 +652,15 @@ impl Fullmo {
     }
 
     /// `3516h` input functions 6: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3516h.1` edge functions: UNSIGNED16, rw.
+    /// - `3516h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3516h.3` result 1: INTEGER32, rw.
+    /// - `3516h.4` result 2: INTEGER32, rw.
+    /// - `3516h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3516h.6` target velocity: INTEGER32, rw.
+    /// - `3516h.7` acceleration: UNSIGNED16, rw.
+    /// - `3516h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_6(&self) -> records::InputFunctions6<&Self> {
         records::InputFunctions1(self, [688, 690, 408, 412, 692, 416, 694, 420])
@@ -597,6 +675,15 @@ impl Fullmo {
     }
 
     /// `3517h` input functions 7: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3517h.1` edge functions: UNSIGNED16, rw.
+    /// - `3517h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3517h.3` result 1: INTEGER32, rw.
+    /// - `3517h.4` result 2: INTEGER32, rw.
+    /// - `3517h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3517h.6` target velocity: INTEGER32, rw.
+    /// - `3517h.7` acceleration: UNSIGNED16, rw.
+    /// - `3517h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_7(&self) -> records::InputFunctions7<&Self> {
         records::InputFunctions1(self, [696, 698, 424, 428, 700, 432, 702, 436])
@@ -611,6 +698,15 @@ impl Fullmo {
     }
 
     /// `3518h` input functions 8: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3518h.1` edge functions: UNSIGNED16, rw.
+    /// - `3518h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3518h.3` result 1: INTEGER32, rw.
+    /// - `3518h.4` result 2: INTEGER32, rw.
+    /// - `3518h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3518h.6` target velocity: INTEGER32, rw.
+    /// - `3518h.7` acceleration: UNSIGNED16, rw.
+    /// - `3518h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_8(&self) -> records::InputFunctions8<&Self> {
         records::InputFunctions1(self, [704, 706, 440, 444, 708, 448, 710, 452])
@@ -625,6 +721,15 @@ impl Fullmo {
     }
 
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// - `3519h.1` edge functions: UNSIGNED16, rw.
+    /// - `3519h.2` edge TPDOs: UNSIGNED16, rw.
+    /// - `3519h.3` result 1: INTEGER32, rw.
+    /// - `3519h.4` result 2: INTEGER32, rw.
+    /// - `3519h.5` motion delay: UNSIGNED16, rw, in ms.
+    /// - `3519h.6` target velocity: INTEGER32, rw.
+    /// - `3519h.7` acceleration: UNSIGNED16, rw.
+    /// - `3519h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_9(&self) -> records::InputFunctions9<&Self> {
         records::InputFunctions1(self, [712, 714, 456, 460, 716, 464, 718, 468])
@@ -2056,7 +2161,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
+        /// UNSIGNED32, rw, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2103,7 +2208,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
+        /// UNSIGNED32, rw, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])

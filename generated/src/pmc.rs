@@ -192,6 +192,9 @@ impl Pmc {
     }
 
     /// `1400h` RPDO 1 communication parameter.
+    ///
+    /// - `1400h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x200, stored with the communication parameters.
+    /// - `1400h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_1_communication_parameter(
         &self,
@@ -208,6 +211,9 @@ impl Pmc {
     }
 
     /// `1401h` RPDO 2 communication parameter.
+    ///
+    /// - `1401h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
+    /// - `1401h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_2_communication_parameter(
         &self,
@@ -224,6 +230,9 @@ impl Pmc {
     }
 
     /// `1402h` RPDO 3 communication parameter.
+    ///
+    /// - `1402h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
+    /// - `1402h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_3_communication_parameter(
         &self,
@@ -240,6 +249,9 @@ impl Pmc {
     }
 
     /// `1403h` RPDO 4 communication parameter.
+    ///
+    /// - `1403h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
+    /// - `1403h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_4_communication_parameter(
         &self,
@@ -380,6 +392,9 @@ impl Pmc {
     }
 
     /// `1800h` TPDO 1 communication parameter.
+    ///
+    /// - `1800h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x40000180, stored with the communication parameters.
+    /// - `1800h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_1_communication_parameter(
         &self,
@@ -396,6 +411,9 @@ impl Pmc {
     }
 
     /// `1801h` TPDO 2 communication parameter.
+    ///
+    /// - `1801h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0xC0000280, stored with the communication parameters.
+    /// - `1801h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_2_communication_parameter(
         &self,
@@ -412,6 +430,9 @@ impl Pmc {
     }
 
     /// `1802h` TPDO 3 communication parameter.
+    ///
+    /// - `1802h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0xC0000380, stored with the communication parameters.
+    /// - `1802h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_3_communication_parameter(
         &self,
@@ -428,6 +449,9 @@ impl Pmc {
     }
 
     /// `1803h` TPDO 4 communication parameter.
+    ///
+    /// - `1803h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0xC0000480, stored with the communication parameters.
+    /// - `1803h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_4_communication_parameter(
         &self,
@@ -2715,7 +2739,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
+        /// UNSIGNED32, rw, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2762,7 +2786,7 @@ pub mod records {
     impl<D: Borrow<super::Pmc>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
+        /// UNSIGNED32, rw, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])

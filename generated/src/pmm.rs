@@ -192,6 +192,9 @@ impl Pmm {
     }
 
     /// `1400h` RPDO 1 communication parameter.
+    ///
+    /// - `1400h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000200, stored with the communication parameters.
+    /// - `1400h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_1_communication_parameter(
         &self,
@@ -208,6 +211,9 @@ impl Pmm {
     }
 
     /// `1401h` RPDO 2 communication parameter.
+    ///
+    /// - `1401h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
+    /// - `1401h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_2_communication_parameter(
         &self,
@@ -224,6 +230,9 @@ impl Pmm {
     }
 
     /// `1402h` RPDO 3 communication parameter.
+    ///
+    /// - `1402h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
+    /// - `1402h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_3_communication_parameter(
         &self,
@@ -240,6 +249,9 @@ impl Pmm {
     }
 
     /// `1403h` RPDO 4 communication parameter.
+    ///
+    /// - `1403h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
+    /// - `1403h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn rpdo_4_communication_parameter(
         &self,
@@ -380,6 +392,9 @@ impl Pmm {
     }
 
     /// `1800h` TPDO 1 communication parameter.
+    ///
+    /// - `1800h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000180, stored with the communication parameters.
+    /// - `1800h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_1_communication_parameter(
         &self,
@@ -396,6 +411,9 @@ impl Pmm {
     }
 
     /// `1801h` TPDO 2 communication parameter.
+    ///
+    /// - `1801h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000280, stored with the communication parameters.
+    /// - `1801h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_2_communication_parameter(
         &self,
@@ -412,6 +430,9 @@ impl Pmm {
     }
 
     /// `1802h` TPDO 3 communication parameter.
+    ///
+    /// - `1802h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000380, stored with the communication parameters.
+    /// - `1802h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_3_communication_parameter(
         &self,
@@ -428,6 +449,9 @@ impl Pmm {
     }
 
     /// `1803h` TPDO 4 communication parameter.
+    ///
+    /// - `1803h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000480, stored with the communication parameters.
+    /// - `1803h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
     #[inline]
     pub const fn tpdo_4_communication_parameter(
         &self,
@@ -1454,6 +1478,10 @@ impl Pmm {
     }
 
     /// `3110h` temperature supervisor battery: Monitoring of the battery temperature (3010h); result in 3006h.
+    ///
+    /// - `3110h.1` warning limit: INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
+    /// - `3110h.2` error limit: INTEGER16, rw, in 0.1 °C, default 55.0 °C, stored with the application parameters.
+    /// - `3110h.3` lower limit: INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
     #[inline]
     pub const fn temperature_supervisor_battery(
         &self,
@@ -1470,6 +1498,10 @@ impl Pmm {
     }
 
     /// `3111h` temperature supervisor heat sink: Monitoring of the heat sink temperature (3011h); result in 3007h.
+    ///
+    /// - `3111h.1` warning limit: INTEGER16, rw, in 0.1 °C, default 75.0 °C, stored with the application parameters.
+    /// - `3111h.2` error limit: INTEGER16, rw, in 0.1 °C, default 80.0 °C, stored with the application parameters.
+    /// - `3111h.3` lower limit: INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
     #[inline]
     pub const fn temperature_supervisor_heat_sink(
         &self,
@@ -1486,6 +1518,10 @@ impl Pmm {
     }
 
     /// `3112h` temperature supervisor sensor1: Monitoring of external sensor 1 (3012h) at X15.1/X15.2; result in 3008h.
+    ///
+    /// - `3112h.1` warning limit: INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
+    /// - `3112h.2` error limit: INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
+    /// - `3112h.3` lower limit: INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
     #[inline]
     pub const fn temperature_supervisor_sensor1(
         &self,
@@ -1502,6 +1538,10 @@ impl Pmm {
     }
 
     /// `3113h` temperature supervisor sensor2: Monitoring of external sensor 2 (3013h) at X15.3/X15.4; result in 3009h.
+    ///
+    /// - `3113h.1` warning limit: INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
+    /// - `3113h.2` error limit: INTEGER16, rw, in 0.1 °C, default 50.0 °C, stored with the application parameters.
+    /// - `3113h.3` lower limit: INTEGER16, rw, in 0.1 °C, default -20.0 °C, stored with the application parameters.
     #[inline]
     pub const fn temperature_supervisor_sensor2(
         &self,
@@ -1518,6 +1558,14 @@ impl Pmm {
     }
 
     /// `3201h` temperature controller battery: Keeps the battery temperature (3010h) inside a range. As delivered it heats with the relay at X16.1/X16.2 and blows with the fan at X14.5; cooling is not used.
+    ///
+    /// - `3201h.1` heater: INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
+    /// - `3201h.2` cooler: INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
+    /// - `3201h.3` hysteresis: INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
+    /// - `3201h.4` output heater: UNSIGNED16, rw, default 0x0040, stored with the application parameters.
+    /// - `3201h.5` output cooler: UNSIGNED16, rw, default 0x0000, stored with the application parameters.
+    /// - `3201h.6` output fan: UNSIGNED16, rw, default 0x0010, stored with the application parameters.
+    /// - `3201h.7` delay fan off: UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
     #[inline]
     pub const fn temperature_controller_battery(
         &self,
@@ -1534,6 +1582,14 @@ impl Pmm {
     }
 
     /// `3202h` temperature controller sensor 1: Keeps the temperature of external sensor 1 (3012h, X15.1/X15.2) inside a range. As delivered all its output masks are 0, which turns it off.
+    ///
+    /// - `3202h.1` heater: INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
+    /// - `3202h.2` cooler: INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
+    /// - `3202h.3` hysteresis: INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
+    /// - `3202h.4` output heater: UNSIGNED16, rw, default 0x0000, stored with the application parameters.
+    /// - `3202h.5` output cooler: UNSIGNED16, rw, default 0x0000, stored with the application parameters.
+    /// - `3202h.6` output fan: UNSIGNED16, rw, default 0x0000, stored with the application parameters.
+    /// - `3202h.7` delay fan off: UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
     #[inline]
     pub const fn temperature_controller_sensor_1(
         &self,
@@ -1550,6 +1606,14 @@ impl Pmm {
     }
 
     /// `3203h` temperature controller sensor 2: Keeps the temperature of external sensor 2 (3013h, X15.3/X15.4) inside a range. As delivered it heats with the relay at X16.3/X16.4 and blows with the fan at X14.6; cooling is not used.
+    ///
+    /// - `3203h.1` heater: INTEGER16, rw, in 0.1 °C, default 0.0 °C, stored with the application parameters.
+    /// - `3203h.2` cooler: INTEGER16, rw, in 0.1 °C, default 45.0 °C, stored with the application parameters.
+    /// - `3203h.3` hysteresis: INTEGER16, rw, in 0.1 K, default 5.0 K, stored with the application parameters.
+    /// - `3203h.4` output heater: UNSIGNED16, rw, default 0x0080, stored with the application parameters.
+    /// - `3203h.5` output cooler: UNSIGNED16, rw, default 0x0000, stored with the application parameters.
+    /// - `3203h.6` output fan: UNSIGNED16, rw, default 0x0020, stored with the application parameters.
+    /// - `3203h.7` delay fan off: UNSIGNED16, rw, in s, default 120 s, stored with the application parameters.
     #[inline]
     pub const fn temperature_controller_sensor_2(
         &self,
@@ -2573,7 +2637,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
+        /// UNSIGNED32, rw, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2620,7 +2684,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters. The objects differ in the rest.
+        /// UNSIGNED32, rw, stored with the communication parameters.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -3350,7 +3414,7 @@ pub mod records {
     impl<D: Borrow<super::Pmm>> TemperatureSupervisorBattery<D> {
         /// Sub-index 1: warning limit: Warning from this temperature on.
         ///
-        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. The objects differ in the rest.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters.
         #[inline]
         pub fn warning_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3360,7 +3424,7 @@ pub mod records {
 
         /// Sub-index 2: error limit: Fault with an emergency message from this temperature on.
         ///
-        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. The objects differ in the rest.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters.
         #[inline]
         pub fn error_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3370,7 +3434,7 @@ pub mod records {
 
         /// Sub-index 3: lower limit: Warning below this temperature.
         ///
-        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters. The objects differ in the rest.
+        /// INTEGER16, rw, in 0.1 °C, stored with the application parameters.
         #[inline]
         pub fn lower_limit(&self) -> super::units::Decicelsius<i16> {
             super::units::Decicelsius(
@@ -3445,7 +3509,7 @@ pub mod records {
 
         /// Sub-index 4: output heater: Outputs that switch the heater.
         ///
-        /// UNSIGNED16, rw, stored with the application parameters. The objects differ in the rest.
+        /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
         pub fn output_heater(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(
@@ -3465,7 +3529,7 @@ pub mod records {
 
         /// Sub-index 6: output fan: Outputs that switch the fan.
         ///
-        /// UNSIGNED16, rw, stored with the application parameters. The objects differ in the rest.
+        /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
         pub fn output_fan(&self) -> super::types::PmmOutputMask {
             super::types::PmmOutputMask(

@@ -114,7 +114,8 @@ fn compile_eds(
 ) -> Compiled {
     let mut diagnostics = Diagnostics::new();
     let file = sources.file(root);
-    let document = eds::Document::scan(root, file.text());
+    let text = straight(file.text());
+    let document = eds::Document::scan(root, &text);
     let name = eds::file_name(file.name());
     let facts = FileFacts { name, encoding: file.encoding() };
     let view = View::new(&document, root, eds::is_dcf(name), facts);
@@ -268,21 +269,17 @@ pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result
     if bytes.len() <= LARGEST_FILE {
         if eds::has_eds_name(name) {
             let (text, encoding) = encoding::decode(bytes);
-            let text = straight(text);
             return Ok(sources.add_decoded(name, text, encoding));
         }
         // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
         if std::str::from_utf8(&bytes).is_err() {
             let (text, encoding) = encoding::decode(bytes.clone());
-            let text = straight(text);
             if eds::is_eds(name, &text) {
                 return Ok(sources.add_decoded(name, text, encoding));
             }
         }
     }
-    let text = read_text(name, bytes)?;
-    let text = if !text.is_ascii() && eds::is_eds(name, &text) { straight(text) } else { text };
-    Ok(sources.add(name, text))
+    Ok(sources.add(name, read_text(name, bytes)?))
 }
 
 /// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.

@@ -302,16 +302,23 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0823", pdo(Pdo { cob_id: ("rw", "0x185"), ..TPDO })),
         ("OD0823", pdo(Pdo { cob_id: ("rw", "$NODEID+0x180"), ..RPDO })),
         ("OD0823", pdo(Pdo { index: 0x1804, cob_id: ("rw", "$NODEID+0x1C0"), ..TPDO })),
-        ("OD0824", pdo_with_times(TPDO.index, "1")),
-        ("OD0824", pdo_with_times(TPDO.index, "253")),
-        ("OD0824", pdo_with_times(RPDO.index, "255")),
-        ("OD0824", pdo_with_times(TPDO.index, "255").replacen("DefaultValue=100", "DefaultValue=2000", 1)),
         ("OD0825", var(0x2000, "level", 5, "wo", &default("1"))),
         ("OD0826", var(0x2000, "level", 0x16, "ro", "")),
         ("OD0827", info("GroupMessaging=1") + &level("")),
         ("OD0827", info("GroupMessaging=1") + &pdo(Pdo { count: ("ro", "1"), ..TPDO })),
+    ]
+}
+
+/// Faults of PDOs in time.
+fn faults_of_times() -> Vec<(&'static str, String)> {
+    let counter = |value: &str| var(0x1019, "counter", 5, "rw", &format!("DefaultValue={value}"));
+    vec![
+        ("OD0824", pdo_with_times(TPDO.index, "1")),
+        ("OD0824", pdo_with_times(TPDO.index, "253")),
+        ("OD0824", pdo_with_times(RPDO.index, "255")),
+        ("OD0824", pdo_with_times(TPDO.index, "255").replacen("DefaultValue=100", "DefaultValue=2000", 1)),
         ("OD0836", pdo_with_sync_start(TPDO.index, "1", "")),
-        ("OD0836", pdo_with_sync_start(TPDO.index, "1", &var(0x1019, "counter", 5, "rw", &default("2")))),
+        ("OD0836", pdo_with_sync_start(TPDO.index, "1", &counter("2"))),
         ("OD0836", pdo_with_sync_start(TPDO.index, "254", "")),
         ("OD0836", pdo_with_sync_start(RPDO.index, "1", "")),
     ]
@@ -406,8 +413,11 @@ const OUT_OF_REACH: [(&str, &str); 6] = [
 #[test]
 fn an_eds_is_spoken_of_in_its_own_words() {
     let mut wrong = String::new();
-    let eds =
-        faults().into_iter().chain(faults_of_services()).map(|(code, text)| (Language::Eds, code, text));
+    let eds = faults()
+        .into_iter()
+        .chain(faults_of_times())
+        .chain(faults_of_services())
+        .map(|(code, text)| (Language::Eds, code, text));
     let dcf = faults_of_nodes().into_iter().map(|(code, text)| (Language::Dcf, code, text));
     for (language, code, text) in eds.chain(dcf) {
         let mut sources = SourceMap::new();
@@ -423,7 +433,8 @@ fn an_eds_is_spoken_of_in_its_own_words() {
 
 #[test]
 fn every_rule_is_tried_with_an_eds() {
-    let all = faults().into_iter().chain(faults_of_services()).chain(faults_of_nodes());
+    let all =
+        faults().into_iter().chain(faults_of_times()).chain(faults_of_services()).chain(faults_of_nodes());
     let tried: BTreeSet<&str> = all.map(|(code, _)| code).collect();
     for rule in RULES {
         let is_out_of_reach = OUT_OF_REACH.iter().any(|(code, _)| *code == rule.code.id);

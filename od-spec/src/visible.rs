@@ -63,13 +63,13 @@ pub fn visible_json(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// The text of a foreign file with signs of the same length for what turns text: no output has to mind it. Foreign files are read
-/// whatever is in them.
-pub(crate) fn straight(text: String) -> String {
+/// A foreign text with signs of the same length for what turns text, so that no output has to mind it: foreign files are read
+/// whatever is in them. Places stay, and so does the file.
+pub(crate) fn straight(text: &str) -> Cow<'_, str> {
     if text.is_ascii() || !text.contains(turns_text) {
-        return text;
+        return Cow::Borrowed(text);
     }
-    text.chars().map(|c| if turns_text(c) { stand_in(c) } else { c }).collect()
+    Cow::Owned(text.chars().map(|c| if turns_text(c) { stand_in(c) } else { c }).collect())
 }
 
 /// A sign that takes the same bytes, so that places stay.
@@ -115,6 +115,6 @@ mod tests {
             visible_json("{\"a\": \"\u{9b}\u{7f}\u{202e}\"}\n"),
             "{\"a\": \"\\u009b\\u007f\\u202e\"}\n"
         );
-        assert_eq!(straight("a\u{202e}b\u{61c}".to_owned()), "a\u{fffd}b·");
+        assert_eq!(straight("a\u{202e}b\u{61c}"), "a\u{fffd}b·");
     }
 }

@@ -29,8 +29,8 @@ fn objects_of(text: &str, feature: &str) -> Vec<u16> {
 }
 
 /// Warnings that a feature without its companions deserves: nothing that a mandatory feature would bring, objects for PDOs without
-/// PDOs, guarding beside a heartbeat, constants without the device's value, nothing to store.
-const USEFUL_WITH_MORE: [&str; 5] = ["OD0801", "OD0802", "OD0803", "OD0805", "OD0809"];
+/// PDOs, guarding beside a heartbeat, constants without the device's value, nothing to store, and a choice that the device has to make.
+const USEFUL_WITH_MORE: [&str; 6] = ["OD0801", "OD0802", "OD0803", "OD0805", "OD0809", "OD0837"];
 
 /// The system, and the messages one per line.
 fn compiled(text: &str) -> (Option<System>, String) {
@@ -53,6 +53,8 @@ const DEVICE_OBJECTS: &str = "
   0x6504: {from: cia402, capacity: 40}
   0x6505: {from: cia402, capacity: 40}
   0x6502: {from: cia402, default: 0x3EF}
+  0x60D0: {from: cia402, array: {elements: {1: {default: 1}, 2: {default: 1}}}}
+  0x68D0: {from: cia402, array: {elements: {1: {default: 1}, 2: {default: 1}}}}
 ";
 
 fn head(features: &str) -> String {

@@ -54,7 +54,7 @@ impl<'a> Change<'a> {
             return Err(io::Error::other("it is no regular file"));
         }
         let old = fs::read(&target)?;
-        Ok((old != bytes).then(|| Self { path, target, bytes, old: Some(Old { metadata, bytes: old }) }))
+        Ok((old != bytes).then_some(Self { path, target, bytes, old: Some(Old { metadata, bytes: old }) }))
     }
 
     /// Whether there is no file yet.

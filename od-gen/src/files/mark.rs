@@ -43,10 +43,10 @@ pub(super) fn list(directory: &Path, set: &[Artifact], old: &BTreeSet<String>) -
     if paths.is_empty() {
         return None;
     }
-    let lines: String = paths.iter().map(|path| format!("{path}\n")).collect();
-    Some(Artifact {
-        path: LIST.to_owned(),
-        bytes: format!("{LIST_HEAD}{lines}").into_bytes(),
-        purpose: String::new(),
-    })
+    let mut text = LIST_HEAD.to_owned();
+    for path in paths {
+        text.push_str(&path);
+        text.push('\n');
+    }
+    Some(Artifact { path: LIST.to_owned(), bytes: text.into_bytes(), purpose: String::new() })
 }

@@ -2,12 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use od_spec::model::SubIndex;
+
 use super::{Place, Plan, PlannedEntry, PlannedObject, Shape, ValueKind};
 
 /// What a member of a group is, apart from its place.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Member<'p> {
+    sub: SubIndex,
+    identifier: &'p str,
     name: &'p str,
+    about: Option<&'p str>,
     kind: &'p ValueKind,
     size: usize,
     limited: bool,
@@ -35,7 +40,8 @@ impl Groups {
 }
 
 impl Plan<'_> {
-    /// The groups that objects share. The place of a value is the only thing in which they may differ.
+    /// The groups that objects share: with the same members, which mean the same. The places of the values differ, and facts such
+    /// as limits and defaults may.
     pub(crate) fn groups(&self) -> Groups {
         let mut alike: BTreeMap<Vec<Member<'_>>, Vec<usize>> = BTreeMap::new();
         for (position, object) in self.objects.iter().enumerate() {
@@ -55,7 +61,8 @@ impl Plan<'_> {
     /// The members of a group whose values all lie in the image.
     fn group_members(&self, object: &PlannedObject<'_>) -> Option<Vec<Member<'_>>> {
         matches!(object.shape, Shape::Group { .. }).then_some(())?;
-        self.accessible(object).map(member).collect()
+        let language = self.system.language();
+        self.accessible(object).map(|planned| member(planned, language)).collect()
     }
 
     /// The entries of an object.
@@ -73,9 +80,19 @@ impl Plan<'_> {
 }
 
 /// What an entry is as a member of a group; `None` for a value that does not lie in the image.
-fn member<'p>(planned: &'p PlannedEntry<'_>) -> Option<Member<'p>> {
-    let PlannedEntry { entry, member: name, place: Place::Image(_), size, kind, .. } = planned else {
+fn member<'p>(planned: &'p PlannedEntry<'_>, language: &str) -> Option<Member<'p>> {
+    let PlannedEntry { id, entry, member: identifier, place: Place::Image(_), size, kind, .. } = planned
+    else {
         return None;
     };
-    Some(Member { name, kind, size: *size, limited: entry.low.is_some() || entry.high.is_some() })
+    let about = entry.about.get(language);
+    Some(Member {
+        sub: id.sub,
+        identifier,
+        name: &entry.name,
+        about,
+        kind,
+        size: *size,
+        limited: entry.low.is_some() || entry.high.is_some(),
+    })
 }

@@ -14,13 +14,14 @@ fn kills() -> u64 {
 
 /// Three devices that all show `mark`, with many documents.
 fn fleet(mark: &str) -> String {
-    let devices: String = (1..=3)
+    let devices = (1..=3)
         .map(|n| {
             format!(
                 "  lamp-{n}: {{name: Lamp {n} {mark}, bit-rates: [125], features: [heartbeat producer]}}\n"
             )
         })
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     LAMP.replace("  lamp: {name: Lamp, bit-rates: [125, 500], features: [heartbeat producer]}\n", &devices)
         .replace("pdos:\n  lamp:\n    receive: {1: {map: [brightness]}}\n", "")
         .replace("pdo: receive, ", "")
@@ -82,9 +83,9 @@ fn a_build_that_is_killed_at_any_time_leaves_no_mixture_to_the_next() {
         let names: Vec<&String> = found.iter().map(|(name, _)| name).collect();
         assert!(found == now || found == sets[set], "round {round}: {names:?}");
         if found == now {
-            kept += 1
+            kept += 1;
         } else {
-            completed += 1
+            completed += 1;
         }
         now = found;
     }

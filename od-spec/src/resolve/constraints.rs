@@ -171,7 +171,7 @@ fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics)
 /// Conditions compute with integers, and ask for bits that exist.
 fn check_operands(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut Diagnostics) {
     for (entry, bit) in condition.value.operands() {
-        let Some(found) = devices.entry(&entry) else { continue };
+        let Some(found) = devices.entry(entry) else { continue };
         let problem = match (found.data_type.range(), found.data_type.bits(), bit) {
             (None, ..) => format!("{entry} is {}: conditions compute with integers", found.data_type),
             (_, Some(width), Some(bit)) if u16::from(bit) >= width => format!("{entry} has no bit {bit}"),

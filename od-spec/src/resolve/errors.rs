@@ -38,7 +38,7 @@ pub(super) fn resolve(
             None => None,
         };
         for code in first..=last {
-            let below = library.map(|library| libraries.error(library, code));
+            let below = library.and_then(|library| libraries.error(library, code));
             let Some(error) = error(decl, code, below, diagnostics) else { break };
             codes.insert(code, (decl.codes.span, error));
         }
@@ -50,11 +50,10 @@ pub(super) fn resolve(
 fn error(
     decl: &ErrorDecl,
     code: u16,
-    library: Option<Option<&ErrorDecl>>,
+    below: Option<&ErrorDecl>,
     diagnostics: &mut Diagnostics,
 ) -> Option<ErrorCode> {
-    let below = library.flatten();
-    if let (Some(from), Some(None)) = (&decl.from, library) {
+    if let (Some(from), None) = (&decl.from, below) {
         let missing = libraries::not_there(from, &format!("error code {code:04X}h"));
         diagnostics.push(missing.help("write the code in full, without `from:`"));
         return None;

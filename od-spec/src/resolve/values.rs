@@ -167,9 +167,10 @@ fn integer(
 
 /// The first names of an enum, in backticks.
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let mut names: Vec<String> = names.map(|name| format!("`{}`", shorten(name))).collect();
-    if names.len() > 10 {
-        names.truncate(9);
+    const MOST: usize = 10;
+    let mut names: Vec<String> = names.take(MOST + 1).map(|name| format!("`{}`", shorten(name))).collect();
+    if names.len() > MOST {
+        names.truncate(MOST - 1);
         names.push("…".to_owned());
     }
     names.join(", ")

@@ -66,7 +66,7 @@ impl Settings {
     /// Texts to begin with, one for each device.
     pub fn seeds(&self) -> Vec<Seed> {
         let seed = |target: &Target| {
-            let text = target.seed.iter().map(|line| format!("{line}\n")).collect::<String>();
+            let text: String = target.seed.iter().flat_map(|line| [line.as_str(), "\n"]).collect();
             Seed { name: target.name.clone(), bytes: text.into_bytes() }
         };
         self.devices.iter().map(seed).collect()

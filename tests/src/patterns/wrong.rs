@@ -4,9 +4,6 @@ use super::{Pattern, device_with, each, index, list, objects, pattern, spec};
 
 /// The patterns.
 pub const WRONG: &[Pattern] = &[
-    pattern("aliases of a list", |n| {
-        format!("od-spec: 1\ntitle: &a [{}]\nhistory: [{}]\n", "x, ".repeat(n), "*a, ".repeat(n))
-    }),
     pattern("a run of arrays", |n| {
         spec(
             "",

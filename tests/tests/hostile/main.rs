@@ -1,5 +1,7 @@
 //! Texts from outside never command: whatever a specification, an EDS or a name holds, it stays a text in every output.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::collections::BTreeSet;
 
 use od_spec::diag::codes;

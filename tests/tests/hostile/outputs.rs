@@ -31,13 +31,14 @@ pub(crate) fn skeleton(system: &System, sources: &SourceMap, complaints: &mut Ve
         .collect();
     for file in docs::artifacts(system, "", "texts", &docs::options(system, &[], None), &templates).unwrap() {
         let text = String::from_utf8(file.bytes.clone()).unwrap();
-        if file.path.ends_with(".md") {
-            markdown(&text, &mut count, complaints);
-        } else if file.path.ends_with(".html") {
-            html(&text, &mut count);
+        let kind = file.path.rsplit('.').next().unwrap_or_default();
+        match kind {
+            "md" => markdown(&text, &mut count, complaints),
+            "html" => html(&text, &mut count),
+            _ => (),
         }
         // JSON escapes what it has to; nobody shows that file.
-        let is_page = !file.path.ends_with(".json");
+        let is_page = kind != "json";
         if is_page && text.contains(|c: char| is_hidden(c) && !matches!(c, '\n' | '\t' | '\r')) {
             complaints.push(format!("{} holds a hidden character", file.path));
         }
@@ -54,7 +55,9 @@ pub(crate) fn skeleton(system: &System, sources: &SourceMap, complaints: &mut Ve
         let text = String::from_utf8(file.bytes).unwrap();
         match syn::parse_file(&text) {
             Ok(parsed) => {
-                parsed.items.iter().for_each(|item| count(format!("rust {:?}", std::mem::discriminant(item))))
+                for item in &parsed.items {
+                    count(format!("rust {:?}", std::mem::discriminant(item)));
+                }
             }
             Err(error) => complaints.push(format!("{} is no Rust: {error}", file.path)),
         }
@@ -79,7 +82,7 @@ fn eds(file: &Artifact, count: &mut impl FnMut(String), complaints: &mut Vec<Str
             complaints.push(format!("{}: {line:?}", file.path));
         }
         if line.starts_with('[') {
-            section = line.to_owned();
+            line.clone_into(&mut section);
             count(format!("eds {section}"));
         } else if let Some((key, value)) = line.split_once('=').filter(|_| !line.starts_with(';')) {
             count(format!("eds {section} {key}"));

@@ -15,13 +15,18 @@ const SENTENCES: [&str; 5] =
 /// Reads the module of one device.
 pub(crate) fn read(module: &str, output: &mut Output<'_>) {
     let lines: Vec<&str> = module.lines().map(str::trim).collect();
+    for line in &lines {
+        read_member(line, output);
+    }
     for window in lines.windows(3) {
         let [heading, "///", facts] = window else { continue };
         let Some(id) = heading.strip_prefix("/// `").and_then(|rest| rest.split_once('`')) else { continue };
         let (index, sub) = id.0.split_once("h.").unwrap_or((id.0.trim_end_matches('h'), "0"));
         let index = u16::from_str_radix(index, 16).unwrap();
         let facts = facts.strip_prefix("/// ").unwrap();
-        if facts == "The elements differ in their limits or defaults." {
+        // An object is no entry; the facts of its members stand there.
+        let is_object = facts.starts_with("The group of ") || facts.starts_with("- `");
+        if facts == "The elements differ in their limits or defaults." || is_object {
             continue;
         }
         // An accessor by sub-index is about all elements.
@@ -33,6 +38,20 @@ pub(crate) fn read(module: &str, output: &mut Output<'_>) {
             None => output.tell(index, sub.parse().unwrap(), |entry| read_facts(entry, facts)),
         }
     }
+}
+
+/// A member of an object whose group of accessors others have as well: `` - `1400h.1` name: facts. ``
+fn read_member(line: &str, output: &mut Output<'_>) {
+    let Some((id, text)) = line.strip_prefix("/// - `").and_then(|rest| rest.split_once("` ")) else {
+        return;
+    };
+    let Some((index, sub)) = id.split_once("h.") else { return };
+    let index = u16::from_str_radix(index, 16).unwrap();
+    output.tell(index, sub.parse().unwrap(), |entry| {
+        let facts = text.replace('\\', "");
+        let facts = facts.strip_prefix(&format!("{}: ", entry.name));
+        read_facts(entry, facts.unwrap_or_else(|| panic!("{text} is not about {}", entry.name)))
+    });
 }
 
 fn read_facts(entry: &Entry, text: &str) -> Facts {

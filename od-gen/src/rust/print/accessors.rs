@@ -67,12 +67,17 @@ impl Plan<'_> {
             }
             Shape::Indexed { count } => self.indexed(object, count.as_deref()),
             Shape::Group { type_name } => {
-                let about = doc(&self.object_doc(object.object));
+                let made = self.made(at, object, groups);
+                // A group of its own says itself what its members are.
+                let about = match &made {
+                    Some(_) => doc(&self.object_with_members_doc(object, &At::top().link_root())),
+                    None => doc(&self.object_doc(object.object)),
+                };
                 let about_mut = doc(&format!("[`{0}`](Self::{0}), to be changed.", object.name));
                 let (get, get_mut) =
                     (format_ident!("{}", object.name), format_ident!("{}", mutable(&object.name)));
                 let group = format_ident!("{type_name}");
-                let made = self.made(at, object, groups).unwrap_or_else(|| quote!(records::#group(self)));
+                let made = made.unwrap_or_else(|| quote!(records::#group(self)));
                 quote! {
                     #about
                     #[inline]

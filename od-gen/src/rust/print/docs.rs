@@ -7,7 +7,7 @@ use od_spec::wording::{Notation, Wording};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::plan::{Place, Plan, PlannedEntry, Shape};
+use crate::plan::{Place, Plan, PlannedEntry, PlannedObject, Shape};
 
 /// How the documentation words facts.
 pub(super) const WORDING: Wording = Wording::english(Notation::Rust);
@@ -57,11 +57,16 @@ impl Plan<'_> {
         text.push_str(if about.is_empty() { "." } else { ": " });
         text.push_str(&about);
         text.push_str("\n\n");
-        text.push_str(&facts(planned).join(", "));
+        text.push_str(&self.facts_doc(planned, root));
+        text
+    }
+
+    /// Facts of an entry, and its relations to others.
+    fn facts_doc(&self, planned: &PlannedEntry<'_>, root: &str) -> String {
+        let mut text = facts(planned).join(", ");
         text.push('.');
-        for line in
-            [self.related(planned, root), self.pdos_of(planned, root), condition(entry)].into_iter().flatten()
-        {
+        let relations = [self.related(planned, root), self.pdos_of(planned, root), condition(planned.entry)];
+        for line in relations.into_iter().flatten() {
             text.push(' ');
             text.push_str(&line);
         }
@@ -74,34 +79,33 @@ impl Plan<'_> {
         first: &PlannedEntry<'_>,
         others: impl Iterator<Item = &'p PlannedEntry<'p>>,
     ) -> String {
-        let (name, about) = (&first.entry.name, self.words(&first.entry.about));
-        let own = facts(first);
-        let mut common = own.clone();
-        let (mut is_named, mut is_about, mut is_all) = (true, true, !self.is_related(first));
+        let mut common = facts(first);
         for other in others {
-            is_named &= other.entry.name == *name;
-            is_about &= self.words(&other.entry.about) == about;
             let its = facts(other);
-            is_all &= its == own && !self.is_related(other);
             common.retain(|fact| its.contains(fact));
         }
-        let mut text = format!("Sub-index {}", first.id.sub);
-        for part in [is_named.then(|| escape(name)), is_about.then_some(about)].into_iter().flatten() {
-            if !part.is_empty() {
-                text.push_str(": ");
-                text.push_str(&part);
-            }
+        let mut text = format!("Sub-index {}: {}", first.id.sub, escape(&first.entry.name));
+        let about = self.words(&first.entry.about);
+        if !about.is_empty() {
+            text.push_str(": ");
+            text.push_str(&about);
         }
         let end = if text.ends_with('.') { "" } else { "." };
-        let rest = if is_named && is_about && is_all { "" } else { " The objects differ in the rest." };
-        format!("{text}{end}\n\n{}.{rest}", common.join(", "))
+        format!("{text}{end}\n\n{}.", common.join(", "))
     }
 
-    /// Whether more is said of an entry than its facts.
-    fn is_related(&self, planned: &PlannedEntry<'_>) -> bool {
-        self.related(planned, "").is_some()
-            || self.pdos_of(planned, "").is_some()
-            || condition(planned.entry).is_some()
+    /// Heading and meaning of an object whose group others have, too, and the facts of its members.
+    pub(super) fn object_with_members_doc(&self, object: &PlannedObject<'_>, root: &str) -> String {
+        let members = self.accessible(object).map(|planned| {
+            let text = format!(
+                "- `{}` {}: {}",
+                planned.id,
+                escape(&planned.entry.name),
+                self.facts_doc(planned, root)
+            );
+            text + "\n"
+        });
+        format!("{}\n\n{}", self.object_doc(object.object), members.collect::<Vec<_>>().concat().trim_end())
     }
 
     /// Heading and meaning of an object that is more than one entry.

@@ -109,6 +109,7 @@ mod tests {
         let text = sarif("1", &[findings]);
         assert!(!text.trim_end().contains(is_hidden), "{text}");
         // The mark is as long as what it is under.
-        assert!(human(diagnostics.iter().next().unwrap(), &sources, false).contains("^^^^^ "));
+        let shown = human(diagnostics.iter().next().unwrap(), &sources, false);
+        assert!(shown.contains("| ^^^^^\n"), "{shown}");
     }
 }
