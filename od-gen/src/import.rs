@@ -7,6 +7,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::eds::{Document, Owner};
 use od_spec::model::{Dictionary, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
+use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
 use od_spec::{Commissioning, Compiled, assign};
 
@@ -42,7 +43,9 @@ pub fn import(
     let system = compiled.system.as_ref()?;
     let device = system.devices.first()?;
     let file = sources.file(root);
-    let document = Document::scan(root, file.text());
+    // As it was compiled: a specification may not hold what turns text.
+    let text = straight(file.text());
+    let document = Document::scan(root, &text);
     let mut options =
         Options { head: vec![format!("Made from {}.", base_name(file.name()))], ..Options::default() };
     let remarks = document.remarks().into_iter().map(|remark| (place(device, remark.owner), remark.text));

@@ -65,7 +65,7 @@ pub fn visible_json(text: &str) -> Cow<'_, str> {
 
 /// A foreign text with signs of the same length for what turns text, so that no output has to mind it: foreign files are read
 /// whatever is in them. Places stay, and so does the file.
-pub(crate) fn straight(text: &str) -> Cow<'_, str> {
+pub fn straight(text: &str) -> Cow<'_, str> {
     if text.is_ascii() || !text.contains(turns_text) {
         return Cow::Borrowed(text);
     }

@@ -191,3 +191,12 @@ fn a_section_whose_name_lacks_a_bracket_is_one() {
         keeps_its_meaning(&[one, other.replace("[2001]", broken)].concat());
     }
 }
+
+/// A character that turns text in a name, a key that nobody knows, and a comment: a specification may not hold it.
+#[test]
+fn text_that_turns_does_not_stand_in_the_way() {
+    let entry = entry("2000", "DataType=5\nAccessType=rw").replace("object 2000", "level \u{202E}3");
+    let Checked { problems, .. } =
+        lamp(&format!("; \u{202E}remark\n{entry}x\u{200F}y=0\n[o\u{2066}ther]\nz=1\n"));
+    assert_eq!(problems, []);
+}
