@@ -19,8 +19,8 @@ pub struct EdsFiles {
 
 /// A file that asks for everything that is read once.
 const FIRST: &[u8] = b"[FileInfo]\nFileName=x\nDescripton=a\n[DeviceInfo]\nProductName=a\nNrOfRXPDO=1\nCompactPDO=1\n\
-    [DumyUsage]\n[DummyUsage]\nDummy0001=0\n[1000]\nParameterName=a\nDataType=7\nAccessType=ro\n[1003]\n[1018]\n[1018sub1]\n\
-    [1A00sub1]\nDefaultValue=0x20000008\n[2000]\nDataType=5\nAccesType=ro\n[6040]\n[DeviceComissioning]\nNodeID=1\n";
+    [DumyUsage]\n[DummyUsage]\nDummy0001=0\n[1000]\nParameterName=a\nDataType=7\nAccessType=ro\nDefaultValue=402\n[1003]\n[1018]\n[1018sub1]\n\
+    [1A00sub1]\nDefaultValue=0x20000008\n[2000]\nDataType=5\nAccesType=ro\n[6040]\nDataType=6\nAccessType=rw\n[DeviceComissioning]\nNodeID=1\n";
 
 impl EdsFiles {
     /// With what says how much a step used.
