@@ -1,10 +1,12 @@
 //! Tables over the whole system: what a manual has no place for, or scatters.
 
+use std::collections::BTreeSet;
+
 use od_spec::model::{
     Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Storage, SubIndex, Unit,
 };
 
-use crate::cell::{entry_anchor, object_anchor, slug};
+use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
@@ -142,7 +144,7 @@ impl Source<'_> {
                 )
             });
             (!entries.is_empty()).then(|| Row {
-                anchor: format!("unit-{}", unique(self.system.units.keys(), &unit.name)),
+                anchor: format!("unit-{}", self.unit_anchor(&unit.name)),
                 ..Row::of(vec![
                     Cell::plain(&unit.name),
                     Cell::plain(&unit.symbol),
@@ -171,17 +173,20 @@ impl Source<'_> {
     /// The entries in a unit; an object whose entries all are stands for them.
     fn entries_in(&self, unit: &Unit) -> Cell {
         let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|its_unit| its_unit.name == unit.name);
-        let (mut cell, mut shown) = (Cell::default(), Vec::new());
-        for object in self.devices.iter().flat_map(|device| device.objects.values()) {
+        let (mut cell, mut shown) = (Cell::default(), BTreeSet::new());
+        let objects = self
+            .devices
+            .iter()
+            .flat_map(|device| self.objects_in(&unit.name).filter_map(|index| device.objects.get(&index)));
+        for object in objects {
             let whole = among(object, has) == [true];
             let entries =
                 object.entries.iter().filter(|entry| has(entry)).take(if whole { 1 } else { usize::MAX });
             for entry in entries {
                 let id = EntryId { index: object.index, sub: if whole { SubIndex(0) } else { entry.sub } };
-                if shown.contains(&id) {
+                if !shown.insert(id) {
                     continue;
                 }
-                shown.push(id);
                 cell = if cell.is_empty() { cell } else { cell.text(", ") };
                 cell = cell.and(self.entry_link(id));
             }
@@ -265,7 +270,7 @@ impl Source<'_> {
             if self.machine(name).is_none() {
                 continue;
             }
-            let anchor = |kind: &str| format!("machine-{}-{kind}", unique(self.system.machines.keys(), name));
+            let anchor = |kind: &str| format!("machine-{}-{kind}", self.machine_anchor(name));
             for (kind, word, grid) in [
                 ("states", Word::States, self.states(machine)),
                 ("transitions", Word::Transitions, self.transitions(machine)),
@@ -280,8 +285,7 @@ impl Source<'_> {
 
     /// Where links to a constraint lead.
     pub(crate) fn constraint_anchor(&self, constraint: &Constraint) -> String {
-        let names = self.system.constraints.iter().map(|constraint| &constraint.name);
-        format!("constraint-{}", unique(names, &constraint.name))
+        format!("constraint-{}", self.constraint_part(&constraint.name))
     }
 
     /// One erratum.
@@ -369,11 +373,4 @@ impl Source<'_> {
             .full(rows.collect());
         Table::unnumbered("tables-all", "tables", Cell::default(), vec![grid])
     }
-}
-
-/// A name as part of an anchor, with a number where an earlier name would give the same.
-fn unique<'b>(names: impl Iterator<Item = &'b String>, name: &str) -> String {
-    let part = slug(name);
-    let before = names.take_while(|earlier| *earlier != name).filter(|earlier| slug(earlier) == part).count();
-    if before == 0 && !part.is_empty() { part } else { format!("{part}-no-{}", before + 1) }
 }

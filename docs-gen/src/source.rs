@@ -9,7 +9,7 @@ use od_spec::model::{
 };
 use od_spec::wording::Wording;
 
-use crate::cell::entry_anchor;
+use crate::cell::{entry_anchor, slug};
 use crate::language::{Language, Word};
 use crate::options::Options;
 use crate::outline::Outline;
@@ -26,6 +26,28 @@ struct Lookup {
     showing: BTreeMap<u16, Vec<EntryId>>,
     /// Positions of the sections that show an object.
     places: BTreeMap<Index, Vec<usize>>,
+    /// Objects with an entry in a unit, by the unit's name.
+    in_unit: BTreeMap<String, BTreeSet<Index>>,
+    /// Parts of anchors, by the names of what they lead to.
+    units: BTreeMap<String, String>,
+    machines: BTreeMap<String, String>,
+    constraints: BTreeMap<String, String>,
+}
+
+/// Each name as part of an anchor, with a number where an earlier name gives the same.
+fn anchors<'a>(names: impl Iterator<Item = &'a String>) -> BTreeMap<String, String> {
+    let (mut anchors, mut counts) = (BTreeMap::new(), BTreeMap::new());
+    for name in names {
+        if anchors.contains_key(name) {
+            continue;
+        }
+        let part = slug(name);
+        let before: &mut usize = counts.entry(part.clone()).or_default();
+        *before += 1;
+        let anchor = if *before == 1 && !part.is_empty() { part } else { format!("{part}-no-{before}") };
+        anchors.insert(name.clone(), anchor);
+    }
+    anchors
 }
 
 /// The model, seen by the printer.
@@ -96,8 +118,38 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// The objects that may have an entry in a unit, ascending.
+    pub(crate) fn objects_in(&self, unit: &str) -> impl Iterator<Item = Index> {
+        self.lookup.in_unit.get(unit).into_iter().flatten().copied()
+    }
+
+    /// The part of an anchor that a unit has.
+    pub(crate) fn unit_anchor<'n>(&'n self, name: &'n str) -> &'n str {
+        self.lookup.units.get(name).map_or(name, String::as_str)
+    }
+
+    /// The part of an anchor that a state machine has.
+    pub(crate) fn machine_anchor<'n>(&'n self, name: &'n str) -> &'n str {
+        self.lookup.machines.get(name).map_or(name, String::as_str)
+    }
+
+    /// The part of an anchor that a constraint has.
+    pub(crate) fn constraint_part<'n>(&'n self, name: &'n str) -> &'n str {
+        self.lookup.constraints.get(name).map_or(name, String::as_str)
+    }
+
     fn look_up(&self) -> Lookup {
-        let mut lookup = Lookup::default();
+        let mut lookup = Lookup {
+            units: anchors(self.system.units.keys()),
+            machines: anchors(self.system.machines.keys()),
+            constraints: anchors(self.system.constraints.iter().map(|constraint| &constraint.name)),
+            ..Lookup::default()
+        };
+        for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
+            if let Some(unit) = &entry.unit {
+                lookup.in_unit.entry(unit.name.clone()).or_default().insert(id.index);
+            }
+        }
         for (position, erratum) in self.system.errata.iter().enumerate() {
             if !self.is_about(erratum) {
                 continue;

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 
+use od_gen::diff::{self, Question, Scope, compare};
 use od_spec::diag::codes;
 use od_spec::diag::render::{Findings, Format, render, sarif};
 use od_spec::source::SourceMap;
@@ -178,4 +179,32 @@ fn a_text_that_turns_is_refused_wherever_it_stands() {
     }
     let (_, compiled) = compiled(&TEXTS.replacen("title:", "# \u{202e}\ntitle:", 1));
     assert!(compiled.diagnostics.iter().any(|one| one.code == codes::TURNED_TEXT));
+}
+
+/// A difference of foreign files is told in lines, and what is coloured in them is ours.
+#[test]
+fn a_difference_of_foreign_files_shows_what_they_hide() {
+    const NAMES: [&str; 2] = ["level \u{1b}[31m\u{9b}2J\u{7f}", "level \u{1b}]0;x\u{7}\u{85}::error::"];
+    let systems = NAMES.map(|name| {
+        let eds = format!(
+            "[FileInfo]\nFileVersion=1\n[DeviceInfo]\nProductName={name}\nVendorNumber=7\n[2000]\nParameterName={name}\n\
+             ObjectType=7\nDataType=5\nAccessType=rw\n"
+        );
+        let mut sources = SourceMap::new();
+        let root = sources.add("a.eds", eds);
+        compile(&mut sources, root, &mut NoFiles).system.unwrap()
+    });
+    let [old, new] = &systems;
+    let question = Question { old, new, scope: Scope::Everything, device: None, nodes: None };
+    let found = compare(&question).unwrap();
+    assert!(found.changes().count() > 0);
+    for text in [diff::human(&found, false), diff::short(&found), diff::markdown(&found)] {
+        let shown = text.chars().find(|c| is_hidden(*c) && *c != '\n');
+        assert_eq!(shown, None, "{text:?}");
+    }
+    // Without our own colours it is the same text.
+    let coloured = diff::human(&found, true);
+    let styles = ["31", "32", "33", "1", "1;31", "0"].map(|code| format!("\u{1b}[{code}m"));
+    let plain = styles.iter().fold(coloured, |text, style| text.replace(style, ""));
+    assert_eq!(plain, diff::human(&found, false));
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use od_spec::visible::visible;
+
 use super::super::{Advice, Change, Class, DeviceDifference, Difference, Proposal};
 use super::line::{Style, line};
 
@@ -10,7 +12,7 @@ const STYLE: Style = Style { arrow: "→", longest: Some(120) };
 /// What a release of a device says about its changes: by class, the heaviest first. Each change stands under its heaviest
 /// consequence; documents are summed up.
 pub(super) fn entry(difference: &Difference, device: &DeviceDifference) -> String {
-    let mut text = format!("### {}{}\n", device.name, version(device));
+    let mut text = format!("### {}{}\n", escape(&device.name), version(device));
     let all: Vec<&Change> = difference.system.iter().chain(&device.changes).collect();
     for class in Class::ALL.iter().rev() {
         let of_class: Vec<_> = all.iter().filter(|change| change.class() == *class).collect();
@@ -64,11 +66,12 @@ fn version(device: &DeviceDifference) -> String {
 /// Text in which nothing is Markdown.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
+    let one_line: String = text.chars().map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
+    for character in visible(&one_line).chars() {
         if matches!(character, '|' | '*' | '_' | '<' | '[' | ']' | '\\' | '#') {
             escaped.push('\\');
         }
-        escaped.push(if character.is_whitespace() { ' ' } else { character });
+        escaped.push(character);
     }
     escaped
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use od_spec::visible::visible;
+
 use super::super::{Change, Class, Difference, Kind};
 use super::line::{SHORT, Style, line};
 use super::{advice, scope, summary, unknown};
@@ -22,13 +24,13 @@ pub fn human(difference: &Difference, colour: bool) -> String {
         if device.changes.is_empty() && sentences.is_empty() {
             continue;
         }
-        let _ = writeln!(text, "{}", paint.bold(&format!("{}  {}", device.key, device.name)));
+        let _ = writeln!(text, "{}", paint.bold(&visible(&format!("{}  {}", device.key, device.name))));
         paint.changes(&mut text, &device.changes);
         for one in &device.unknown {
             let _ = writeln!(text, "  note: {}", unknown(*one));
         }
         if !sentences.is_empty() {
-            let _ = writeln!(text, "  proposed: {}", sentences.join("; "));
+            let _ = writeln!(text, "  proposed: {}", visible(&sentences.join("; ")));
         }
     }
     let _ = writeln!(text, "{}", summary(difference));
@@ -68,7 +70,7 @@ impl Paint {
             let _ = writeln!(text, "  {head}");
             for consequence in &change.consequences {
                 let phrase = self.painted(weight(consequence.class), consequence.class.phrase());
-                let _ = writeln!(text, "      {phrase}: {}", consequence.because);
+                let _ = writeln!(text, "      {phrase}: {}", visible(&consequence.because));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! A change as a line of text.
 
 use od_spec::model::Fact;
+use od_spec::visible::visible;
 
 use super::super::words::fact;
 use super::super::{Change, Kind, Place};
@@ -75,7 +76,8 @@ const fn is_prose(fact: Fact) -> bool {
 pub(super) fn line(change: &Change, style: Style) -> String {
     let (place, values) = (place(change), values(change, style));
     let between = if values.is_empty() { "" } else { ": " };
-    format!("{} {place}{between}{values}", change.kind().sign())
+    // One line, whatever a foreign file holds.
+    visible(&format!("{} {place}{between}{values}", change.kind().sign())).into_owned()
 }
 
 /// Two values that are too long, from shortly before the first place where they differ.
