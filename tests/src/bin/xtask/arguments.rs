@@ -67,7 +67,7 @@ cargo xtask TASK
 const TEST: &str = "\
 cargo xtask test [--all] [--without-browser] [--without-emulator]
 
-Runs the Rust tests, the fuzzer for a minute and a half, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
+Runs the Rust tests, the fuzzer for a minute, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
 emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then it runs every part
 whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
 

@@ -153,7 +153,7 @@ impl Part {
     pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
         match self {
             Part::Rust => runner.cargo(&["test", "--workspace", "--no-fail-fast"]),
-            Part::Mutants => runner.fuzz(&["--seconds", "90", "--seed", "1"]),
+            Part::Mutants => runner.fuzz(&["--seconds", "60", "--seed", "1"]),
             Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
             Part::EveryFeature => readers::every_feature(runner),
             Part::Configured => readers::configured(runner),
