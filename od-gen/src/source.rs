@@ -1,12 +1,13 @@
 //! Reading specifications from files.
 
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{Compiled, Loader, Strictness, add_source, compile_as};
+use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, part_of};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -68,7 +69,31 @@ fn refused(diagnostic: Diagnostic) -> Compiled {
     Compiled::refused(diagnostics)
 }
 
-/// The files of a directory that are called like specifications, `*.od.yaml`, ordered by name; hidden files are left out.
+/// The file that a part of a specification belongs to, where it is there; of any other file, the file itself.
+pub fn whole(path: &Path) -> PathBuf {
+    let is_specification = |name: &OsStr| name.as_encoded_bytes().ends_with(b".yaml");
+    let text =
+        path.file_name().filter(|name| is_specification(name)).and_then(|_| fs::read_to_string(path).ok());
+    let named = text.as_deref().and_then(part_of);
+    let whole = named.map(|name| plain(&path.parent().unwrap_or(Path::new("")).join(name)));
+    whole.filter(|whole| whole.is_file()).unwrap_or_else(|| path.to_owned())
+}
+
+/// A path without the steps down that a step up takes back.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match (part, plain.components().next_back()) {
+            (Component::ParentDir, Some(Component::Normal(_))) => drop(plain.pop()),
+            (Component::CurDir, _) => {}
+            (part, _) => plain.push(part),
+        }
+    }
+    plain
+}
+
+/// The files of a directory that are called like specifications, `*.od.yaml`, ordered by name; hidden files are left out, and
+/// parts of a specification.
 /// For the current directory, `.`, the paths are bare file names, as a user would type them.
 ///
 /// # Errors
@@ -81,7 +106,10 @@ pub fn specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> {
         let name = entry.file_name();
         let bytes = name.as_encoded_bytes();
         if bytes.ends_with(b".od.yaml") && !bytes.starts_with(b".") && entry.path().is_file() {
-            found.push(if directory == Path::new(".") { PathBuf::from(name) } else { entry.path() });
+            let path = if directory == Path::new(".") { PathBuf::from(name) } else { entry.path() };
+            if whole(&path) == path {
+                found.push(path);
+            }
         }
     }
     found.sort();

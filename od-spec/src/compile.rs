@@ -2,19 +2,22 @@
 
 use crate::Commissioning;
 use crate::ast::Spec;
+use crate::check;
 use crate::check::allowed::Allowed;
-use crate::check::{self, codes as rule_codes};
-use crate::decode::decode;
+use crate::decode;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
 use crate::eds;
 use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
 use crate::encoding;
+use crate::keys;
 use crate::model::System;
+use crate::named_file;
 use crate::parameters::of_node;
+use crate::parts;
 use crate::resolve::{self, Resolved};
-use crate::source::{FileId, SourceMap, Span};
+use crate::source::{FileId, SourceMap, Spanned};
 use crate::standard::{self, LIBRARIES};
 use crate::visible::straight;
 use crate::yaml;
@@ -160,16 +163,27 @@ fn build(
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<System> {
-    let node = yaml::parse(root, sources.file(root), diagnostics)?;
-    let spec = decode(&node, diagnostics);
-    // The tree is several times as large as the text; what follows can use its memory.
-    drop(node);
+    let spec = file(sources, root, loader, diagnostics)?;
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
     let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
     let mut allowed = Allowed::of(&spec, diagnostics);
     check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
     Some(system)
+}
+
+/// Reads a file and its parts. The tree, which is several times as large as the text, is gone afterwards.
+fn file(
+    sources: &mut SourceMap,
+    file: FileId,
+    loader: &mut dyn Loader,
+    diagnostics: &mut Diagnostics,
+) -> Option<Spec> {
+    let mut tree = yaml::parse(file, sources.file(file), diagnostics)?;
+    parts::refuse_alone(&tree, diagnostics)?;
+    decode::check(&tree, &keys::SPEC, diagnostics);
+    parts::join(sources, &mut tree, loader, diagnostics)?;
+    Some(decode::read(&tree, diagnostics))
 }
 
 fn libraries(
@@ -182,23 +196,14 @@ fn libraries(
     let from = sources.file(root.file).name().to_owned();
     for (at, name) in root.uses.iter().enumerate() {
         if let Some(first) = root.uses[..at].iter().find(|before| before.value == name.value) {
-            diagnostics.push(
-                Diagnostic::new(
-                    rule_codes::DUPLICATE_NAME,
-                    name.span,
-                    format!("library `{}` is used twice", shorten(&name.value)),
-                )
-                .label("again here")
-                .with(first.span, "first here")
-                .help("remove one of the two"),
-            );
+            diagnostics.push(named_file::twice("library", first.span, name));
             continue;
         }
         let built_in = LIBRARIES.iter().find(|(library, _)| *library == name.value);
         let id = match built_in {
             Some((library, text)) => sources.add(format!("<{library}>"), *text),
-            None => match load(sources, &name.value, name.span, &from, loader) {
-                Ok(id) => id,
+            None => match named_file::read(name, &from, loader, missing_library) {
+                Ok(text) => sources.add(named_file::beside(&from, &name.value), text),
                 Err(diagnostic) => {
                     diagnostics.push(*diagnostic);
                     complete = false;
@@ -206,11 +211,10 @@ fn libraries(
                 }
             },
         };
-        let Some(node) = yaml::parse(id, sources.file(id), diagnostics) else {
+        let Some(library) = file(sources, id, loader, diagnostics) else {
             complete = false;
             continue;
         };
-        let library = decode(&node, diagnostics);
         if library.profile.is_none() || !library.uses.is_empty() {
             diagnostics.push(
                 Diagnostic::new(
@@ -228,37 +232,18 @@ fn libraries(
     complete.then_some(libraries)
 }
 
-fn load(
-    sources: &mut SourceMap,
-    path: &str,
-    span: Span,
-    from: &str,
-    loader: &mut dyn Loader,
-) -> Result<FileId, Box<Diagnostic>> {
-    let missing = |reason: &str| {
-        let known = LIBRARIES.iter().map(|(name, _)| *name);
-        let help = match Suggestions::default()
-            .nearest(path, known)
-            .filter(|word| !path.starts_with("cia") || path.len() != word.len())
-        {
-            Some(word) => format!("did you mean `{word}`?"),
-            None => "name a built-in library (`cia301`, `cia402`), or a file relative to this one".to_owned(),
-        };
-        Box::new(
-            Diagnostic::new(
-                codes::MISSING_LIBRARY,
-                span,
-                format!("cannot read library `{}`: {reason}", shorten(path)),
-            )
-            .help(help),
-        )
+fn missing_library(name: &Spanned<String>, reason: &str) -> Diagnostic {
+    let path = name.value.as_str();
+    let known = LIBRARIES.iter().map(|(name, _)| *name);
+    let help = match Suggestions::default()
+        .nearest(path, known)
+        .filter(|word| !path.starts_with("cia") || path.len() != word.len())
+    {
+        Some(word) => format!("did you mean `{word}`?"),
+        None => "name a built-in library (`cia301`, `cia402`), or a file relative to this one".to_owned(),
     };
-    let bytes = loader.load(path, from).map_err(|reason| missing(&reason))?;
-    let text = read_text(path, bytes).map_err(|mut diagnostic| {
-        diagnostic.labels.push(crate::diag::Label { span, text: "used here".to_owned() });
-        diagnostic
-    })?;
-    Ok(sources.add(path, text))
+    let message = format!("cannot read library `{}`: {reason}", shorten(path));
+    Diagnostic::new(codes::MISSING_LIBRARY, name.span, message).help(help)
 }
 
 /// Adds the bytes of a file: a specification in UTF-8, or an EDS or DCF in whatever it is.

@@ -13,7 +13,7 @@
 
 use std::fmt::Write as _;
 
-use crate::keys::{Key, KeyKind, Keys, NumberedName, SPEC, Shape};
+use crate::keys::{Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape};
 use crate::model::{Access, DataType};
 
 /// Prints the JSON Schema of specifications and libraries.
@@ -22,8 +22,9 @@ pub fn json_schema() -> String {
         ("$schema", text("http://json-schema.org/draft-07/schema#")),
         ("title", text("CANopen object dictionary specification (*.od.yaml)")),
     ];
-    root.extend(members(&SPEC));
-    let tables = reachable().into_iter().skip(1).map(|keys| (slug(keys.name), object(members(keys))));
+    root.extend(file());
+    let tables = reachable().into_iter().filter(|keys| !FILES.map(|file| file.name).contains(&keys.name));
+    let tables = tables.map(|keys| (slug(keys.name), object(members(keys))));
     let scalars = SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
     root.push(("definitions", Json::Object(tables.chain(scalars).collect())));
     let mut out = String::new();
@@ -32,9 +33,33 @@ pub fn json_schema() -> String {
     out
 }
 
-/// All key tables, in the order in which a reader of [`SPEC`] meets them.
+/// What the top level of a file is.
+const FILES: [&Keys; 2] = [&SPEC, &PART];
+
+/// The members of the schema of a file. One schema serves both kinds of files, as editors choose it by the file's name.
+fn file() -> Vec<(&'static str, Json)> {
+    let mut members = members(&SPEC);
+    let only_part = |key: &&Key| SPEC.keys.iter().all(|known| known.name != key.name);
+    let of_part = PART.keys.iter().filter(only_part).map(|key| (key.name.to_owned(), property(key)));
+    let required = |keys: &Keys| {
+        let names = keys.keys.iter().filter(|key| key.required).map(|key| key.name);
+        object([("required", texts(names))])
+    };
+    for (name, member) in &mut members {
+        match (*name, member) {
+            ("properties", Json::Object(properties)) => {
+                properties.splice(1..1, of_part.clone()).for_each(drop);
+            }
+            ("required", member) => (*name, *member) = ("anyOf", Json::List(FILES.map(required).into())),
+            _ => {}
+        }
+    }
+    members
+}
+
+/// All key tables, in the order in which a reader of a file meets them.
 pub(crate) fn reachable() -> Vec<&'static Keys> {
-    let mut found = vec![&SPEC];
+    let mut found = FILES.to_vec();
     let mut at = 0;
     while let Some(keys) = found.get(at) {
         for key in keys.keys {

@@ -42,7 +42,9 @@ mod library;
 mod limits;
 pub mod model;
 pub mod name_pattern;
+mod named_file;
 mod parameters;
+mod parts;
 #[cfg(feature = "reference")]
 mod reference;
 mod resolve;
@@ -73,6 +75,7 @@ pub use fix::{Change, Fixed, fix};
 pub use json_schema::json_schema;
 pub use library::{Feature, Library, LibraryObject, library};
 pub use parameters::{Assignment, assign};
+pub use parts::part_of;
 #[cfg(feature = "reference")]
 pub use reference::reference;
 pub use standard::LIBRARIES;

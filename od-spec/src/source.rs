@@ -13,12 +13,16 @@ use crate::visible::visible;
 
 /// Identifies one file of a [`SourceMap`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct FileId(u32);
+pub struct FileId {
+    number: u32,
+    /// Number of the file that it is a part of, or its own.
+    whole: u32,
+}
 
 impl FileId {
-    /// Equality where a trait cannot be used yet.
-    pub(crate) const fn same(self, file: FileId) -> bool {
-        self.0 == file.0
+    /// Whether two files are one specification: one file, a file and a part of it, or two of its parts.
+    pub const fn is_one_with(self, file: FileId) -> bool {
+        self.whole == file.whole
     }
 }
 
@@ -106,6 +110,7 @@ impl fmt::Display for LineCol {
 /// One source text.
 #[derive(Debug, Clone)]
 pub struct SourceFile {
+    id: FileId,
     name: String,
     text: String,
     encoding: Encoding,
@@ -184,6 +189,11 @@ impl SourceFile {
     }
 }
 
+/// The encoding of a text that was read as UTF-8.
+fn encoding_of(text: &str) -> Encoding {
+    if text.is_ascii() { Encoding::Ascii } else { Encoding::Utf8 }
+}
+
 /// All source texts of one compilation.
 #[derive(Debug, Clone, Default)]
 pub struct SourceMap {
@@ -202,7 +212,7 @@ impl SourceMap {
     /// If more than 2³² texts are added or a text is 4 GiB or longer; readers refuse such files long before.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let text = text.into();
-        let encoding = if text.is_ascii() { Encoding::Ascii } else { Encoding::Utf8 };
+        let encoding = encoding_of(&text);
         self.add_decoded(name, text, encoding)
     }
 
@@ -210,28 +220,41 @@ impl SourceMap {
     ///
     /// # Panics
     /// As [`add`](Self::add).
-    #[expect(clippy::expect_used, reason = "limits that the loader enforces far below")]
     pub fn add_decoded(&mut self, name: impl Into<String>, text: String, encoding: Encoding) -> FileId {
+        let number = self.next();
+        self.push(FileId { number, whole: number }, name.into(), text, encoding)
+    }
+
+    /// Adds the text of a part of the specification in `whole`.
+    ///
+    /// # Panics
+    /// As [`add`](Self::add).
+    pub fn add_part(&mut self, name: impl Into<String>, text: String, whole: FileId) -> FileId {
+        let id = FileId { number: self.next(), whole: whole.whole };
+        let encoding = encoding_of(&text);
+        self.push(id, name.into(), text, encoding)
+    }
+
+    #[expect(clippy::expect_used, reason = "a limit that loaders enforce far below")]
+    fn next(&self) -> u32 {
+        u32::try_from(self.files.len()).expect("fewer than 2^32 files")
+    }
+
+    fn push(&mut self, id: FileId, name: String, text: String, encoding: Encoding) -> FileId {
         assert!(u32::try_from(text.len()).is_ok(), "source texts are smaller than 4 GiB");
-        let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 files"));
-        self.files.push(SourceFile {
-            name: name.into(),
-            text,
-            encoding,
-            line_starts: OnceLock::new(),
-            characters: OnceLock::new(),
-        });
+        let (line_starts, characters) = (OnceLock::new(), OnceLock::new());
+        self.files.push(SourceFile { id, name, text, encoding, line_starts, characters });
         id
     }
 
     /// A file of this map.
     pub fn file(&self, id: FileId) -> &SourceFile {
-        &self.files[id.0 as usize]
+        &self.files[id.number as usize]
     }
 
     /// All files, in the order they were added.
     pub fn files(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
-        (0u32..).map(FileId).zip(&self.files)
+        self.files.iter().map(|file| (file.id, file))
     }
 
     /// The span of a whole file.

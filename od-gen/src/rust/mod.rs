@@ -51,13 +51,12 @@ pub(crate) fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> 
     })
 }
 
-/// Which version of which specification code was made from, for the head of a file.
+/// Which specification code was made from, for the head of a file. Nothing about its text: a comment, another layout or other
+/// files for the same facts make the same code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Provenance {
-    /// Name of the specification's file.
-    pub name: String,
-    /// A number that changes with the text of the specification and of the libraries that it uses, but not with line ends.
-    pub hash: u64,
+    /// Name of the specification's file, as it can stand in a comment of one line.
+    name: String,
 }
 
 impl Provenance {
@@ -65,17 +64,7 @@ impl Provenance {
     pub fn of(sources: &SourceMap) -> Self {
         let first = sources.files().next().map_or("", |(_, file)| file.name());
         let name = Path::new(first).file_name().unwrap_or_default().to_string_lossy();
-        // It stands in a comment of one line.
-        let name = visible(&name).into_owned();
-        // FNV-1a of 64 bits.
-        let hash = sources.files().flat_map(|(_, file)| file.text().lines()).fold(
-            0xCBF2_9CE4_8422_2325,
-            |hash, line| {
-                let bytes = line.bytes().chain([b'\n']);
-                bytes.fold(hash, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
-            },
-        );
-        Self { name, hash }
+        Self { name: visible(&name).into_owned() }
     }
 }
 

@@ -30,7 +30,7 @@ fn build_makes_rust_when_asked() {
         ["generated/eds/lamp.eds", "generated/lamp.json", "generated/src/lamp.rs", "lamp.od.yaml"]
     );
     let code_of = fs::read_to_string(scratch.0.join("generated/src/lamp.rs")).unwrap();
-    assert!(code_of.starts_with("// Object dictionary `lamp` of lamp.od.yaml ("), "{code_of}");
+    assert!(code_of.starts_with("// Object dictionary `lamp` of lamp.od.yaml.\n"), "{code_of}");
     assert!(code_of.contains("pub fn brightness(&self) -> units::Percent<u8> {"), "{code_of}");
 }
 

@@ -17,6 +17,7 @@ mod foreign;
 mod formats;
 mod import;
 mod new;
+mod parts;
 mod provoked;
 mod readme;
 mod shipped;

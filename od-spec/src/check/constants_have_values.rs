@@ -29,7 +29,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             continue;
         }
         // The library says that it is constant, and the file describes the object.
-        let is_described = object.span.file == subject.device.span.file;
+        let is_described = object.span.file.is_one_with(subject.device.span.file);
         let is_taken = entry.is_only_standard(Fact::Access);
         let help = match object.profile.as_ref().filter(|_| is_taken && !is_described) {
             Some(library) => {

@@ -34,7 +34,7 @@ fn check(system: &System, findings: &mut Findings) {
     let of_entries = system.devices.iter().flat_map(|device| {
         let entries = device.entries().map(|(.., entry)| entry);
         let lists = entries.flat_map(|entry| &entry.bit_errors).flat_map(|bit| &bit.codes);
-        lists.filter(|code| code.span.file == device.span.file)
+        lists.filter(|code| code.span.file.is_one_with(device.span.file))
     });
     for code in of_types.chain(of_entries) {
         if system.errors.binary_search_by_key(&code.value, |error| error.code).is_err() {

@@ -39,8 +39,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let is_lost = |index: Index| !device.objects.contains_key(&index) && !is_data_type(index);
         for link in object.links.iter().filter(|link| is_lost(link.value)) {
             // A library knows objects that a device may leave out.
-            let place =
-                if link.span.file == device.span.file { link.span } else { subject.object_place(object) };
+            let place = if link.span.file.is_one_with(device.span.file) {
+                link.span
+            } else {
+                subject.object_place(object)
+            };
             let message = format!("{} is linked to {}, which {who} does not have", object.index, link.value);
             findings.push(Diagnostic::new(CODE, place, message).help(subject.help(Help {
                 specification: "correct the index, or remove it from `links:`",

@@ -61,7 +61,7 @@ fn finding(
         };
         let message = format!("{at}: {id} ({}) cannot be mapped into {direction}", entry.name);
         let diagnostic = Diagnostic::new(CODE, place, message).help(help(subject, object, id, pdo.direction));
-        return Some(if entry.span.file == subject.device.span.file {
+        return Some(if entry.span.file.is_one_with(subject.device.span.file) {
             diagnostic.with(entry.span, what_it_is(entry))
         } else {
             diagnostic

@@ -52,7 +52,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 
 /// Two objects of one name. What comes from a library is right: the message is about the other one.
 fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnostic {
-    let is_makers = object.span.file == subject.device.span.file;
+    let is_makers = object.span.file.is_one_with(subject.device.span.file);
     let (blamed, namesake) = if is_makers { (object, before) } else { (before, object) };
     let name = shorten(&object.name);
     let message =

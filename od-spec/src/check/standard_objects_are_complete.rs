@@ -27,7 +27,8 @@ const CODE: &Code = &Code {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let device = subject.device;
     // What a feature brings from the library is complete.
-    let is_written = |object: &&Object| !is_from_library(object) || object.span.file == device.span.file;
+    let is_written =
+        |object: &&Object| !is_from_library(object) || object.span.file.is_one_with(device.span.file);
     for object in device.objects.values().filter(|object| object.is_structured()).filter(is_written) {
         let Some(defined) = (subject.standard.object)(object.index).filter(|defined| defined.is_structured())
         else {

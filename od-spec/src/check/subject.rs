@@ -68,14 +68,14 @@ impl<'a> Subject<'a> {
         match entry.facts.get(fact) {
             Some(statement) if statement.author == Author::Library => self.device.span,
             Some(statement) => statement.span,
-            None if entry.span.file == self.device.span.file => entry.span,
+            None if entry.span.file.is_one_with(self.device.span.file) => entry.span,
             None => self.device.span,
         }
     }
 
     /// Where an object stands; the place of the device for one that a library brings.
     pub(super) fn object_place(&self, object: &Object) -> Span {
-        if object.span.file == self.device.span.file { object.span } else { self.device.span }
+        if object.span.file.is_one_with(self.device.span.file) { object.span } else { self.device.span }
     }
 
     /// The entries that are set by name, with where that stands.

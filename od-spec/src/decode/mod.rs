@@ -1,6 +1,6 @@
 //! YAML tree to specification as written.
 //!
-//! First [`shape`] compares the whole tree with the key tables and reports everything that does not fit; then
+//! First [`shape`] compares the tree of each file with the key tables and reports everything that does not fit; then
 //! [`spec`] reads what does fit and silently leaves out the rest, so that each mistake is reported once.
 
 mod devices;
@@ -22,12 +22,22 @@ pub(crate) use shape::inside;
 
 use crate::ast::Spec;
 use crate::diag::Diagnostics;
-use crate::keys;
+use crate::keys::{self, Keys};
 use crate::yaml::Node;
 
-/// Reads a specification or library.
-pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
-    shape::check_map(root, &keys::SPEC, shape::start(root), diagnostics);
+/// Says what in a file is not as its keys want it.
+pub(crate) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+    shape::check_map(root, keys, shape::start(root), diagnostics);
+}
+
+/// Reads a specification or library whose files were checked.
+pub(crate) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     languages::check(root, &keys::SPEC, diagnostics);
     spec::read(root, diagnostics)
+}
+
+/// [`check`], then [`read`]: a file without parts.
+pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
+    check(root, &keys::SPEC, diagnostics);
+    read(root, diagnostics)
 }

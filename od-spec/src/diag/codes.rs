@@ -58,6 +58,12 @@ codes! {
         "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape."
     TOO_MUCH Error "OD0116" "a file describes too much":
         "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or an `on:` wrong? A family of devices that is really larger goes into several files."
+    MISSING_PART Error "OD0117" "a part cannot be read":
+        "`parts:` names files that hold more of the specification, each relative to the file that names it. There is no such file, or it may not be read."
+    NOT_A_PART Error "OD0118" "a file that is no part of the specification":
+        "A file named under `parts:` has `part-of:` at its top level, with the name of the specification. Whoever opens it, and every tool, can tell from this line that it is not whole, and where the rest is. A file of objects for several specifications is a library and stands under `uses:`."
+    PART_ALONE Error "OD0119" "a part without its specification":
+        "A file with `part-of:` holds sections of another file; units, types and devices that it refers to may stand there. Compile that file, which names its parts under `parts:`. `odgen` does so by itself when it is given a part and finds the specification."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":

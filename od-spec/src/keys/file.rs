@@ -9,37 +9,63 @@ use super::manual::{ERRATUM, SECTION};
 use super::objects::OBJECT;
 use super::pdos::PDOS;
 use super::shape::{Key, KeyKind, Keys, Shape, U32};
-use super::table::keys;
+use super::table::{joined, key_list, keys};
 use super::types::{TYPE, UNIT};
 
-keys! {
-    /// Top level of a specification.
-    SPEC = "a specification" {
-        "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
-        "title" required: Shape::Text, "title of the product or product family";
-        "profile": Shape::Text, "makes the file a library; the name by which `from:` refers to it", "cia4xx";
-        "languages": Shape::List(&Shape::Text), "language codes of the descriptions; the first is the default (`en`)", "[en, de]";
-        "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
-        "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
-        "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
-        "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
-        "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia402`, or the path of a library file", "[cia301, cia402]";
-        "allow": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &ALLOWED)), "rules that the device breaks all the same, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";
-        "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
-        "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
-        "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
-        "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
-        "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
-        "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
-        "objects": Shape::MapOf(KeyKind::Indices, &Shape::Map(&OBJECT)), "the objects, by index or indices";
-        "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
-        "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
-        "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";
-        "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
-        "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
-        "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
-    }
-}
+/// The key that names the parts of a specification.
+pub const PARTS: &str = "parts";
+/// The key by which a part names its specification.
+pub const PART_OF: &str = "part-of";
+
+/// What only the main file of a specification has.
+const MAIN_KEYS: &[Key] = key_list! {
+    "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
+    "title" required: Shape::Text, "title of the product or product family";
+    "profile": Shape::Text, "makes the file a library; the name by which `from:` refers to it", "cia4xx";
+    "languages": Shape::List(&Shape::Text), "language codes of the descriptions; the first is the default (`en`)", "[en, de]";
+    "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
+    "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
+    "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
+    "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia402`, or the path of a library file", "[cia301, cia402]";
+    "parts": Shape::List(&Shape::Text), "files that hold more of the sections below, each a part of the specification", "[errata.od.yaml]";
+    "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
+};
+
+/// Sections: maps and lists, which may stand in parts.
+const SECTION_KEYS: &[Key] = key_list! {
+    "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
+    "allow": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &ALLOWED)), "rules that the device breaks all the same, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";
+    "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
+    "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
+    "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
+    "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
+    "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
+    "objects": Shape::MapOf(KeyKind::Indices, &Shape::Map(&OBJECT)), "the objects, by index or indices";
+    "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
+    "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
+    "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";
+    "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
+    "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
+    "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
+};
+
+/// The first keys of a part.
+const PART_KEYS: &[Key] = key_list! {
+    "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
+    "part-of" required: Shape::Text, "file of the specification, relative to this one", "pitch.od.yaml";
+};
+
+/// Top level of a specification.
+pub static SPEC: Keys = Keys {
+    name: "a specification",
+    keys: &joined::<{ MAIN_KEYS.len() + SECTION_KEYS.len() }>(&[MAIN_KEYS, SECTION_KEYS]),
+};
+
+/// Top level of a part.
+pub static PART: Keys = Keys {
+    name: "a part",
+    keys: &joined::<{ PART_KEYS.len() + SECTION_KEYS.len() }>(&[PART_KEYS, SECTION_KEYS]),
+};
 
 keys! {
     /// A code under `allow:`.

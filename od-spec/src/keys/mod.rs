@@ -19,7 +19,7 @@ pub use constraints::CONSTRAINT;
 pub use devices::{CHANNEL, DEVICE, FILE};
 pub use entry::{ENTRY, ENTRY_EDS_KEYS, SPECIAL};
 pub use errors::ERROR;
-pub use file::{ALLOWED, REVISION, SOURCE, SPEC, VENDOR};
+pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, VENDOR};
 pub use libraries::{AXES, FEATURE};
 pub use machines::{COMMAND, MACHINE, STATE, TRANSITION};
 pub use manual::{ERRATUM, SECTION, TABLE, TABLE_PDOS, TABLE_ROWS};

@@ -195,9 +195,9 @@ pub struct Statement {
 }
 
 impl Statement {
-    /// A fact that is written at `span`: the maker's if that is in the maker's file.
+    /// A fact that is written at `span`: the maker's if that is in the maker's specification.
     pub const fn written(span: Span, maker: FileId) -> Self {
-        let author = if span.file.same(maker) { Author::Maker } else { Author::Library };
+        let author = if span.file.is_one_with(maker) { Author::Maker } else { Author::Library };
         Self { span, author }
     }
 

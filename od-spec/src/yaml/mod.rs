@@ -456,19 +456,19 @@ fn read_key(
         return Key::Read(Spanned::new(text, span));
     }
     if let Some(first) = earlier(&text, entries, seen) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::DUPLICATE_KEY,
-                span,
-                format!("key `{}` stands twice in this map", shorten(&text)),
-            )
-            .label("again here")
-            .with(first, "first here")
-            .help("remove one of the two, or join their values"),
-        );
+        diagnostics.push(stands_twice(&Spanned::new(text, span), first));
         return Key::Dropped;
     }
     Key::Read(Spanned::new(text, span))
+}
+
+/// A key has been there before.
+pub(crate) fn stands_twice(again: &Spanned<String>, first: Span) -> Diagnostic {
+    let message = format!("key `{}` stands twice in this map", shorten(&again.value));
+    Diagnostic::new(codes::DUPLICATE_KEY, again.span, message)
+        .label("again here")
+        .with(first, "first here")
+        .help("remove one of the two, or join their values")
 }
 
 /// The place of an equal key. Small maps, which is nearly all of them, are searched; large ones get an index.

@@ -10,7 +10,7 @@ use od_spec::{NoFiles, Strictness, all_codes, code, compile_as, read_text};
 
 use crate::bytes_and_libraries::{LAMP, compiled_with};
 use crate::settings::{HEATER, assigned};
-use crate::{cases, codes, run};
+use crate::{cases, codes, parts, run};
 
 #[path = "../../../od-gen/tests/cli/provoked.rs"]
 mod command_line;
@@ -25,6 +25,7 @@ const PROVOKED: &[Provocation] = &[
     Provocation { code: known::NOT_UTF8, diagnostics: || unread(b"title: L\xe4mpchen".to_vec()) },
     Provocation { code: known::TOO_LARGE, diagnostics: || unread(vec![b' '; (64 << 20) + 1]) },
     Provocation { code: known::NOT_A_LIBRARY, diagnostics: lamps_without_profile },
+    Provocation { code: known::NOT_A_PART, diagnostics: parts::a_file_that_is_no_part },
     Provocation { code: known::BAD_ASSIGNMENT, diagnostics: || heater(&["2000"]) },
     Provocation { code: known::SET_TWICE, diagnostics: || heater(&["2000=off", "2000=manual"]) },
     Provocation { code: known::IDENTIFIER_CLASH, diagnostics: names_clash },

@@ -10,6 +10,7 @@ mod bytes_and_libraries;
 mod cases;
 mod codes;
 mod other_yaml_reader;
+mod parts;
 mod random;
 mod settings;
 mod settings_by_kind;

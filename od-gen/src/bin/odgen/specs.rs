@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use od_gen::source::specifications_in;
+use od_gen::source::{specifications_in, whole};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
 use od_spec::visible::visible;
@@ -14,7 +14,15 @@ use super::report::{Report, shown};
 /// code after a message when there are none.
 pub(crate) fn all(named: &[PathBuf], directory: &Path, report: &Report) -> Result<Vec<PathBuf>, u8> {
     if !named.is_empty() {
-        return Ok(named.to_vec());
+        let mut wholes: Vec<PathBuf> = Vec::new();
+        for path in named {
+            let whole = whole_of(path, report);
+            // A specification is named once, however many of its parts are.
+            if whole == *path || !named.contains(&whole) && !wholes.contains(&whole) {
+                wholes.push(whole);
+            }
+        }
+        return Ok(wholes);
     }
     let found = find(directory, report)?;
     report.note(&format!("no SPEC is named: taking {} of {}", list(&found), describe(directory)));
@@ -25,7 +33,7 @@ pub(crate) fn all(named: &[PathBuf], directory: &Path, report: &Report) -> Resul
 /// after a message when there is none, or more than one to choose from.
 pub(crate) fn one(named: Option<&Path>, directory: &Path, report: &Report) -> Result<PathBuf, u8> {
     if let Some(path) = named {
-        return Ok(path.to_owned());
+        return Ok(whole_of(path, report));
     }
     let found = find(directory, report)?;
     match found.as_slice() {
@@ -39,6 +47,15 @@ pub(crate) fn one(named: Option<&Path>, directory: &Path, report: &Report) -> Re
             report,
         )),
     }
+}
+
+/// The specification of a file, which may be a part of it.
+fn whole_of(path: &Path, report: &Report) -> PathBuf {
+    let whole = whole(path);
+    if whole != path {
+        report.note(&format!("{} is a part of {}: taking that", shown(path), shown(&whole)));
+    }
+    whole
 }
 
 /// `pitch.od.yaml` → `pitch`, `drive.EDS` → `drive`.

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use od_gen::source::whole;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
 
@@ -52,7 +53,7 @@ pub(super) fn gather(
         };
         for input in found {
             let input = match input {
-                Input::File(path) => Input::File(named_for(format, &path)),
+                Input::File(path) => Input::File(named_for(format, &whole(&path))),
                 input @ (Input::Stdin(_) | Input::Missing { .. }) => input,
             };
             if !inputs.contains(&input) {
