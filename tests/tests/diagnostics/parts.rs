@@ -113,13 +113,13 @@ pub(crate) fn a_file_that_is_no_part() -> Diagnostics {
 
 #[test]
 fn a_file_has_to_say_that_it_is_a_part() {
-    insta::assert_snapshot!("no_part", said(MAIN, NO_PART));
     const OF_ANOTHER: Files = &[PARTS[0], ("rest.od.yaml", b"part-of: torch.od.yaml\nobjects:\n")];
-    insta::assert_snapshot!("part_of_another", said(MAIN, OF_ANOTHER));
     const MISSING: Files = &[PARTS[0]];
+    const LIST: Files = &[PARTS[0], ("rest.od.yaml", b"- 1\n")];
+    insta::assert_snapshot!("no_part", said(MAIN, NO_PART));
+    insta::assert_snapshot!("part_of_another", said(MAIN, OF_ANOTHER));
     insta::assert_snapshot!("missing_part", said(MAIN, MISSING));
     insta::assert_snapshot!("part_twice", said(&MAIN.replace("rest.od", "types.od"), PARTS));
-    const LIST: Files = &[PARTS[0], ("rest.od.yaml", b"- 1\n")];
     insta::assert_snapshot!("part_is_a_list", said(MAIN, LIST));
 }
 
