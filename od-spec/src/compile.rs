@@ -11,6 +11,7 @@ use crate::eds;
 use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
 use crate::encoding;
+use crate::gaps;
 use crate::keys;
 use crate::model::System;
 use crate::named_file;
@@ -181,6 +182,7 @@ fn file(
 ) -> Option<Spec> {
     let mut tree = yaml::parse(file, sources.file(file), diagnostics)?;
     parts::refuse_alone(&tree, diagnostics)?;
+    gaps::check(file, sources.file(file).text(), diagnostics);
     decode::check(&tree, &keys::SPEC, diagnostics);
     parts::join(sources, &mut tree, loader, diagnostics)?;
     Some(decode::read(&tree, diagnostics))

@@ -13,7 +13,7 @@
 
 use std::fmt::Write as _;
 
-use crate::keys::{Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape};
+use crate::keys::{Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape, VERSION};
 use crate::model::{Access, DataType};
 
 /// Prints the JSON Schema of specifications and libraries.
@@ -200,6 +200,7 @@ fn schema(shape: Shape) -> Json {
     match shape {
         Shape::Choice(words) => object([("enum", texts(words.iter().copied()))]),
         Shape::Integer(low, high) => integer(Some((low, high))),
+        Shape::Version => integer(Some((VERSION, VERSION))),
         Shape::Map(keys) => reference(&slug(keys.name)),
         Shape::MapOf(kind, value) => map_of(kind, *value),
         Shape::List(item) => list(*item),
@@ -321,6 +322,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::NumberedName(NumberedName::MappedEntry) => "mapped-entry-name",
         Shape::Choice(_)
         | Shape::Integer(..)
+        | Shape::Version
         | Shape::Map(_)
         | Shape::MapOf(..)
         | Shape::List(_)

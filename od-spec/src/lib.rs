@@ -35,6 +35,7 @@ pub mod encoding;
 mod explain;
 pub mod expr;
 mod fix;
+mod gaps;
 #[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;

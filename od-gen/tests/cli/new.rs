@@ -18,6 +18,14 @@ fn new_writes_a_specification_that_is_clean() {
         assert_eq!((code(&output), stderr(&output)), (0, String::new()));
         let file = format!("{name}.od.yaml");
         assert!(stdout(&output).starts_with(&format!("  {file}  a ")), "{}", stdout(&output));
+        // What is the author's to say is said to be open.
+        let path = scratch.0.join(&file);
+        let text = fs::read_to_string(&path).unwrap();
+        let output = odgen(&scratch.0, &["check", &file, "--all", "--format", "short"]);
+        let gaps = text.matches("# <--").count();
+        assert!(gaps > 1);
+        assert_eq!(stderr(&output).matches("OD0841").count(), gaps, "{}", stderr(&output));
+        fs::write(&path, text.replace("# <--", "#")).unwrap();
         let output = odgen(&scratch.0, &["check", &file, "--deny-warnings", "--rust"]);
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         assert!(

@@ -21,10 +21,42 @@ impl NumberedEntry {
     }
 }
 
-/// An index from 0001h to FFFFh.
+/// An index from 0001h to FFFFh, in hexadecimal as everybody writes it.
 pub(crate) fn index(text: &str) -> Option<Index> {
-    let value = scalar::integer(text).ok()?;
-    u16::try_from(value).ok().filter(|index| *index != 0).map(Index)
+    u16_in_hexadecimal(text).filter(|index| *index != 0).map(Index)
+}
+
+/// A number with `0x`: of four digits without it nobody knows which number they are.
+fn u16_in_hexadecimal(text: &str) -> Option<u16> {
+    let value = scalar::integer(text).ok().filter(|_| text.starts_with("0x") || text.starts_with("0X"))?;
+    u16::try_from(value).ok()
+}
+
+/// How indices, entries and error codes are written that lack their `0x`: `2001`, `2001h`, `2001.3`, `2001..2004`, and `24640`, whose
+/// five digits are decimal. `None` for anything else.
+pub(crate) fn with_0x(text: &str) -> Option<String> {
+    if text.starts_with("0x") && !text.ends_with(['h', 'H']) {
+        return None;
+    }
+    let one = |text: &str| {
+        let (number, sub) =
+            text.trim().split_once('.').map_or((text.trim(), None), |(number, sub)| (number, Some(sub)));
+        let digits = number.strip_prefix("0x").unwrap_or(number);
+        let digits = digits.strip_suffix(['h', 'H']).unwrap_or(digits);
+        let number = match digits.len() {
+            1..=4 => u16::from_str_radix(digits, 16).ok()?,
+            _ => digits.parse().ok()?,
+        };
+        let sub = match sub {
+            Some(sub) => format!(".{}", u8::try_from(scalar::integer(sub).ok()?).ok()?),
+            None => String::new(),
+        };
+        (number != 0).then(|| format!("0x{number:04X}{sub}"))
+    };
+    match text.split_once("..") {
+        Some((first, last)) => Some(format!("{}..{}", one(first)?, one(last)?)),
+        None => one(text),
+    }
 }
 
 /// `0x30FA.3`, or `0x6064`.
@@ -60,9 +92,8 @@ pub(crate) fn bits(text: &str) -> Option<BitRange> {
 
 /// `0x3280` or `0x3281..0x3288`.
 pub(crate) fn error_codes(text: &str) -> Option<CodeRange> {
-    let number = |text: &str| u16::try_from(scalar::integer(text.trim()).ok()?).ok();
     let (first, last) = text.split_once("..").unwrap_or((text, text));
-    let (first, last) = (number(first)?, number(last)?);
+    let (first, last) = (u16_in_hexadecimal(first.trim())?, u16_in_hexadecimal(last.trim())?);
     (first <= last).then_some(CodeRange { first, last })
 }
 
@@ -149,8 +180,17 @@ mod tests {
     #[test]
     fn notations() {
         assert_eq!(index("0x6040"), Some(Index(0x6040)));
-        assert_eq!(index("4120"), Some(Index(0x1018)));
-        assert_eq!((index("0"), index("0x10000"), index("x")), (None, None, None));
+        assert_eq!((index("0x0"), index("0x10000"), index("x"), index("4120")), (None, None, None, None));
+        let meant = |text| with_0x(text).unwrap_or_default();
+        assert_eq!(
+            [meant("2001"), meant("2001h"), meant("0x2001h"), meant("3abc")],
+            ["0x2001", "0x2001", "0x2001", "0x3ABC"]
+        );
+        assert_eq!(
+            [meant("2001.3"), meant("2001..2004"), meant("24640")],
+            ["0x2001.3", "0x2001..0x2004", "0x6040"]
+        );
+        assert_eq!([meant("0x2001"), meant("speed"), meant("99999"), meant("0")], [""; 4]);
         let entry = NumberedEntry { index: Index(0x30FA), sub: Some(SubIndex(10)) };
         assert_eq!(entry_by_index("0x30FA.10"), Some(entry));
         assert_eq!(entry_by_index("0x30FA.0x0A"), Some(entry));

@@ -26,7 +26,9 @@ pub(super) fn objects<'a>(
     let mut list = Vec::with_capacity(entries.len());
     let mut room = Room::new(ENTRIES_OF_FILE);
     for (key, r) in entries {
-        let Some(IndexRange { first, last }) = lexical::indices(key.value) else { continue };
+        // A key that lacks its `0x` was refused; what refers to the object is right all the same.
+        let range = lexical::indices(key.value).or_else(|| lexical::indices(&lexical::with_0x(key.value)?));
+        let Some(IndexRange { first, last }) = range else { continue };
         if let Some((index, earlier)) = before.range(first..=last).next() {
             diagnostics.push(twice(codes::DUPLICATE_INDEX, &index.to_string(), key, *earlier));
             continue;

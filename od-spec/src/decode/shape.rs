@@ -3,7 +3,7 @@
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{ConditionError, Expr, Parsed};
-use crate::keys::{Key, KeyKind, Keys, NumberedName, Shape};
+use crate::keys::{Key, KeyKind, Keys, NumberedName, Shape, VERSION};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
@@ -50,9 +50,14 @@ fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &
     let meant = diagnostics.suggestions.nearest(&name.value, known.clone());
     diagnostics.push(match meant {
         Some(word) => diagnostic.label("unknown").help(format!("did you mean `{word}`?")),
-        None if value.kind == NodeKind::Null => diagnostic
-            .label("a key without a value")
-            .help("inside `{}` put a text that holds a comma in quotes"),
+        None if value.kind == NodeKind::Null => match without_blank(&name.value, keys) {
+            Some(pair) => {
+                diagnostic.label("no blank behind the colon").help(format!("write `{}`", shorten(&pair)))
+            }
+            None => diagnostic
+                .label("a key without a value")
+                .help("inside `{}` put a text that holds a comma in quotes"),
+        },
         None => diagnostic.label("unknown").help(format!(
             "its keys are {}",
             known.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ")
@@ -60,7 +65,18 @@ fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &
     });
 }
 
+/// What `name:input` was meant to be, where `name` is a key.
+fn without_blank(text: &str, keys: &Keys) -> Option<String> {
+    let (key, value) = text.split_once(':')?;
+    let is_pair = !value.is_empty() && keys.keys.iter().any(|known| known.name == key);
+    is_pair.then(|| format!("{key}: {value}"))
+}
+
 fn wrong_kind(node: &Node, expected: &str, diagnostics: &mut Diagnostics) {
+    wrong_kind_for(node, expected, expected, diagnostics);
+}
+
+fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut Diagnostics) {
     if node.kind == NodeKind::Broken {
         return;
     }
@@ -70,7 +86,7 @@ fn wrong_kind(node: &Node, expected: &str, diagnostics: &mut Diagnostics) {
             node.span,
             format!("found {}, expected {expected}", node.describe()),
         )
-        .help(format!("write {expected}")),
+        .help(format!("write {example}")),
     );
 }
 
@@ -94,7 +110,11 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
                     check(node, *item, start(node), diagnostics);
                 }
             }
-            _ => wrong_kind(node, "a list", diagnostics),
+            NodeKind::Scalar { text, .. } => {
+                let example = format!("a list such as `[{}]`", shorten(text));
+                wrong_kind_for(node, "a list", &example, diagnostics);
+            }
+            NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
         Shape::OneOrMore(item) => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
@@ -151,14 +171,23 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
             KeyKind::Number => integer().is_some_and(|number| (0..=255).contains(&number)),
         };
         if !fits {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::BAD_KEY,
-                    name.span,
-                    format!("found the key `{}`, expected {}", shorten(text), key_words(kind)),
-                )
-                .help(format!("keys of this map are {}", key_words(kind))),
-            );
+            let meant = match kind {
+                KeyKind::Indices | KeyKind::ErrorCodes => lexical::with_0x(text),
+                KeyKind::Name
+                | KeyKind::DeviceKey
+                | KeyKind::Language
+                | KeyKind::SubIndex
+                | KeyKind::Bits
+                | KeyKind::Integer
+                | KeyKind::PdoNumber
+                | KeyKind::Number => None,
+            };
+            let help = match meant {
+                Some(meant) => format!("write `{meant}`"),
+                None => format!("keys of this map are {}", key_words(kind)),
+            };
+            let message = format!("found the key `{}`, expected {}", shorten(text), key_words(kind));
+            diagnostics.push(Diagnostic::new(codes::BAD_KEY, name.span, message).help(help));
         }
         check(node, value, name.span, diagnostics);
     }
@@ -181,7 +210,7 @@ const fn key_words(kind: KeyKind) -> &'static str {
 
 const fn expected(shape: Shape) -> &'static str {
     match shape {
-        Shape::Integer(..) => "an integer",
+        Shape::Integer(..) | Shape::Version => "an integer",
         Shape::YesNo => "`yes` or `no`",
         Shape::Choice(_) => "a word",
         Shape::Date => "a date such as `2009-05-27`",
@@ -235,7 +264,7 @@ fn check_integer(text: Spanned<&str>, low: i128, high: i128, diagnostics: &mut D
             .help(error.help()),
         ),
         Ok(number) if !(low..=high).contains(&number) => {
-            let range = if low == high { format!("{low}") } else { format!("a number from {low} to {high}") };
+            let range = format!("a number from {low} to {high}");
             diagnostics.push(
                 Diagnostic::new(
                     codes::NUMBER_OUT_OF_RANGE,
@@ -249,10 +278,21 @@ fn check_integer(text: Spanned<&str>, low: i128, high: i128, diagnostics: &mut D
     }
 }
 
+/// The version of the language: what another one means, nobody can tell from here.
+fn check_version(text: Spanned<&str>, diagnostics: &mut Diagnostics) {
+    if scalar::integer(text.value) != Ok(VERSION) {
+        let message = format!("found version `{}` of the language, expected {VERSION}", shorten(text.value));
+        diagnostics.push(Diagnostic::new(codes::NUMBER_OUT_OF_RANGE, text.span, message).help(format!(
+            "write {VERSION}; if the file really is of a later version, read it with a later odgen"
+        )));
+    }
+}
+
 fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics) {
     let value = text.value;
     match shape {
         Shape::Integer(low, high) => check_integer(text, low, high, diagnostics),
+        Shape::Version => check_version(text, diagnostics),
         Shape::YesNo if scalar::yes_no(value).is_none() => diagnostics.push(
             Diagnostic::new(
                 codes::UNKNOWN_WORD,
@@ -298,7 +338,13 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                         text.span,
                         format!("found {}, expected {}", quoted(value), expected(shape)),
                     )
-                    .help(format!("write {}", expected(shape))),
+                    .help(
+                        match lexical::with_0x(value).filter(|_| matches!(shape, Shape::Index | Shape::Entry))
+                        {
+                            Some(meant) => format!("write `{meant}`"),
+                            None => format!("write {}", expected(shape)),
+                        },
+                    ),
                 );
             }
         }

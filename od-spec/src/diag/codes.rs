@@ -81,7 +81,7 @@ codes! {
     CONFLICTING_KEYS Error "OD0208" "keys that exclude each other":
         "Only one of these keys can be true of one thing: an object is an array or a record, a type an enum or a bit field, a table has one content."
     DUPLICATE_INDEX Error "OD0301" "an index is defined twice":
-        "Two objects have one index, perhaps in two notations (`0x1018` and `4120`). Readers of YAML that keep the last one would lose the first without a word."
+        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files. Readers of YAML that keep the last one would lose the first without a word."
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
     DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
@@ -156,6 +156,8 @@ codes! {
         "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
     DEPARTURE Note "OD0811" "a departure from a standard":
         "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
+    OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
+        "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":

@@ -19,7 +19,7 @@ pub const PART_OF: &str = "part-of";
 
 /// What only the main file of a specification has.
 const MAIN_KEYS: &[Key] = key_list! {
-    "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
+    "od-spec" required: Shape::Version, "version of the language; `1`";
     "title" required: Shape::Text, "title of the product or product family";
     "profile": Shape::Text, "makes the file a library; the name by which `from:` refers to it", "cia4xx";
     "languages": Shape::List(&Shape::Text), "language codes of the descriptions; the first is the default (`en`)", "[en, de]";
@@ -51,7 +51,7 @@ const SECTION_KEYS: &[Key] = key_list! {
 
 /// The first keys of a part.
 const PART_KEYS: &[Key] = key_list! {
-    "od-spec" required: Shape::Integer(1, 1), "version of the language; `1`";
+    "od-spec" required: Shape::Version, "version of the language; `1`";
     "part-of" required: Shape::Text, "file of the specification, relative to this one", "pitch.od.yaml";
 };
 

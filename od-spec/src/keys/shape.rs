@@ -39,6 +39,8 @@ pub enum Shape {
     YesNo,
     /// An integer in a range.
     Integer(i128, i128),
+    /// The version of the language.
+    Version,
     /// `2009-05-27`.
     Date,
     /// `2009-05-27 09:00`.
@@ -110,6 +112,9 @@ pub enum KeyKind {
     /// A number from 0 to 255.
     Number,
 }
+
+/// The version of the language that the compiler reads.
+pub const VERSION: i128 = 1;
 
 pub(super) const U8: Shape = Shape::Integer(0, 0xFF);
 pub(super) const U16: Shape = Shape::Integer(0, 0xFFFF);

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::json_schema::{slug, title};
-use crate::keys::{ENTRY, Key, KeyKind, Keys, Shape};
+use crate::keys::{ENTRY, Key, KeyKind, Keys, Shape, VERSION};
 
 /// The section about one kind of map: its heading and its keys.
 pub(super) fn section(keys: &Keys) -> String {
@@ -81,7 +81,7 @@ fn value(shape: Shape) -> String {
         Shape::Words => "text, or text by language".to_owned(),
         Shape::Choice(words) => one_of(words),
         Shape::YesNo => one_of(&["yes", "no"]),
-        Shape::Integer(low, high) if low == high => format!("`{low}`"),
+        Shape::Version => format!("`{VERSION}`"),
         Shape::Integer(low, high) => format!("integer, {low} to {}", limit(high)),
         Shape::Date => "date".to_owned(),
         Shape::DateTime => "date and time".to_owned(),

@@ -26,7 +26,9 @@ impl<'a> Assigned<'a> {
                 continue;
             };
             let keys: BTreeSet<&str> = on.iter().map(|key| key.value.as_str()).collect();
-            if !keys.is_subset(&known) {
+            if keys.is_subset(&known) {
+                for_nobody.own(decl.index.value, decl.entry.name.as_ref(), on);
+            } else {
                 for_nobody.add(decl.index.value, decl.entry.name.as_ref());
             }
             for key in keys {

@@ -101,19 +101,44 @@ fn of_specification<'a>(
     for decl in written.iter().copied() {
         let one = match &decl.from {
             Some(from) => from_library(decl, from, libraries, scope, diagnostics),
-            None => {
-                if decl.array.is_some() {
-                    check_omitted(decl, decl, diagnostics);
+            None => match Some(decl)
+                .filter(|decl| is_departure(decl))
+                .and_then(|decl| libraries.defining(decl.index.value))
+            {
+                Some(library) => {
+                    diagnostics.push(not_taken(decl, library));
+                    None
                 }
-                let (origin, decl) = (Origin::Manual, Decl::Written(decl));
-                Some(Declared { decl, origin, profile: None, departures: Vec::new() })
-            }
+                None => Some(as_written(decl, diagnostics)),
+            },
         };
         if let Some(one) = one {
             declared.insert(decl.index.value, one);
         }
     }
     declared
+}
+
+/// A declaration that no library has a part in.
+fn as_written<'a>(decl: &'a ObjectDecl, diagnostics: &mut Diagnostics) -> Declared<'a> {
+    if decl.array.is_some() {
+        check_omitted(decl, decl, diagnostics);
+    }
+    Declared { decl: Decl::Written(decl), origin: Origin::Manual, profile: None, departures: Vec::new() }
+}
+
+/// Whether an object lacks what only a library could say.
+const fn is_departure(decl: &ObjectDecl) -> bool {
+    let entry = &decl.entry;
+    entry.name.is_none() && entry.type_name.is_none() && decl.alias.is_none() && !entry.unsure
+}
+
+/// An object says what differs from the library's, and not that it is the library's.
+fn not_taken(decl: &ObjectDecl, library: &str) -> Diagnostic {
+    let index = decl.index.value;
+    let message = format!("object {index} has neither a name nor `from: {library}`");
+    Diagnostic::new(codes::MISSING_KEY, decl.index.span, message)
+        .help(format!("write `from: {library}` beside what differs from the library's, or describe the object with `name:` and `type:`"))
 }
 
 /// The features of a device: those that every device has, those it names, and those they need; each with its axis.

@@ -192,8 +192,13 @@ pub(super) fn entry_type(
     if !scope.is_broken(&name.value) {
         let named = scope.types.keys().map(String::as_str);
         let known = named.chain(DataType::ALL.iter().map(|data_type| data_type.name()));
-        let otherwise = "write a data type such as `unsigned16`, or define the name under `types:`";
-        unknown(codes::UNKNOWN_TYPE, name, "type", known, otherwise, diagnostics);
+        let elsewhere = DataType::called_elsewhere(&name.value);
+        let known = known.filter(|_| elsewhere.is_none());
+        let otherwise = match elsewhere {
+            Some(data_type) => format!("write `{}`", data_type.name()),
+            None => "write a data type such as `unsigned16`, or define the name under `types:`".to_owned(),
+        };
+        unknown(codes::UNKNOWN_TYPE, name, "type", known, &otherwise, diagnostics);
     }
     None
 }

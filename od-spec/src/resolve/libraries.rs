@@ -69,6 +69,12 @@ impl<'a> Libraries<'a> {
         found
     }
 
+    /// The name of the first library that has an object of this index, on any axis.
+    pub(super) fn defining(&self, index: Index) -> Option<&'a str> {
+        let defining = self.all.iter().find(|library| self.object(library, index).is_some());
+        defining.and_then(|library| Some(library.profile.as_ref()?.value.as_str()))
+    }
+
     /// An object as a library declares it.
     pub(super) fn written(&self, library: &Spec, index: Index) -> Option<&'a ObjectDecl> {
         self.objects.get(&(library.file, index)).copied()

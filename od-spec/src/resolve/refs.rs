@@ -17,6 +17,31 @@ pub(super) struct Broken {
     names: BTreeSet<String>,
     /// What is broken for every device.
     everywhere: Option<Arc<Broken>>,
+    /// Objects that only some devices have.
+    owners: BTreeMap<Index, Owners>,
+    /// Their indices, by name.
+    owned: BTreeMap<String, Index>,
+}
+
+/// The devices that have an object.
+#[derive(Debug)]
+struct Owners {
+    /// How the specification calls the object.
+    object: String,
+    /// Keys of the devices.
+    devices: Vec<String>,
+}
+
+impl Owners {
+    /// What to do when another device is to have the object.
+    fn help(&self) -> String {
+        let devices: Vec<String> = self.devices.iter().map(|key| format!("`{key}`")).collect();
+        let object = shorten(&self.object);
+        format!(
+            "`{object}` is an object of {} only; name the other device under its `on:`, too",
+            devices.join(", ")
+        )
+    }
 }
 
 impl Broken {
@@ -28,6 +53,25 @@ impl Broken {
     pub(super) fn add(&mut self, index: Index, name: Option<&Name>) {
         self.indices.insert(index);
         self.names.extend(name.map(|name| name.value.clone()));
+    }
+
+    /// Notes an object that only some devices have.
+    pub(super) fn own(&mut self, index: Index, name: Option<&Name>, devices: &[Name]) {
+        let object = name.map_or_else(|| index.to_string(), |name| name.value.clone());
+        let devices = devices.iter().map(|key| key.value.clone()).collect();
+        self.owned.extend(name.map(|name| (name.value.clone(), index)));
+        self.owners.insert(index, Owners { object, devices });
+    }
+
+    fn owners_of(&self, index: Index) -> Option<&Owners> {
+        let everywhere = || self.everywhere.as_ref()?.owners_of(index);
+        self.owners.get(&index).or_else(everywhere)
+    }
+
+    fn owners_of_name(&self, name: &str) -> Option<&Owners> {
+        let everywhere = || self.everywhere.as_ref()?.owners_of_name(name);
+        let index = objects_in(name).find_map(|object| self.owned.get(object));
+        index.and_then(|index| self.owners.get(index)).or_else(everywhere)
     }
 
     pub(super) fn append(&mut self, more: Broken) {
@@ -132,7 +176,12 @@ fn find(
         if !broken.has(id.index) {
             diagnostics.push(
                 Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, format!("there is no entry {id}"))
-                    .help("correct the index or sub-index, or define the object on this device"),
+                    .help(match broken.owners_of(id.index) {
+                        Some(owners) => owners.help(),
+                        None => {
+                            "correct the index or sub-index, or define the object on this device".to_owned()
+                        }
+                    }),
             );
         }
         return None;
@@ -143,9 +192,13 @@ fn find(
         let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
         let known = devices.iter().flat_map(|names| names.all());
         let meant = diagnostics.suggestions.nearest(text, known);
-        diagnostics.push(match meant {
-            Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-            None => diagnostic.help("write an object's name, `object.entry` for a member, or an index"),
+        diagnostics.push(match (broken.owners_of_name(text), lexical::with_0x(text), meant) {
+            (Some(owners), ..) => diagnostic.help(owners.help()),
+            (None, Some(index), _) => diagnostic.help(format!("did you mean `{index}`?")),
+            (None, None, Some(name)) => diagnostic.help(format!("did you mean `{name}`?")),
+            (None, None, None) => {
+                diagnostic.help("write an object's name, `object.entry` for a member, or an index")
+            }
         });
     }
     found

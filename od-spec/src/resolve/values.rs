@@ -89,7 +89,14 @@ fn integer(
     suggestions: &mut Suggestions,
 ) -> Result<Value, Box<Diagnostic>> {
     let shown = shorten(text);
-    if text.contains("$NODEID") {
+    let values = match expected.named.map(|named| &named.kind) {
+        Some(TypeKind::Enum(values)) => values.as_slice(),
+        _ => &[],
+    };
+    if let Some(value) = values.iter().find(|value| value.name == text) {
+        return Ok(Value::Integer(value.value));
+    }
+    if text.starts_with('$') || text.contains("$NODEID") {
         let offset = match text.strip_prefix("$NODEID").unwrap_or("?").trim() {
             "" => Some(0),
             rest => rest.strip_prefix('+').and_then(|digits| scalar::integer(digits.trim()).ok()),
@@ -103,13 +110,6 @@ fn integer(
         };
         fits(i128::from(offset) + 127, span, expected.data_type, &format!("`{shown}` for node 127"))?;
         return Ok(Value::NodeId(offset));
-    }
-    let values = match expected.named.map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.as_slice(),
-        _ => &[],
-    };
-    if let Some(value) = values.iter().find(|value| value.name == text) {
-        return Ok(Value::Integer(value.value));
     }
     let raw = match scalar::integer(text) {
         Ok(raw) => raw,
@@ -216,6 +216,13 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
             .help("add `unit:` to the entry, or write a raw number"),
         ));
     };
+    if let Some(decimals) = symbol.strip_prefix(',') {
+        let with_dot = format!("{number}.{decimals}");
+        return Err(Box::new(
+            Diagnostic::new(codes::BAD_VALUE, span, "a decimal comma")
+                .help(format!("write `{}`", shorten(&with_dot))),
+        ));
+    }
     let Some(step) = unit.step_in(symbol) else {
         let base = unit.base_symbol();
         let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };

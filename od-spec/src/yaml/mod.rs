@@ -133,20 +133,9 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
         let proceed = match event {
             Ok((event, span)) => builder.event(event, span),
             Err(error) => {
+                let message = error.kind().to_string().replace(['`', '\n'], "'");
                 let at = error.marker().byte_offset().unwrap_or_default();
-                let span = builder.point(at);
-                builder.diagnostics.push(
-                    Diagnostic::new(
-                        codes::YAML_SYNTAX,
-                        span,
-                        format!("this is not YAML: {}", error.kind().to_string().replace(['`', '\n'], "'")),
-                    )
-                    .help(if file.text()[..span.start as usize].ends_with('\t') {
-                        "indent with blanks; YAML does not allow tabs"
-                    } else {
-                        "check indentation, quotes, and that `: ` and ` #` inside a text are quoted"
-                    }),
-                );
+                builder.syntax(&message, at);
                 return None;
             }
         };
@@ -287,6 +276,33 @@ impl Builder<'_> {
         {
             self.diagnostics.push(turned(span, c));
         }
+    }
+
+    /// The parser stopped.
+    fn syntax(&mut self, message: &str, at: usize) {
+        let span = self.point(at);
+        let diagnostic = Diagnostic::new(codes::YAML_SYNTAX, span, format!("this is not YAML: {message}"));
+        let help = if self.text[..span.start as usize].ends_with('\t') {
+            "indent with blanks; YAML does not allow tabs"
+        } else {
+            "check indentation, quotes, and that `: ` and ` #` inside a text are quoted"
+        };
+        self.diagnostics.push(match self.unclosed() {
+            Some((bracket, closing)) => diagnostic.with(bracket, "this bracket is open").help(format!(
+                "close it with `{closing}`; inside, put texts that hold a comma or a bracket in quotes"
+            )),
+            None => diagnostic.help(help),
+        });
+    }
+
+    /// The innermost bracket that is open, and what closes it.
+    fn unclosed(&self) -> Option<(Span, char)> {
+        let (start, bracket, closing) = match self.stack.last()? {
+            Open::List { start, .. } => (start, '[', ']'),
+            Open::Map { start, .. } => (start, '{', '}'),
+        };
+        let is_bracket = self.text.get(start.start as usize..)?.starts_with(bracket);
+        is_bracket.then(|| (start.part(0, 1), closing))
     }
 
     fn refuse_tag(&mut self, tagged: bool, value: Span) {

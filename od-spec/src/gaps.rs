@@ -1,0 +1,26 @@
+//! Gaps of a starter that nobody has filled: `odgen new` marks what is the author's to say by `# <--`.
+
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::source::{FileId, Span};
+
+/// The comment behind a value that stands for the author's.
+const MARK: &str = "# <--";
+
+/// Says which gaps there are.
+pub(crate) fn check(file: FileId, text: &str, diagnostics: &mut Diagnostics) {
+    for (at, _) in text.match_indices(MARK).filter(|(at, _)| is_comment(&text[..*at])) {
+        let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+        let span = Span { file, start: place(at), end: place(at + MARK.len()) };
+        diagnostics.push(
+            Diagnostic::new(codes::OPEN_GAP, span, "what stands here is an example, and yours to fill in")
+                .help("write your own value, and remove the comment"),
+        );
+    }
+}
+
+/// Whether a sign behind this text begins a comment, and not the word of a text.
+fn is_comment(before: &str) -> bool {
+    let line = before.rsplit('\n').next().unwrap_or(before);
+    let is_open = |quote| line.matches(quote).count() % 2 == 1;
+    line.is_empty() || line.ends_with([' ', '\t']) && !is_open('"') && !is_open('\'')
+}
