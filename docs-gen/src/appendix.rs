@@ -218,7 +218,11 @@ impl Source<'_> {
                     .left(self, "access", Word::Access)
                     .left(self, "default", Word::Default)
                     .full(rows.collect());
-                let title = format!("{}: {}", device.key.to_uppercase(), self.wording.storage_group(group));
+                let title = format!(
+                    "{}: {}",
+                    device.key.to_uppercase(),
+                    self.wording.storage_group_of(group, device)
+                );
                 let anchor = format!("storage-{}-{}", device.key, group.word());
                 tables.push(Table::unnumbered(anchor, "storage", Cell::plain(title), vec![grid]));
             }

@@ -26,7 +26,7 @@ impl Source<'_> {
         let rows = device.objects.values().map(|object| self.overview_row(object)).collect();
         let overview =
             Table::unnumbered("overview", "overview", Cell::default(), vec![self.overview_grid(rows)]);
-        let filters = self.filters(&objects);
+        let filters = self.filters(device, &objects);
         DeviceView {
             key: device.key.clone(),
             name: device.name.clone(),
@@ -42,7 +42,7 @@ impl Source<'_> {
     }
 
     /// What a filter can offer: whatever occurs.
-    fn filters(&self, objects: &[ObjectView]) -> Filters {
+    fn filters(&self, device: &Dictionary, objects: &[ObjectView]) -> Filters {
         let all = |facts: fn(&ObjectView) -> &[String]| -> Vec<String> {
             let all: BTreeSet<&String> = objects.iter().flat_map(facts).collect();
             all.into_iter().cloned().collect()
@@ -66,7 +66,7 @@ impl Source<'_> {
                 let word = self.storage_word(*group);
                 !word.is_empty() && occurs(|object| &object.stored, word)
             })
-            .map(|group| (group.word(), self.wording.storage_group(group).to_owned()))
+            .map(|group| (group.word(), self.wording.storage_group_of(group, device).to_owned()))
             .collect(),
             mappable: [Direction::Receive, Direction::Transmit]
                 .into_iter()

@@ -41,6 +41,18 @@ objects:
   0x5004: {alias: 0x2001, name: wrapped, type: integer16, outside: wrap}
 ";
 
+/// A device that saves all parameters together.
+const SAVED_TOGETHER: &str = "\
+od-spec: 1
+title: Saved together
+uses: [cia301]
+devices: {lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}}
+objects:
+  0x1010: {from: cia301, array: {count: 1}}
+  0x2000: {name: level, type: unsigned8, access: rw, pdo: receive}
+pdos: {lamp: {receive: {1: {map: [level]}}}}
+";
+
 fn system(name: &str, text: &str) -> System {
     let mut sources = SourceMap::new();
     let file = sources.add(name, text);
@@ -50,7 +62,7 @@ fn system(name: &str, text: &str) -> System {
 fn systems() -> Vec<System> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let read = |path: &&str| system(path, &std::fs::read_to_string(root.join(path)).unwrap());
-    SPECIFICATIONS.iter().map(read).chain([system("views", VIEWS)]).collect()
+    SPECIFICATIONS.iter().map(read).chain([system("views", VIEWS), system("lamp", SAVED_TOGETHER)]).collect()
 }
 
 /// What stands for a word in a document, to see where templates print it.

@@ -32,13 +32,13 @@ impl Fullmo {
     /// UNSIGNED32, ro, default 0x00020192.
     #[inline]
     pub fn device_type(&self) -> types::DeviceTypeCode {
-        types::DeviceTypeCode(glue::get_u32(&self.0, 304))
+        types::DeviceTypeCode(glue::get_u32(&self.0, 0))
     }
 
     /// Sets [`device_type`](Self::device_type).
     #[inline]
     pub fn set_device_type(&mut self, value: types::DeviceTypeCode) {
-        glue::put_u32(&mut self.0, 304, value.0);
+        glue::put_u32(&mut self.0, 0, value.0);
     }
 
     /// `1001h` Error register: Summary of the errors present now; also the third byte of every emergency message. Only bit 0 has to be supported. (CiA 301 v4.02, 9.6.3, table 48)
@@ -46,13 +46,13 @@ impl Fullmo {
     /// UNSIGNED8, ro.
     #[inline]
     pub fn error_register(&self) -> types::ErrorRegisterBits {
-        types::ErrorRegisterBits(glue::get_u8(&self.0, 760))
+        types::ErrorRegisterBits(glue::get_u8(&self.0, 744))
     }
 
     /// Sets [`error_register`](Self::error_register).
     #[inline]
     pub fn set_error_register(&mut self, value: types::ErrorRegisterBits) {
-        glue::put_u8(&mut self.0, 760, value.0);
+        glue::put_u8(&mut self.0, 744, value.0);
     }
 
     /// `1014h` COB-ID EMCY: CAN-ID of the device's emergency message. To change it, first switch the message off (bit 31). (CiA 301 v4.02, 9.6.3)
@@ -60,13 +60,13 @@ impl Fullmo {
     /// UNSIGNED32, rw, default $NODEID+0x80.
     #[inline]
     pub fn cob_id_emcy(&self) -> types::EmcyCobId {
-        types::EmcyCobId(glue::get_u32(&self.0, 308))
+        types::EmcyCobId(glue::get_u32(&self.0, 4))
     }
 
     /// Sets [`cob_id_emcy`](Self::cob_id_emcy).
     #[inline]
     pub fn set_cob_id_emcy(&mut self, value: types::EmcyCobId) {
-        glue::put_u32(&mut self.0, 308, value.0);
+        glue::put_u32(&mut self.0, 4, value.0);
     }
 
     /// `1017h` Producer heartbeat time: Time between two heartbeats of this device, in ms; 0 switches the heartbeat off. A non-zero value takes the place of node guarding. (CiA 301 v4.02, 9.6.3)
@@ -76,7 +76,7 @@ impl Fullmo {
     pub fn producer_heartbeat_time(
         &self,
     ) -> glue::Special<units::Millisecond<u16>, specials::HeartbeatOff> {
-        match glue::get_u16(&self.0, 604) {
+        match glue::get_u16(&self.0, 588) {
             0 => glue::Special::Special(specials::HeartbeatOff::HeartbeatOff),
             value => glue::Special::Value(units::Millisecond(value)),
         }
@@ -90,7 +90,7 @@ impl Fullmo {
     ) {
         glue::put_u16(
             &mut self.0,
-            604,
+            588,
             match value {
                 glue::Special::Value(value) => value.0,
                 glue::Special::Special(specials::HeartbeatOff::HeartbeatOff) => 0,
@@ -112,13 +112,13 @@ impl Fullmo {
 
     /// `1400h` RPDO 1 communication parameter.
     ///
-    /// - `1400h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x200, stored with the communication parameters.
-    /// - `1400h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1400h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x200.
+    /// - `1400h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn rpdo_1_communication_parameter(
         &self,
     ) -> records::Rpdo1CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self, [0, 288])
+        records::Rpdo1CommunicationParameter(self, [20, 745])
     }
 
     /// [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter), to be changed.
@@ -126,18 +126,18 @@ impl Fullmo {
     pub const fn rpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo1CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self, [0, 288])
+        records::Rpdo1CommunicationParameter(self, [20, 745])
     }
 
     /// `1401h` RPDO 2 communication parameter.
     ///
-    /// - `1401h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000300, stored with the communication parameters.
-    /// - `1401h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1401h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000300.
+    /// - `1401h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn rpdo_2_communication_parameter(
         &self,
     ) -> records::Rpdo2CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self, [4, 289])
+        records::Rpdo1CommunicationParameter(self, [24, 746])
     }
 
     /// [`rpdo_2_communication_parameter`](Self::rpdo_2_communication_parameter), to be changed.
@@ -145,18 +145,18 @@ impl Fullmo {
     pub const fn rpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo2CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self, [4, 289])
+        records::Rpdo1CommunicationParameter(self, [24, 746])
     }
 
     /// `1402h` RPDO 3 communication parameter.
     ///
-    /// - `1402h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000400, stored with the communication parameters.
-    /// - `1402h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1402h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000400.
+    /// - `1402h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn rpdo_3_communication_parameter(
         &self,
     ) -> records::Rpdo3CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self, [8, 290])
+        records::Rpdo1CommunicationParameter(self, [28, 747])
     }
 
     /// [`rpdo_3_communication_parameter`](Self::rpdo_3_communication_parameter), to be changed.
@@ -164,18 +164,18 @@ impl Fullmo {
     pub const fn rpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo3CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self, [8, 290])
+        records::Rpdo1CommunicationParameter(self, [28, 747])
     }
 
     /// `1403h` RPDO 4 communication parameter.
     ///
-    /// - `1403h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000500, stored with the communication parameters.
-    /// - `1403h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1403h.1` COB-ID used by RPDO: UNSIGNED32, rw, default $NODEID+0x80000500.
+    /// - `1403h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn rpdo_4_communication_parameter(
         &self,
     ) -> records::Rpdo4CommunicationParameter<&Self> {
-        records::Rpdo1CommunicationParameter(self, [12, 291])
+        records::Rpdo1CommunicationParameter(self, [32, 748])
     }
 
     /// [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), to be changed.
@@ -183,21 +183,21 @@ impl Fullmo {
     pub const fn rpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Rpdo4CommunicationParameter<&mut Self> {
-        records::Rpdo1CommunicationParameter(self, [12, 291])
+        records::Rpdo1CommunicationParameter(self, [32, 748])
     }
 
     /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 1, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 1.
     #[inline]
     pub fn rpdo_1_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 292)
+        glue::get_u8(&self.0, 749)
     }
 
     /// Sets [`rpdo_1_mapping_parameter_number_of_mapped_entries`](Self::rpdo_1_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_1_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 292, value);
+        glue::put_u8(&mut self.0, 749, value);
     }
 
     /// `1600h` RPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -205,30 +205,30 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 16, 4)?;
+        let offset = glue::image::element(sub, 8, 36, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 16, 4)?;
+        let offset = glue::image::element(sub, 8, 36, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1601h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 2, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 2.
     #[inline]
     pub fn rpdo_2_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 293)
+        glue::get_u8(&self.0, 750)
     }
 
     /// Sets [`rpdo_2_mapping_parameter_number_of_mapped_entries`](Self::rpdo_2_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_2_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 293, value);
+        glue::put_u8(&mut self.0, 750, value);
     }
 
     /// `1601h` RPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -236,30 +236,30 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 48, 4)?;
+        let offset = glue::image::element(sub, 8, 68, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_2_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 48, 4)?;
+        let offset = glue::image::element(sub, 8, 68, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1602h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 2, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 2.
     #[inline]
     pub fn rpdo_3_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 294)
+        glue::get_u8(&self.0, 751)
     }
 
     /// Sets [`rpdo_3_mapping_parameter_number_of_mapped_entries`](Self::rpdo_3_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_3_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 294, value);
+        glue::put_u8(&mut self.0, 751, value);
     }
 
     /// `1602h` RPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -267,30 +267,30 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 80, 4)?;
+        let offset = glue::image::element(sub, 8, 100, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 80, 4)?;
+        let offset = glue::image::element(sub, 8, 100, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1603h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 2, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 2.
     #[inline]
     pub fn rpdo_4_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 295)
+        glue::get_u8(&self.0, 752)
     }
 
     /// Sets [`rpdo_4_mapping_parameter_number_of_mapped_entries`](Self::rpdo_4_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_rpdo_4_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 295, value);
+        glue::put_u8(&mut self.0, 752, value);
     }
 
     /// `1603h` RPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -298,27 +298,27 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 112, 4)?;
+        let offset = glue::image::element(sub, 8, 132, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 112, 4)?;
+        let offset = glue::image::element(sub, 8, 132, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1800h` TPDO 1 communication parameter.
     ///
-    /// - `1800h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x180, stored with the communication parameters.
-    /// - `1800h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1800h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x180.
+    /// - `1800h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn tpdo_1_communication_parameter(
         &self,
     ) -> records::Tpdo1CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self, [144, 296])
+        records::Tpdo1CommunicationParameter(self, [164, 753])
     }
 
     /// [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter), to be changed.
@@ -326,18 +326,18 @@ impl Fullmo {
     pub const fn tpdo_1_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo1CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self, [144, 296])
+        records::Tpdo1CommunicationParameter(self, [164, 753])
     }
 
     /// `1801h` TPDO 2 communication parameter.
     ///
-    /// - `1801h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000280, stored with the communication parameters.
-    /// - `1801h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1801h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000280.
+    /// - `1801h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn tpdo_2_communication_parameter(
         &self,
     ) -> records::Tpdo2CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self, [148, 297])
+        records::Tpdo1CommunicationParameter(self, [168, 754])
     }
 
     /// [`tpdo_2_communication_parameter`](Self::tpdo_2_communication_parameter), to be changed.
@@ -345,18 +345,18 @@ impl Fullmo {
     pub const fn tpdo_2_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo2CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self, [148, 297])
+        records::Tpdo1CommunicationParameter(self, [168, 754])
     }
 
     /// `1802h` TPDO 3 communication parameter.
     ///
-    /// - `1802h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000380, stored with the communication parameters.
-    /// - `1802h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1802h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000380.
+    /// - `1802h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn tpdo_3_communication_parameter(
         &self,
     ) -> records::Tpdo3CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self, [152, 298])
+        records::Tpdo1CommunicationParameter(self, [172, 755])
     }
 
     /// [`tpdo_3_communication_parameter`](Self::tpdo_3_communication_parameter), to be changed.
@@ -364,18 +364,18 @@ impl Fullmo {
     pub const fn tpdo_3_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo3CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self, [152, 298])
+        records::Tpdo1CommunicationParameter(self, [172, 755])
     }
 
     /// `1803h` TPDO 4 communication parameter.
     ///
-    /// - `1803h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000480, stored with the communication parameters.
-    /// - `1803h.2` transmission type: UNSIGNED8, rw, default 255, stored with the communication parameters.
+    /// - `1803h.1` COB-ID used by TPDO: UNSIGNED32, rw, default $NODEID+0x80000480.
+    /// - `1803h.2` transmission type: UNSIGNED8, rw, default 255.
     #[inline]
     pub const fn tpdo_4_communication_parameter(
         &self,
     ) -> records::Tpdo4CommunicationParameter<&Self> {
-        records::Tpdo1CommunicationParameter(self, [156, 299])
+        records::Tpdo1CommunicationParameter(self, [176, 756])
     }
 
     /// [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), to be changed.
@@ -383,21 +383,21 @@ impl Fullmo {
     pub const fn tpdo_4_communication_parameter_mut(
         &mut self,
     ) -> records::Tpdo4CommunicationParameter<&mut Self> {
-        records::Tpdo1CommunicationParameter(self, [156, 299])
+        records::Tpdo1CommunicationParameter(self, [176, 756])
     }
 
     /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 1, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 1.
     #[inline]
     pub fn tpdo_1_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 300)
+        glue::get_u8(&self.0, 757)
     }
 
     /// Sets [`tpdo_1_mapping_parameter_number_of_mapped_entries`](Self::tpdo_1_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_1_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 300, value);
+        glue::put_u8(&mut self.0, 757, value);
     }
 
     /// `1A00h` TPDO 1 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -405,30 +405,30 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_1_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 160, 4)?;
+        let offset = glue::image::element(sub, 8, 180, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 160, 4)?;
+        let offset = glue::image::element(sub, 8, 180, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1A01h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 2, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 2.
     #[inline]
     pub fn tpdo_2_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 301)
+        glue::get_u8(&self.0, 758)
     }
 
     /// Sets [`tpdo_2_mapping_parameter_number_of_mapped_entries`](Self::tpdo_2_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_2_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 301, value);
+        glue::put_u8(&mut self.0, 758, value);
     }
 
     /// `1A01h` TPDO 2 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -436,30 +436,30 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 192, 4)?;
+        let offset = glue::image::element(sub, 8, 212, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_2_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 192, 4)?;
+        let offset = glue::image::element(sub, 8, 212, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1A02h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 2, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 2.
     #[inline]
     pub fn tpdo_3_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 302)
+        glue::get_u8(&self.0, 759)
     }
 
     /// Sets [`tpdo_3_mapping_parameter_number_of_mapped_entries`](Self::tpdo_3_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_3_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 302, value);
+        glue::put_u8(&mut self.0, 759, value);
     }
 
     /// `1A02h` TPDO 3 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -467,30 +467,30 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_3_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 224, 4)?;
+        let offset = glue::image::element(sub, 8, 244, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 224, 4)?;
+        let offset = glue::image::element(sub, 8, 244, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
     /// `1A03h` number of mapped entries: 0 disables the mapping while it is changed
     ///
-    /// UNSIGNED8, rw, default 2, stored with the communication parameters.
+    /// UNSIGNED8, rw, default 2.
     #[inline]
     pub fn tpdo_4_mapping_parameter_number_of_mapped_entries(&self) -> u8 {
-        glue::get_u8(&self.0, 303)
+        glue::get_u8(&self.0, 760)
     }
 
     /// Sets [`tpdo_4_mapping_parameter_number_of_mapped_entries`](Self::tpdo_4_mapping_parameter_number_of_mapped_entries).
     #[inline]
     pub fn set_tpdo_4_mapping_parameter_number_of_mapped_entries(&mut self, value: u8) {
-        glue::put_u8(&mut self.0, 303, value);
+        glue::put_u8(&mut self.0, 760, value);
     }
 
     /// `1A03h` TPDO 4 mapping parameter. `sub` is the sub-index, 1 to 8; `None` for any other.
@@ -498,19 +498,19 @@ impl Fullmo {
     /// The elements differ in their limits or defaults.
     #[inline]
     pub fn tpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
-        let offset = glue::image::element(sub, 8, 256, 4)?;
+        let offset = glue::image::element(sub, 8, 276, 4)?;
         Some(glue::get_u32(&self.0, offset))
     }
 
     /// Sets an element of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
-        let offset = glue::image::element(sub, 8, 256, 4)?;
+        let offset = glue::image::element(sub, 8, 276, 4)?;
         glue::put_u32(&mut self.0, offset, value);
         Some(())
     }
 
-    /// `3402h` motor parameter: Messwerte und Meldungen von Motor und Endstufe. Subindizes 2 und 4 kommen im Handbuch nicht vor.
+    /// `3402h` motor parameter: Messwerte und Meldungen von Motor und Endstufe.
     #[inline]
     pub const fn motor_parameter(&self) -> records::MotorParameter<&Self> {
         records::MotorParameter(self)
@@ -548,7 +548,7 @@ impl Fullmo {
     /// - `3511h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_1(&self) -> records::InputFunctions1<&Self> {
-        records::InputFunctions1(self, [648, 650, 328, 332, 652, 336, 654, 340])
+        records::InputFunctions1(self, [632, 634, 312, 316, 636, 320, 638, 324])
     }
 
     /// [`input_functions_1`](Self::input_functions_1), to be changed.
@@ -556,7 +556,7 @@ impl Fullmo {
     pub const fn input_functions_1_mut(
         &mut self,
     ) -> records::InputFunctions1<&mut Self> {
-        records::InputFunctions1(self, [648, 650, 328, 332, 652, 336, 654, 340])
+        records::InputFunctions1(self, [632, 634, 312, 316, 636, 320, 638, 324])
     }
 
     /// `3512h` input functions 2: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -571,7 +571,7 @@ impl Fullmo {
     /// - `3512h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_2(&self) -> records::InputFunctions2<&Self> {
-        records::InputFunctions1(self, [656, 658, 344, 348, 660, 352, 662, 356])
+        records::InputFunctions1(self, [640, 642, 328, 332, 644, 336, 646, 340])
     }
 
     /// [`input_functions_2`](Self::input_functions_2), to be changed.
@@ -579,7 +579,7 @@ impl Fullmo {
     pub const fn input_functions_2_mut(
         &mut self,
     ) -> records::InputFunctions2<&mut Self> {
-        records::InputFunctions1(self, [656, 658, 344, 348, 660, 352, 662, 356])
+        records::InputFunctions1(self, [640, 642, 328, 332, 644, 336, 646, 340])
     }
 
     /// `3513h` input functions 3: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -594,7 +594,7 @@ impl Fullmo {
     /// - `3513h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_3(&self) -> records::InputFunctions3<&Self> {
-        records::InputFunctions1(self, [664, 666, 360, 364, 668, 368, 670, 372])
+        records::InputFunctions1(self, [648, 650, 344, 348, 652, 352, 654, 356])
     }
 
     /// [`input_functions_3`](Self::input_functions_3), to be changed.
@@ -602,7 +602,7 @@ impl Fullmo {
     pub const fn input_functions_3_mut(
         &mut self,
     ) -> records::InputFunctions3<&mut Self> {
-        records::InputFunctions1(self, [664, 666, 360, 364, 668, 368, 670, 372])
+        records::InputFunctions1(self, [648, 650, 344, 348, 652, 352, 654, 356])
     }
 
     /// `3514h` input functions 4: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -617,7 +617,7 @@ impl Fullmo {
     /// - `3514h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_4(&self) -> records::InputFunctions4<&Self> {
-        records::InputFunctions1(self, [672, 674, 376, 380, 676, 384, 678, 388])
+        records::InputFunctions1(self, [656, 658, 360, 364, 660, 368, 662, 372])
     }
 
     /// [`input_functions_4`](Self::input_functions_4), to be changed.
@@ -625,7 +625,7 @@ impl Fullmo {
     pub const fn input_functions_4_mut(
         &mut self,
     ) -> records::InputFunctions4<&mut Self> {
-        records::InputFunctions1(self, [672, 674, 376, 380, 676, 384, 678, 388])
+        records::InputFunctions1(self, [656, 658, 360, 364, 660, 368, 662, 372])
     }
 
     /// `3515h` input functions 5: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -640,7 +640,7 @@ impl Fullmo {
     /// - `3515h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_5(&self) -> records::InputFunctions5<&Self> {
-        records::InputFunctions1(self, [680, 682, 392, 396, 684, 400, 686, 404])
+        records::InputFunctions1(self, [664, 666, 376, 380, 668, 384, 670, 388])
     }
 
     /// [`input_functions_5`](Self::input_functions_5), to be changed.
@@ -648,7 +648,7 @@ impl Fullmo {
     pub const fn input_functions_5_mut(
         &mut self,
     ) -> records::InputFunctions5<&mut Self> {
-        records::InputFunctions1(self, [680, 682, 392, 396, 684, 400, 686, 404])
+        records::InputFunctions1(self, [664, 666, 376, 380, 668, 384, 670, 388])
     }
 
     /// `3516h` input functions 6: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -663,7 +663,7 @@ impl Fullmo {
     /// - `3516h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_6(&self) -> records::InputFunctions6<&Self> {
-        records::InputFunctions1(self, [688, 690, 408, 412, 692, 416, 694, 420])
+        records::InputFunctions1(self, [672, 674, 392, 396, 676, 400, 678, 404])
     }
 
     /// [`input_functions_6`](Self::input_functions_6), to be changed.
@@ -671,7 +671,7 @@ impl Fullmo {
     pub const fn input_functions_6_mut(
         &mut self,
     ) -> records::InputFunctions6<&mut Self> {
-        records::InputFunctions1(self, [688, 690, 408, 412, 692, 416, 694, 420])
+        records::InputFunctions1(self, [672, 674, 392, 396, 676, 400, 678, 404])
     }
 
     /// `3517h` input functions 7: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -686,7 +686,7 @@ impl Fullmo {
     /// - `3517h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_7(&self) -> records::InputFunctions7<&Self> {
-        records::InputFunctions1(self, [696, 698, 424, 428, 700, 432, 702, 436])
+        records::InputFunctions1(self, [680, 682, 408, 412, 684, 416, 686, 420])
     }
 
     /// [`input_functions_7`](Self::input_functions_7), to be changed.
@@ -694,7 +694,7 @@ impl Fullmo {
     pub const fn input_functions_7_mut(
         &mut self,
     ) -> records::InputFunctions7<&mut Self> {
-        records::InputFunctions1(self, [696, 698, 424, 428, 700, 432, 702, 436])
+        records::InputFunctions1(self, [680, 682, 408, 412, 684, 416, 686, 420])
     }
 
     /// `3518h` input functions 8: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -709,7 +709,7 @@ impl Fullmo {
     /// - `3518h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_8(&self) -> records::InputFunctions8<&Self> {
-        records::InputFunctions1(self, [704, 706, 440, 444, 708, 448, 710, 452])
+        records::InputFunctions1(self, [688, 690, 424, 428, 692, 432, 694, 436])
     }
 
     /// [`input_functions_8`](Self::input_functions_8), to be changed.
@@ -717,7 +717,7 @@ impl Fullmo {
     pub const fn input_functions_8_mut(
         &mut self,
     ) -> records::InputFunctions8<&mut Self> {
-        records::InputFunctions1(self, [704, 706, 440, 444, 708, 448, 710, 452])
+        records::InputFunctions1(self, [688, 690, 424, 428, 692, 432, 694, 436])
     }
 
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
@@ -732,7 +732,7 @@ impl Fullmo {
     /// - `3519h.8` target position: INTEGER32, rw.
     #[inline]
     pub const fn input_functions_9(&self) -> records::InputFunctions9<&Self> {
-        records::InputFunctions1(self, [712, 714, 456, 460, 716, 464, 718, 468])
+        records::InputFunctions1(self, [696, 698, 440, 444, 700, 448, 702, 452])
     }
 
     /// [`input_functions_9`](Self::input_functions_9), to be changed.
@@ -740,7 +740,7 @@ impl Fullmo {
     pub const fn input_functions_9_mut(
         &mut self,
     ) -> records::InputFunctions9<&mut Self> {
-        records::InputFunctions1(self, [712, 714, 456, 460, 716, 464, 718, 468])
+        records::InputFunctions1(self, [696, 698, 440, 444, 700, 448, 702, 452])
     }
 
     /// `6040h` Controlword: Befehle an den Antrieb.
@@ -748,13 +748,13 @@ impl Fullmo {
     /// UNSIGNED16, rw, RPDO. In RPDO 1 ([`Rpdo1`](pdos::Rpdo1)), RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default), RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default), RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
     pub fn controlword(&self) -> types::DriveControlword {
-        types::DriveControlword(glue::get_u16(&self.0, 720))
+        types::DriveControlword(glue::get_u16(&self.0, 704))
     }
 
     /// Sets [`controlword`](Self::controlword).
     #[inline]
     pub fn set_controlword(&mut self, value: types::DriveControlword) {
-        glue::put_u16(&mut self.0, 720, value.0);
+        glue::put_u16(&mut self.0, 704, value.0);
     }
 
     /// `6041h` Statusword: Zustand des Antriebs und der Betriebsart.
@@ -762,13 +762,13 @@ impl Fullmo {
     /// UNSIGNED16, ro, TPDO. In TPDO 1 ([`Tpdo1`](pdos::Tpdo1)), TPDO 2 ([`Tpdo2`](pdos::Tpdo2), off by default), TPDO 3 ([`Tpdo3`](pdos::Tpdo3), off by default), TPDO 4 ([`Tpdo4`](pdos::Tpdo4), off by default).
     #[inline]
     pub fn statusword(&self) -> types::DriveStatusword {
-        types::DriveStatusword(glue::get_u16(&self.0, 722))
+        types::DriveStatusword(glue::get_u16(&self.0, 706))
     }
 
     /// Sets [`statusword`](Self::statusword).
     #[inline]
     pub fn set_statusword(&mut self, value: types::DriveStatusword) {
-        glue::put_u16(&mut self.0, 722, value.0);
+        glue::put_u16(&mut self.0, 706, value.0);
     }
 
     /// `605Ah` Quick stop option code: Reaktion auf den Befehl Quick stop.
@@ -776,13 +776,13 @@ impl Fullmo {
     /// INTEGER16, rw, default quick stop ramp.
     #[inline]
     pub fn quick_stop_option_code(&self) -> types::QuickStopReaction {
-        types::QuickStopReaction(glue::get_i16(&self.0, 724))
+        types::QuickStopReaction(glue::get_i16(&self.0, 708))
     }
 
     /// Sets [`quick_stop_option_code`](Self::quick_stop_option_code).
     #[inline]
     pub fn set_quick_stop_option_code(&mut self, value: types::QuickStopReaction) {
-        glue::put_i16(&mut self.0, 724, value.0);
+        glue::put_i16(&mut self.0, 708, value.0);
     }
 
     /// `605Bh` Shutdown option code: Reaktion auf den Befehl Shutdown aus Operation enabled.
@@ -790,13 +790,13 @@ impl Fullmo {
     /// INTEGER16, rw, default disable drive.
     #[inline]
     pub fn shutdown_option_code(&self) -> types::ShutdownReaction {
-        types::ShutdownReaction(glue::get_i16(&self.0, 726))
+        types::ShutdownReaction(glue::get_i16(&self.0, 710))
     }
 
     /// Sets [`shutdown_option_code`](Self::shutdown_option_code).
     #[inline]
     pub fn set_shutdown_option_code(&mut self, value: types::ShutdownReaction) {
-        glue::put_i16(&mut self.0, 726, value.0);
+        glue::put_i16(&mut self.0, 710, value.0);
     }
 
     /// `605Ch` Disable operation option code: Reaktion auf den Befehl Disable operation.
@@ -804,7 +804,7 @@ impl Fullmo {
     /// INTEGER16, rw, default slow down ramp.
     #[inline]
     pub fn disable_operation_option_code(&self) -> types::DisableOperationReaction {
-        types::DisableOperationReaction(glue::get_i16(&self.0, 728))
+        types::DisableOperationReaction(glue::get_i16(&self.0, 712))
     }
 
     /// Sets [`disable_operation_option_code`](Self::disable_operation_option_code).
@@ -813,7 +813,7 @@ impl Fullmo {
         &mut self,
         value: types::DisableOperationReaction,
     ) {
-        glue::put_i16(&mut self.0, 728, value.0);
+        glue::put_i16(&mut self.0, 712, value.0);
     }
 
     /// `605Dh` Halt option code: Reaktion auf Bit 8 (Halt) des Steuerworts.
@@ -821,13 +821,13 @@ impl Fullmo {
     /// INTEGER16, rw, default slow down ramp.
     #[inline]
     pub fn halt_option_code(&self) -> types::HaltReaction {
-        types::HaltReaction(glue::get_i16(&self.0, 730))
+        types::HaltReaction(glue::get_i16(&self.0, 714))
     }
 
     /// Sets [`halt_option_code`](Self::halt_option_code).
     #[inline]
     pub fn set_halt_option_code(&mut self, value: types::HaltReaction) {
-        glue::put_i16(&mut self.0, 730, value.0);
+        glue::put_i16(&mut self.0, 714, value.0);
     }
 
     /// `605Eh` Fault reaction option code: Reaktion auf einen Fehler.
@@ -835,16 +835,16 @@ impl Fullmo {
     /// INTEGER16, rw, default quick stop ramp.
     #[inline]
     pub fn fault_reaction_option_code(&self) -> types::FaultReaction {
-        types::FaultReaction(glue::get_i16(&self.0, 732))
+        types::FaultReaction(glue::get_i16(&self.0, 716))
     }
 
     /// Sets [`fault_reaction_option_code`](Self::fault_reaction_option_code).
     #[inline]
     pub fn set_fault_reaction_option_code(&mut self, value: types::FaultReaction) {
-        glue::put_i16(&mut self.0, 732, value.0);
+        glue::put_i16(&mut self.0, 716, value.0);
     }
 
-    /// `6060h` Modes of operation: Verlangte Betriebsart.
+    /// `6060h` Modes of operation: Angeforderte Betriebsart.
     ///
     /// INTEGER8, rw, RPDO, default profile position mode. In RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default).
     #[inline]
@@ -872,18 +872,18 @@ impl Fullmo {
         glue::put_i8(&mut self.0, 763, value.0);
     }
 
-    /// `6062h` Position demand value: Sollposition in Positionseinheiten; ohne eigenen Abschnitt im Handbuch.
+    /// `6062h` Position demand value: Sollposition in Positionseinheiten.
     ///
     /// INTEGER32, ro, TPDO, in PU.
     #[inline]
     pub fn position_demand_value(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(glue::get_i32(&self.0, 472))
+        units::PositionUnit(glue::get_i32(&self.0, 456))
     }
 
     /// Sets [`position_demand_value`](Self::position_demand_value).
     #[inline]
     pub fn set_position_demand_value(&mut self, value: units::PositionUnit<i32>) {
-        glue::put_i32(&mut self.0, 472, value.0);
+        glue::put_i32(&mut self.0, 456, value.0);
     }
 
     /// `6063h` Position actual internal value: Istposition in internen Einheiten.
@@ -891,7 +891,7 @@ impl Fullmo {
     /// INTEGER32, ro, TPDO, in inc.
     #[inline]
     pub fn position_actual_internal_value(&self) -> units::Cia402Increment<i32> {
-        units::Cia402Increment(glue::get_i32(&self.0, 476))
+        units::Cia402Increment(glue::get_i32(&self.0, 460))
     }
 
     /// Sets [`position_actual_internal_value`](Self::position_actual_internal_value).
@@ -900,7 +900,7 @@ impl Fullmo {
         &mut self,
         value: units::Cia402Increment<i32>,
     ) {
-        glue::put_i32(&mut self.0, 476, value.0);
+        glue::put_i32(&mut self.0, 460, value.0);
     }
 
     /// `6064h` Position actual value: Istposition in Positionseinheiten: interne Position (6063h) \* (6092h.1 / 6092h.2) / ((608Fh.1 / 608Fh.2) \* (6091h.1 / 6091h.2)).
@@ -908,13 +908,13 @@ impl Fullmo {
     /// INTEGER32, ro, TPDO, in PU. In TPDO 3 ([`Tpdo3`](pdos::Tpdo3), off by default).
     #[inline]
     pub fn position_actual_value(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(glue::get_i32(&self.0, 480))
+        units::PositionUnit(glue::get_i32(&self.0, 464))
     }
 
     /// Sets [`position_actual_value`](Self::position_actual_value).
     #[inline]
     pub fn set_position_actual_value(&mut self, value: units::PositionUnit<i32>) {
-        glue::put_i32(&mut self.0, 480, value.0);
+        glue::put_i32(&mut self.0, 464, value.0);
     }
 
     /// `6067h` Position window: Fenster um die Zielposition. Bleibt die Istposition für die Zeit 6068h darin, wird Bit 10 (target reached) des Zustandsworts gesetzt.
@@ -923,12 +923,12 @@ impl Fullmo {
     #[inline]
     pub fn position_window(
         &self,
-    ) -> glue::Special<units::Cia402PositionUnit<u32>, specials::MonitoringOff> {
-        match glue::get_u32(&self.0, 484) {
+    ) -> glue::Special<units::PositionUnit<u32>, specials::MonitoringOff> {
+        match glue::get_u32(&self.0, 468) {
             4_294_967_295 => {
                 glue::Special::Special(specials::MonitoringOff::MonitoringOff)
             }
-            value => glue::Special::Value(units::Cia402PositionUnit(value)),
+            value => glue::Special::Value(units::PositionUnit(value)),
         }
     }
 
@@ -936,11 +936,11 @@ impl Fullmo {
     #[inline]
     pub fn set_position_window(
         &mut self,
-        value: glue::Special<units::Cia402PositionUnit<u32>, specials::MonitoringOff>,
+        value: glue::Special<units::PositionUnit<u32>, specials::MonitoringOff>,
     ) {
         glue::put_u32(
             &mut self.0,
-            484,
+            468,
             match value {
                 glue::Special::Value(value) => value.0,
                 glue::Special::Special(specials::MonitoringOff::MonitoringOff) => {
@@ -950,18 +950,18 @@ impl Fullmo {
         );
     }
 
-    /// `6068h` Position window time: Zeit zum Fenster 6067h.
+    /// `6068h` Position window time: Verweilzeit im Positionsfenster (6067h), nach der die Zielposition als erreicht gilt.
     ///
     /// UNSIGNED16, rw, RPDO, in ms.
     #[inline]
     pub fn position_window_time(&self) -> units::Millisecond<u16> {
-        units::Millisecond(glue::get_u16(&self.0, 734))
+        units::Millisecond(glue::get_u16(&self.0, 718))
     }
 
     /// Sets [`position_window_time`](Self::position_window_time).
     #[inline]
     pub fn set_position_window_time(&mut self, value: units::Millisecond<u16>) {
-        glue::put_u16(&mut self.0, 734, value.0);
+        glue::put_u16(&mut self.0, 718, value.0);
     }
 
     /// `606Bh` Velocity demand value: Ausgang des Trajektoriengenerators in internen Drehzahleinheiten.
@@ -969,7 +969,7 @@ impl Fullmo {
     /// INTEGER32, ro, TPDO, in inc/s.
     #[inline]
     pub fn velocity_demand_value(&self) -> units::Cia402IncrementPerSecond<i32> {
-        units::Cia402IncrementPerSecond(glue::get_i32(&self.0, 488))
+        units::Cia402IncrementPerSecond(glue::get_i32(&self.0, 472))
     }
 
     /// Sets [`velocity_demand_value`](Self::velocity_demand_value).
@@ -978,7 +978,7 @@ impl Fullmo {
         &mut self,
         value: units::Cia402IncrementPerSecond<i32>,
     ) {
-        glue::put_i32(&mut self.0, 488, value.0);
+        glue::put_i32(&mut self.0, 472, value.0);
     }
 
     /// `606Ch` Velocity actual value: Istgeschwindigkeit in Einheiten des Anwenders: interne Geschwindigkeit \* (6092h.1 / 6092h.2) / ((608Fh.1 / 608Fh.2) \* (6091h.1 / 6091h.2)).
@@ -986,13 +986,13 @@ impl Fullmo {
     /// INTEGER32, ro, TPDO, in VU. In TPDO 4 ([`Tpdo4`](pdos::Tpdo4), off by default).
     #[inline]
     pub fn velocity_actual_value(&self) -> units::VelocityUnit<i32> {
-        units::VelocityUnit(glue::get_i32(&self.0, 492))
+        units::VelocityUnit(glue::get_i32(&self.0, 476))
     }
 
     /// Sets [`velocity_actual_value`](Self::velocity_actual_value).
     #[inline]
     pub fn set_velocity_actual_value(&mut self, value: units::VelocityUnit<i32>) {
-        glue::put_i32(&mut self.0, 492, value.0);
+        glue::put_i32(&mut self.0, 476, value.0);
     }
 
     /// `606Dh` Velocity window: Bereich um die Zielgeschwindigkeit. Bleibt die Istgeschwindigkeit nach einem Fahrbefehl für die Zeit 606Eh darin, wird Bit 10 des Zustandsworts gesetzt; jeder neue Fahrbefehl löscht es.
@@ -1000,27 +1000,27 @@ impl Fullmo {
     /// UNSIGNED16, rw, RPDO, in VU.
     #[inline]
     pub fn velocity_window(&self) -> units::Cia402VelocityUnit<u16> {
-        units::Cia402VelocityUnit(glue::get_u16(&self.0, 736))
+        units::Cia402VelocityUnit(glue::get_u16(&self.0, 720))
     }
 
     /// Sets [`velocity_window`](Self::velocity_window).
     #[inline]
     pub fn set_velocity_window(&mut self, value: units::Cia402VelocityUnit<u16>) {
-        glue::put_u16(&mut self.0, 736, value.0);
+        glue::put_u16(&mut self.0, 720, value.0);
     }
 
-    /// `606Eh` Velocity window time: Zeit zum Fenster 606Dh.
+    /// `606Eh` Velocity window time: Verweilzeit im Drehzahlfenster (606Dh), nach der die Solldrehzahl als erreicht gilt.
     ///
     /// UNSIGNED16, rw, RPDO, in ms, default 0 ms.
     #[inline]
     pub fn velocity_window_time(&self) -> units::Millisecond<u16> {
-        units::Millisecond(glue::get_u16(&self.0, 738))
+        units::Millisecond(glue::get_u16(&self.0, 722))
     }
 
     /// Sets [`velocity_window_time`](Self::velocity_window_time).
     #[inline]
     pub fn set_velocity_window_time(&mut self, value: units::Millisecond<u16>) {
-        glue::put_u16(&mut self.0, 738, value.0);
+        glue::put_u16(&mut self.0, 722, value.0);
     }
 
     /// `606Fh` Velocity threshold: Liegt die Istgeschwindigkeit für die Zeit 6070h darüber, wird Bit 12 des Zustandsworts 0, liegt sie so lange darunter, wird es 1.
@@ -1028,41 +1028,41 @@ impl Fullmo {
     /// UNSIGNED16, rw, RPDO, in VU.
     #[inline]
     pub fn velocity_threshold(&self) -> units::Cia402VelocityUnit<u16> {
-        units::Cia402VelocityUnit(glue::get_u16(&self.0, 740))
+        units::Cia402VelocityUnit(glue::get_u16(&self.0, 724))
     }
 
     /// Sets [`velocity_threshold`](Self::velocity_threshold).
     #[inline]
     pub fn set_velocity_threshold(&mut self, value: units::Cia402VelocityUnit<u16>) {
-        glue::put_u16(&mut self.0, 740, value.0);
+        glue::put_u16(&mut self.0, 724, value.0);
     }
 
-    /// `6070h` Velocity threshold time: Zeit zur Schwelle 606Fh.
+    /// `6070h` Velocity threshold time: Dauer einer Über- oder Unterschreitung der Schwelle (606Fh), nach der Bit 12 des Zustandsworts wechselt.
     ///
     /// UNSIGNED16, rw, RPDO, in ms.
     #[inline]
     pub fn velocity_threshold_time(&self) -> units::Millisecond<u16> {
-        units::Millisecond(glue::get_u16(&self.0, 742))
+        units::Millisecond(glue::get_u16(&self.0, 726))
     }
 
     /// Sets [`velocity_threshold_time`](Self::velocity_threshold_time).
     #[inline]
     pub fn set_velocity_threshold_time(&mut self, value: units::Millisecond<u16>) {
-        glue::put_u16(&mut self.0, 742, value.0);
+        glue::put_u16(&mut self.0, 726, value.0);
     }
 
-    /// `6071h` Target torque: Sollmoment im Profile Torque Mode; ein Rampengenerator (6087h) baut es auf. Positive Werte drehen positiv. Der Sollstrom in mA ist 6071h \* 6075h / 1000.
+    /// `6071h` Target torque: Sollmoment im Profile Torque Mode; ein Rampengenerator (6087h) baut es auf. Das Vorzeichen bestimmt die Drehrichtung. Der Sollstrom in mA ist 6071h \* 6075h / 1000.
     ///
     /// INTEGER16, rw, RPDO, in 0.1 %, default 0.0 %.
     #[inline]
     pub fn target_torque(&self) -> units::PerMilleOfRatedTorque<i16> {
-        units::PerMilleOfRatedTorque(glue::get_i16(&self.0, 744))
+        units::PerMilleOfRatedTorque(glue::get_i16(&self.0, 728))
     }
 
     /// Sets [`target_torque`](Self::target_torque).
     #[inline]
     pub fn set_target_torque(&mut self, value: units::PerMilleOfRatedTorque<i16>) {
-        glue::put_i16(&mut self.0, 744, value.0);
+        glue::put_i16(&mut self.0, 728, value.0);
     }
 
     /// `6072h` Max torque: Größtes zulässiges Drehmoment.
@@ -1070,13 +1070,13 @@ impl Fullmo {
     /// UNSIGNED16, rw, RPDO, in 0.1 %.
     #[inline]
     pub fn max_torque(&self) -> units::PerMilleOfRatedTorque<u16> {
-        units::PerMilleOfRatedTorque(glue::get_u16(&self.0, 746))
+        units::PerMilleOfRatedTorque(glue::get_u16(&self.0, 730))
     }
 
     /// Sets [`max_torque`](Self::max_torque).
     #[inline]
     pub fn set_max_torque(&mut self, value: units::PerMilleOfRatedTorque<u16>) {
-        glue::put_u16(&mut self.0, 746, value.0);
+        glue::put_u16(&mut self.0, 730, value.0);
     }
 
     /// `6073h` Max current: Strombegrenzung.
@@ -1084,13 +1084,13 @@ impl Fullmo {
     /// UNSIGNED16, rw, RPDO, in 0.1 %.
     #[inline]
     pub fn max_current(&self) -> units::PerMilleOfRatedCurrent<u16> {
-        units::PerMilleOfRatedCurrent(glue::get_u16(&self.0, 748))
+        units::PerMilleOfRatedCurrent(glue::get_u16(&self.0, 732))
     }
 
     /// Sets [`max_current`](Self::max_current).
     #[inline]
     pub fn set_max_current(&mut self, value: units::PerMilleOfRatedCurrent<u16>) {
-        glue::put_u16(&mut self.0, 748, value.0);
+        glue::put_u16(&mut self.0, 732, value.0);
     }
 
     /// `6074h` Torque demand: Ausgang des Rampengenerators für das Drehmoment.
@@ -1098,13 +1098,13 @@ impl Fullmo {
     /// INTEGER16, ro, TPDO, in 0.1 %.
     #[inline]
     pub fn torque_demand(&self) -> units::PerMilleOfRatedTorque<i16> {
-        units::PerMilleOfRatedTorque(glue::get_i16(&self.0, 750))
+        units::PerMilleOfRatedTorque(glue::get_i16(&self.0, 734))
     }
 
     /// Sets [`torque_demand`](Self::torque_demand).
     #[inline]
     pub fn set_torque_demand(&mut self, value: units::PerMilleOfRatedTorque<i16>) {
-        glue::put_i16(&mut self.0, 750, value.0);
+        glue::put_i16(&mut self.0, 734, value.0);
     }
 
     /// `6075h` Motor rated current: Nennstrom des Motors, Bezug von 6073h und 6078h.
@@ -1112,13 +1112,13 @@ impl Fullmo {
     /// UNSIGNED32, rw, in mA.
     #[inline]
     pub fn motor_rated_current(&self) -> units::Milliampere<u32> {
-        units::Milliampere(glue::get_u32(&self.0, 496))
+        units::Milliampere(glue::get_u32(&self.0, 480))
     }
 
     /// Sets [`motor_rated_current`](Self::motor_rated_current).
     #[inline]
     pub fn set_motor_rated_current(&mut self, value: units::Milliampere<u32>) {
-        glue::put_u32(&mut self.0, 496, value.0);
+        glue::put_u32(&mut self.0, 480, value.0);
     }
 
     /// `6076h` Motor rated torque: Nennmoment des Motors, Bezug von 6071h, 6072h, 6074h, 6077h und 6087h.
@@ -1126,13 +1126,13 @@ impl Fullmo {
     /// UNSIGNED32, rw, in mNm.
     #[inline]
     pub fn motor_rated_torque(&self) -> units::MillinewtonMetre<u32> {
-        units::MillinewtonMetre(glue::get_u32(&self.0, 500))
+        units::MillinewtonMetre(glue::get_u32(&self.0, 484))
     }
 
     /// Sets [`motor_rated_torque`](Self::motor_rated_torque).
     #[inline]
     pub fn set_motor_rated_torque(&mut self, value: units::MillinewtonMetre<u32>) {
-        glue::put_u32(&mut self.0, 500, value.0);
+        glue::put_u32(&mut self.0, 484, value.0);
     }
 
     /// `6077h` Torque actual value: Istmoment, aus dem Iststrom in mA berechnet: Strom \* 1000 / 6075h.
@@ -1140,13 +1140,13 @@ impl Fullmo {
     /// INTEGER16, ro, TPDO, in 0.1 %.
     #[inline]
     pub fn torque_actual_value(&self) -> units::PerMilleOfRatedTorque<i16> {
-        units::PerMilleOfRatedTorque(glue::get_i16(&self.0, 752))
+        units::PerMilleOfRatedTorque(glue::get_i16(&self.0, 736))
     }
 
     /// Sets [`torque_actual_value`](Self::torque_actual_value).
     #[inline]
     pub fn set_torque_actual_value(&mut self, value: units::PerMilleOfRatedTorque<i16>) {
-        glue::put_i16(&mut self.0, 752, value.0);
+        glue::put_i16(&mut self.0, 736, value.0);
     }
 
     /// `6078h` Current actual value: Strom der Motorphase: Iststrom in mA \* 1000 / 6075h.
@@ -1154,7 +1154,7 @@ impl Fullmo {
     /// INTEGER16, ro, TPDO, in 0.1 %.
     #[inline]
     pub fn current_actual_value(&self) -> units::PerMilleOfRatedCurrent<i16> {
-        units::PerMilleOfRatedCurrent(glue::get_i16(&self.0, 754))
+        units::PerMilleOfRatedCurrent(glue::get_i16(&self.0, 738))
     }
 
     /// Sets [`current_actual_value`](Self::current_actual_value).
@@ -1163,7 +1163,7 @@ impl Fullmo {
         &mut self,
         value: units::PerMilleOfRatedCurrent<i16>,
     ) {
-        glue::put_i16(&mut self.0, 754, value.0);
+        glue::put_i16(&mut self.0, 738, value.0);
     }
 
     /// `6079h` DC link circuit voltage: Spannung des Zwischenkreises.
@@ -1171,13 +1171,13 @@ impl Fullmo {
     /// UNSIGNED32, ro, TPDO, in mV.
     #[inline]
     pub fn dc_link_circuit_voltage(&self) -> units::Millivolt<u32> {
-        units::Millivolt(glue::get_u32(&self.0, 504))
+        units::Millivolt(glue::get_u32(&self.0, 488))
     }
 
     /// Sets [`dc_link_circuit_voltage`](Self::dc_link_circuit_voltage).
     #[inline]
     pub fn set_dc_link_circuit_voltage(&mut self, value: units::Millivolt<u32>) {
-        glue::put_u32(&mut self.0, 504, value.0);
+        glue::put_u32(&mut self.0, 488, value.0);
     }
 
     /// `607Ah` Target position: Zielposition in Positionseinheiten; intern: Zielposition \* (608Fh.1 / 608Fh.2) \* (6091h.1 / 6091h.2) / (6092h.1 / 6092h.2). Ziele hinter den Softwareendlagen (607Dh) werden auf diese begrenzt.
@@ -1185,30 +1185,30 @@ impl Fullmo {
     /// INTEGER32, rw, RPDO, in PU. In RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default).
     #[inline]
     pub fn target_position(&self) -> units::PositionUnit<i32> {
-        units::PositionUnit(glue::get_i32(&self.0, 508))
+        units::PositionUnit(glue::get_i32(&self.0, 492))
     }
 
     /// Sets [`target_position`](Self::target_position).
     #[inline]
     pub fn set_target_position(&mut self, value: units::PositionUnit<i32>) {
-        glue::put_i32(&mut self.0, 508, value.0);
+        glue::put_i32(&mut self.0, 492, value.0);
     }
 
     /// `607Ch` Home offset: Nach erfolgreicher Referenzfahrt erhält die gefundene Position den Wert minus Home offset.
     ///
     /// INTEGER32, rw, RPDO, in PU, default 0 PU.
     #[inline]
-    pub fn home_offset(&self) -> units::Cia402PositionUnit<i32> {
-        units::Cia402PositionUnit(glue::get_i32(&self.0, 512))
+    pub fn home_offset(&self) -> units::PositionUnit<i32> {
+        units::PositionUnit(glue::get_i32(&self.0, 496))
     }
 
     /// Sets [`home_offset`](Self::home_offset).
     #[inline]
-    pub fn set_home_offset(&mut self, value: units::Cia402PositionUnit<i32>) {
-        glue::put_i32(&mut self.0, 512, value.0);
+    pub fn set_home_offset(&mut self, value: units::PositionUnit<i32>) {
+        glue::put_i32(&mut self.0, 496, value.0);
     }
 
-    /// `607Dh` Software position limit: Softwareendlagen in Positionseinheiten, umgerechnet wie 607Ah. Werden sie während einer Positionierung geändert und würden überfahren, bremst der Antrieb mit der eingestellten Verzögerung auf sie; er rechnet dazu Bremspunkte für beide Endlagen und das Ziel.
+    /// `607Dh` Software position limit: Softwareendlagen in Positionseinheiten, umgerechnet wie 607Ah. Würde eine Endlage nach einer Änderung während der Positionierung überfahren, bremst der Antrieb mit der eingestellten Verzögerung bis zu ihr ab; dazu berechnet er Bremspunkte für beide Endlagen und das Ziel.
     #[inline]
     pub const fn software_position_limit(
         &self,
@@ -1224,7 +1224,7 @@ impl Fullmo {
         records::SoftwarePositionLimit(self)
     }
 
-    /// `607Eh` Polarity: Drehsinn von Position und Geschwindigkeit; ohne eigenen Abschnitt im Handbuch.
+    /// `607Eh` Polarity: Drehsinn von Position und Geschwindigkeit.
     ///
     /// UNSIGNED8, rw, RPDO, default 0x00.
     #[inline]
@@ -1243,13 +1243,13 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in U/min.
     #[inline]
     pub fn max_profile_velocity(&self) -> units::RevolutionPerMinute<u32> {
-        units::RevolutionPerMinute(glue::get_u32(&self.0, 524))
+        units::RevolutionPerMinute(glue::get_u32(&self.0, 508))
     }
 
     /// Sets [`max_profile_velocity`](Self::max_profile_velocity).
     #[inline]
     pub fn set_max_profile_velocity(&mut self, value: units::RevolutionPerMinute<u32>) {
-        glue::put_u32(&mut self.0, 524, value.0);
+        glue::put_u32(&mut self.0, 508, value.0);
     }
 
     /// `6080h` Max motor speed: Größte Drehzahl des Motors.
@@ -1257,13 +1257,13 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in U/min.
     #[inline]
     pub fn max_motor_speed(&self) -> units::RevolutionPerMinute<u32> {
-        units::RevolutionPerMinute(glue::get_u32(&self.0, 528))
+        units::RevolutionPerMinute(glue::get_u32(&self.0, 512))
     }
 
     /// Sets [`max_motor_speed`](Self::max_motor_speed).
     #[inline]
     pub fn set_max_motor_speed(&mut self, value: units::RevolutionPerMinute<u32>) {
-        glue::put_u32(&mut self.0, 528, value.0);
+        glue::put_u32(&mut self.0, 512, value.0);
     }
 
     /// `6081h` Profile velocity: Profilgeschwindigkeit in Einheiten des Anwenders; intern: Profilgeschwindigkeit \* (608Fh.1 / 608Fh.2) \* (6091h.1 / 6091h.2) / (6092h.1 / 6092h.2).
@@ -1271,13 +1271,13 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in VU.
     #[inline]
     pub fn profile_velocity(&self) -> units::VelocityUnit<u32> {
-        units::VelocityUnit(glue::get_u32(&self.0, 532))
+        units::VelocityUnit(glue::get_u32(&self.0, 516))
     }
 
     /// Sets [`profile_velocity`](Self::profile_velocity).
     #[inline]
     pub fn set_profile_velocity(&mut self, value: units::VelocityUnit<u32>) {
-        glue::put_u32(&mut self.0, 532, value.0);
+        glue::put_u32(&mut self.0, 516, value.0);
     }
 
     /// `6083h` Profile acceleration: Beschleunigung der Rampen.
@@ -1285,7 +1285,7 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in 0.01525 U/s².
     #[inline]
     pub fn profile_acceleration(&self) -> units::RevolutionPerSecondSquared<u32> {
-        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 536))
+        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 520))
     }
 
     /// Sets [`profile_acceleration`](Self::profile_acceleration).
@@ -1294,7 +1294,7 @@ impl Fullmo {
         &mut self,
         value: units::RevolutionPerSecondSquared<u32>,
     ) {
-        glue::put_u32(&mut self.0, 536, value.0);
+        glue::put_u32(&mut self.0, 520, value.0);
     }
 
     /// `6084h` Profile deceleration: Verzögerung der Rampen.
@@ -1302,7 +1302,7 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in 0.01525 U/s².
     #[inline]
     pub fn profile_deceleration(&self) -> units::RevolutionPerSecondSquared<u32> {
-        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 540))
+        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 524))
     }
 
     /// Sets [`profile_deceleration`](Self::profile_deceleration).
@@ -1311,7 +1311,7 @@ impl Fullmo {
         &mut self,
         value: units::RevolutionPerSecondSquared<u32>,
     ) {
-        glue::put_u32(&mut self.0, 540, value.0);
+        glue::put_u32(&mut self.0, 524, value.0);
     }
 
     /// `6085h` Quick stop deceleration: Verzögerung bei Schnellhalt.
@@ -1319,7 +1319,7 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in 0.01525 U/s².
     #[inline]
     pub fn quick_stop_deceleration(&self) -> units::RevolutionPerSecondSquared<u32> {
-        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 544))
+        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 528))
     }
 
     /// Sets [`quick_stop_deceleration`](Self::quick_stop_deceleration).
@@ -1328,15 +1328,15 @@ impl Fullmo {
         &mut self,
         value: units::RevolutionPerSecondSquared<u32>,
     ) {
-        glue::put_u32(&mut self.0, 544, value.0);
+        glue::put_u32(&mut self.0, 528, value.0);
     }
 
-    /// `6087h` Torque slope: Steigung der Rampe des Drehmoments.
+    /// `6087h` Torque slope: Rampensteigung des Drehmoments.
     ///
     /// UNSIGNED32, rw, RPDO, in 0.1 %/s, default 0.0 %/s.
     #[inline]
     pub fn torque_slope(&self) -> units::PerMilleOfRatedTorquePerSecond<u32> {
-        units::PerMilleOfRatedTorquePerSecond(glue::get_u32(&self.0, 548))
+        units::PerMilleOfRatedTorquePerSecond(glue::get_u32(&self.0, 532))
     }
 
     /// Sets [`torque_slope`](Self::torque_slope).
@@ -1345,7 +1345,7 @@ impl Fullmo {
         &mut self,
         value: units::PerMilleOfRatedTorquePerSecond<u32>,
     ) {
-        glue::put_u32(&mut self.0, 548, value.0);
+        glue::put_u32(&mut self.0, 532, value.0);
     }
 
     /// `608Fh` Position encoder resolution: Auflösung des Gebers: Subindex 1 durch Subindex 2.
@@ -1414,12 +1414,12 @@ impl Fullmo {
         records::HomingSpeeds(self)
     }
 
-    /// `609Ah` Homing acceleration: Beschleunigung der Referenzfahrt; die Einheit ist nicht angegeben.
+    /// `609Ah` Homing acceleration: Beschleunigung der Referenzfahrt.
     ///
     /// UNSIGNED32, rw, RPDO, in AU.
     #[inline]
     pub fn homing_acceleration(&self) -> units::Cia402AccelerationUnit<u32> {
-        units::Cia402AccelerationUnit(glue::get_u32(&self.0, 584))
+        units::Cia402AccelerationUnit(glue::get_u32(&self.0, 568))
     }
 
     /// Sets [`homing_acceleration`](Self::homing_acceleration).
@@ -1428,21 +1428,21 @@ impl Fullmo {
         &mut self,
         value: units::Cia402AccelerationUnit<u32>,
     ) {
-        glue::put_u32(&mut self.0, 584, value.0);
+        glue::put_u32(&mut self.0, 568, value.0);
     }
 
-    /// `60B8h` Touch probe function: Legt die Eingänge von Referenz- und Endschaltern fest. Anders als in CiA 402 wird hier kein Messtaster gesteuert: Wer die Werte der Norm schreibt, verlegt die Endschalter.
+    /// `60B8h` Touch probe function: Legt die Eingänge von Referenz- und Endschaltern fest. Anders als in CiA 402 steuert das Objekt keinen Messtaster: Werte der Norm ordnen die Endschalter anderen Eingängen zu.
     ///
     /// UNSIGNED16, rw, default 0x0000.
     #[inline]
     pub fn touch_probe_function(&self) -> types::HomingSensors {
-        types::HomingSensors(glue::get_u16(&self.0, 756))
+        types::HomingSensors(glue::get_u16(&self.0, 740))
     }
 
     /// Sets [`touch_probe_function`](Self::touch_probe_function).
     #[inline]
     pub fn set_touch_probe_function(&mut self, value: types::HomingSensors) {
-        glue::put_u16(&mut self.0, 756, value.0);
+        glue::put_u16(&mut self.0, 740, value.0);
     }
 
     /// `60C5h` Max acceleration: Größte Beschleunigung.
@@ -1450,7 +1450,7 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in 0.01525 U/s².
     #[inline]
     pub fn max_acceleration(&self) -> units::RevolutionPerSecondSquared<u32> {
-        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 588))
+        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 572))
     }
 
     /// Sets [`max_acceleration`](Self::max_acceleration).
@@ -1459,7 +1459,7 @@ impl Fullmo {
         &mut self,
         value: units::RevolutionPerSecondSquared<u32>,
     ) {
-        glue::put_u32(&mut self.0, 588, value.0);
+        glue::put_u32(&mut self.0, 572, value.0);
     }
 
     /// `60C6h` Max deceleration: Größte Verzögerung.
@@ -1467,7 +1467,7 @@ impl Fullmo {
     /// UNSIGNED32, rw, RPDO, in 0.01525 U/s².
     #[inline]
     pub fn max_deceleration(&self) -> units::RevolutionPerSecondSquared<u32> {
-        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 592))
+        units::RevolutionPerSecondSquared(glue::get_u32(&self.0, 576))
     }
 
     /// Sets [`max_deceleration`](Self::max_deceleration).
@@ -1476,15 +1476,15 @@ impl Fullmo {
         &mut self,
         value: units::RevolutionPerSecondSquared<u32>,
     ) {
-        glue::put_u32(&mut self.0, 592, value.0);
+        glue::put_u32(&mut self.0, 576, value.0);
     }
 
-    /// `60F2h` Positioning option code: Wozu relative Positionierungen relativ sind.
+    /// `60F2h` Positioning option code: Bezugspunkt relativer Positionierungen.
     ///
     /// UNSIGNED16, rw, RPDO, default 0x0000.
     #[inline]
     pub fn positioning_option_code(&self) -> types::RelativePositioningOption {
-        types::RelativePositioningOption(glue::get_u16(&self.0, 758))
+        types::RelativePositioningOption(glue::get_u16(&self.0, 742))
     }
 
     /// Sets [`positioning_option_code`](Self::positioning_option_code).
@@ -1493,7 +1493,7 @@ impl Fullmo {
         &mut self,
         value: types::RelativePositioningOption,
     ) {
-        glue::put_u16(&mut self.0, 758, value.0);
+        glue::put_u16(&mut self.0, 742, value.0);
     }
 
     /// `60FCh` Position demand internal value: Momentane Sollposition, Ausgang des Trajektoriengenerators.
@@ -1501,7 +1501,7 @@ impl Fullmo {
     /// INTEGER32, ro, TPDO, in inc.
     #[inline]
     pub fn position_demand_internal_value(&self) -> units::Cia402Increment<i32> {
-        units::Cia402Increment(glue::get_i32(&self.0, 596))
+        units::Cia402Increment(glue::get_i32(&self.0, 580))
     }
 
     /// Sets [`position_demand_internal_value`](Self::position_demand_internal_value).
@@ -1510,7 +1510,7 @@ impl Fullmo {
         &mut self,
         value: units::Cia402Increment<i32>,
     ) {
-        glue::put_i32(&mut self.0, 596, value.0);
+        glue::put_i32(&mut self.0, 580, value.0);
     }
 
     /// `60FFh` Target velocity: Solldrehzahl in Einheiten des Anwenders, umgerechnet wie 6081h. Eine Änderung im Zustand Operation enabled ist ein Fahrbefehl.
@@ -1518,13 +1518,13 @@ impl Fullmo {
     /// INTEGER32, rw, RPDO, in VU. In RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
     pub fn target_velocity(&self) -> units::VelocityUnit<i32> {
-        units::VelocityUnit(glue::get_i32(&self.0, 600))
+        units::VelocityUnit(glue::get_i32(&self.0, 584))
     }
 
     /// Sets [`target_velocity`](Self::target_velocity).
     #[inline]
     pub fn set_target_velocity(&mut self, value: units::VelocityUnit<i32>) {
-        glue::put_i32(&mut self.0, 600, value.0);
+        glue::put_i32(&mut self.0, 584, value.0);
     }
 }
 
@@ -2112,7 +2112,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn vendor_id(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 312)
+            super::glue::get_u32(&self.0.borrow().0, 8)
         }
 
         /// `1018h.2` Product code: The manufacturer's number of this product.
@@ -2120,7 +2120,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn product_code(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 316)
+            super::glue::get_u32(&self.0.borrow().0, 12)
         }
 
         /// `1018h.3` Revision number: Revision of the product; the high word changes when its CANopen behaviour changes.
@@ -2128,7 +2128,7 @@ pub mod records {
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
         pub fn revision_number(&self) -> super::types::RevisionCode {
-            super::types::RevisionCode(super::glue::get_u32(&self.0.borrow().0, 320))
+            super::types::RevisionCode(super::glue::get_u32(&self.0.borrow().0, 16))
         }
     }
 
@@ -2136,19 +2136,19 @@ pub mod records {
         /// Sets [`vendor_id`](Self::vendor_id).
         #[inline]
         pub fn set_vendor_id(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 312, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 8, value);
         }
 
         /// Sets [`product_code`](Self::product_code).
         #[inline]
         pub fn set_product_code(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 316, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 12, value);
         }
 
         /// Sets [`revision_number`](Self::revision_number).
         #[inline]
         pub fn set_revision_number(&mut self, value: super::types::RevisionCode) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 320, value.0);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 16, value.0);
         }
     }
 
@@ -2161,7 +2161,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> Rpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters.
+        /// UNSIGNED32, rw.
         #[inline]
         pub fn cob_id_used_by_rpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2169,7 +2169,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
+        /// UNSIGNED8, rw, default 255.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2208,7 +2208,7 @@ pub mod records {
     impl<D: Borrow<super::Fullmo>> Tpdo1CommunicationParameter<D> {
         /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
         ///
-        /// UNSIGNED32, rw, stored with the communication parameters.
+        /// UNSIGNED32, rw.
         #[inline]
         pub fn cob_id_used_by_tpdo(&self) -> u32 {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
@@ -2216,7 +2216,7 @@ pub mod records {
 
         /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
         ///
-        /// UNSIGNED8, rw, default 255, stored with the communication parameters.
+        /// UNSIGNED8, rw, default 255.
         #[inline]
         pub fn transmission_type(&self) -> u8 {
             super::glue::get_u8(&self.0.borrow().0, self.1[1])
@@ -2246,7 +2246,7 @@ pub mod records {
     /// `1803h` TPDO 4 communication parameter.
     pub type Tpdo4CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
-    /// `3402h` motor parameter: Messwerte und Meldungen von Motor und Endstufe. Subindizes 2 und 4 kommen im Handbuch nicht vor.
+    /// `3402h` motor parameter: Messwerte und Meldungen von Motor und Endstufe.
     #[derive(Debug)]
     pub struct MotorParameter<D>(pub(super) D);
 
@@ -2256,15 +2256,15 @@ pub mod records {
         /// INTEGER16, ro, in °C.
         #[inline]
         pub fn motor_temperature(&self) -> super::units::DegreeCelsius<i16> {
-            super::units::DegreeCelsius(super::glue::get_i16(&self.0.borrow().0, 606))
+            super::units::DegreeCelsius(super::glue::get_i16(&self.0.borrow().0, 590))
         }
 
-        /// `3402h.3` supply current: Aufgenommener Strom.
+        /// `3402h.3` supply current: Aufnahmestrom.
         ///
         /// INTEGER16, ro, in 0.01 A.
         #[inline]
         pub fn supply_current(&self) -> super::units::Centiampere<i16> {
-            super::units::Centiampere(super::glue::get_i16(&self.0.borrow().0, 608))
+            super::units::Centiampere(super::glue::get_i16(&self.0.borrow().0, 592))
         }
 
         /// `3402h.5` phase current Iq: Momentanwert des Phasenstroms Iq.
@@ -2272,15 +2272,15 @@ pub mod records {
         /// INTEGER16, ro, in 0.01 A.
         #[inline]
         pub fn phase_current_iq(&self) -> super::units::Centiampere<i16> {
-            super::units::Centiampere(super::glue::get_i16(&self.0.borrow().0, 610))
+            super::units::Centiampere(super::glue::get_i16(&self.0.borrow().0, 594))
         }
 
-        /// `3402h.6` AMS errors 1: Fehlermeldungen von „AMS“, erstes von drei gleich benannten Wörtern.
+        /// `3402h.6` AMS errors 1: Fehlermeldungen von „AMS“, erstes von drei Wörtern.
         ///
         /// UNSIGNED16, ro.
         #[inline]
         pub fn ams_errors_1(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 612)
+            super::glue::get_u16(&self.0.borrow().0, 596)
         }
 
         /// `3402h.7` AMS errors 2: Fehlermeldungen von „AMS“, zweites Wort.
@@ -2288,7 +2288,7 @@ pub mod records {
         /// UNSIGNED16, ro.
         #[inline]
         pub fn ams_errors_2(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 614)
+            super::glue::get_u16(&self.0.borrow().0, 598)
         }
 
         /// `3402h.8` AMS errors 3: Fehlermeldungen von „AMS“, drittes Wort.
@@ -2296,7 +2296,7 @@ pub mod records {
         /// UNSIGNED16, ro.
         #[inline]
         pub fn ams_errors_3(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 616)
+            super::glue::get_u16(&self.0.borrow().0, 600)
         }
 
         /// `3402h.9` DC link voltage: Eingangsspannung des Zwischenkreises, in 10 mV; siehe auch 6079h in mV.
@@ -2304,7 +2304,7 @@ pub mod records {
         /// UNSIGNED16, ro, in 0.01 V.
         #[inline]
         pub fn dc_link_voltage(&self) -> super::units::Centivolt<u16> {
-            super::units::Centivolt(super::glue::get_u16(&self.0.borrow().0, 618))
+            super::units::Centivolt(super::glue::get_u16(&self.0.borrow().0, 602))
         }
 
         /// `3402h.10` I²t current limit: Strombegrenzung der I²t-Überwachung.
@@ -2312,7 +2312,7 @@ pub mod records {
         /// UNSIGNED16, ro.
         #[inline]
         pub fn i2t_current_limit(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 620)
+            super::glue::get_u16(&self.0.borrow().0, 604)
         }
 
         /// `3402h.11` I²t memory: Speicher der I²t-Überwachung.
@@ -2320,7 +2320,7 @@ pub mod records {
         /// UNSIGNED16, ro.
         #[inline]
         pub fn i2t_memory(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 622)
+            super::glue::get_u16(&self.0.borrow().0, 606)
         }
 
         /// `3402h.12` logic supply voltage: Eingangsspannung der Logikversorgung.
@@ -2328,7 +2328,7 @@ pub mod records {
         /// UNSIGNED16, ro, in 0.01 V.
         #[inline]
         pub fn logic_supply_voltage(&self) -> super::units::Centivolt<u16> {
-            super::units::Centivolt(super::glue::get_u16(&self.0.borrow().0, 624))
+            super::units::Centivolt(super::glue::get_u16(&self.0.borrow().0, 608))
         }
     }
 
@@ -2339,61 +2339,61 @@ pub mod records {
             &mut self,
             value: super::units::DegreeCelsius<i16>,
         ) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 606, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 590, value.0);
         }
 
         /// Sets [`supply_current`](Self::supply_current).
         #[inline]
         pub fn set_supply_current(&mut self, value: super::units::Centiampere<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 608, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 592, value.0);
         }
 
         /// Sets [`phase_current_iq`](Self::phase_current_iq).
         #[inline]
         pub fn set_phase_current_iq(&mut self, value: super::units::Centiampere<i16>) {
-            super::glue::put_i16(&mut self.0.borrow_mut().0, 610, value.0);
+            super::glue::put_i16(&mut self.0.borrow_mut().0, 594, value.0);
         }
 
         /// Sets [`ams_errors_1`](Self::ams_errors_1).
         #[inline]
         pub fn set_ams_errors_1(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 612, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 596, value);
         }
 
         /// Sets [`ams_errors_2`](Self::ams_errors_2).
         #[inline]
         pub fn set_ams_errors_2(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 614, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 598, value);
         }
 
         /// Sets [`ams_errors_3`](Self::ams_errors_3).
         #[inline]
         pub fn set_ams_errors_3(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 616, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 600, value);
         }
 
         /// Sets [`dc_link_voltage`](Self::dc_link_voltage).
         #[inline]
         pub fn set_dc_link_voltage(&mut self, value: super::units::Centivolt<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 618, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 602, value.0);
         }
 
         /// Sets [`i2t_current_limit`](Self::i2t_current_limit).
         #[inline]
         pub fn set_i2t_current_limit(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 620, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 604, value);
         }
 
         /// Sets [`i2t_memory`](Self::i2t_memory).
         #[inline]
         pub fn set_i2t_memory(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 622, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 606, value);
         }
 
         /// Sets [`logic_supply_voltage`](Self::logic_supply_voltage).
         #[inline]
         pub fn set_logic_supply_voltage(&mut self, value: super::units::Centivolt<u16>) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 624, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 608, value.0);
         }
     }
 
@@ -2407,7 +2407,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn internal_service(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 626)
+            super::glue::get_u16(&self.0.borrow().0, 610)
         }
 
         /// `3404h.2` internal service password: Passwort für den internen Service.
@@ -2415,7 +2415,7 @@ pub mod records {
         /// UNSIGNED16, wo.
         #[inline]
         pub fn internal_service_password(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 628)
+            super::glue::get_u16(&self.0.borrow().0, 612)
         }
 
         /// `3404h.3` node number: Knotennummer am CAN-Bus.
@@ -2431,7 +2431,7 @@ pub mod records {
         /// UNSIGNED32, ro.
         #[inline]
         pub fn serial_number(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 324)
+            super::glue::get_u32(&self.0.borrow().0, 308)
         }
 
         /// `3404h.5` current limit display: Anzeige der Strombegrenzung.
@@ -2439,7 +2439,7 @@ pub mod records {
         /// UNSIGNED16, ro, in 0.01 A.
         #[inline]
         pub fn current_limit_display(&self) -> super::units::Centiampere<u16> {
-            super::units::Centiampere(super::glue::get_u16(&self.0.borrow().0, 630))
+            super::units::Centiampere(super::glue::get_u16(&self.0.borrow().0, 614))
         }
 
         /// `3404h.6` position controller Kp: Proportionalverstärkung des Positionsreglers.
@@ -2447,7 +2447,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn position_controller_kp(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 632)
+            super::glue::get_u16(&self.0.borrow().0, 616)
         }
 
         /// `3404h.7` position controller Ki: Integralverstärkung des Positionsreglers.
@@ -2455,7 +2455,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn position_controller_ki(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 634)
+            super::glue::get_u16(&self.0.borrow().0, 618)
         }
 
         /// `3404h.8` velocity controller Kp: Proportionalverstärkung des Drehzahlreglers.
@@ -2463,7 +2463,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn velocity_controller_kp(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 636)
+            super::glue::get_u16(&self.0.borrow().0, 620)
         }
 
         /// `3404h.9` velocity controller Ki: Integralverstärkung des Drehzahlreglers.
@@ -2471,7 +2471,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn velocity_controller_ki(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 638)
+            super::glue::get_u16(&self.0.borrow().0, 622)
         }
 
         /// `3404h.10` current controller Iq Kp: Proportionalverstärkung des Stromreglers Iq.
@@ -2479,7 +2479,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn current_controller_iq_kp(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 640)
+            super::glue::get_u16(&self.0.borrow().0, 624)
         }
 
         /// `3404h.11` current controller Iq Ki: Integralverstärkung des Stromreglers Iq.
@@ -2487,7 +2487,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn current_controller_iq_ki(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 642)
+            super::glue::get_u16(&self.0.borrow().0, 626)
         }
 
         /// `3404h.12` current controller Id Kp: Proportionalverstärkung des Stromreglers Id.
@@ -2495,7 +2495,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn current_controller_id_kp(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 644)
+            super::glue::get_u16(&self.0.borrow().0, 628)
         }
 
         /// `3404h.13` current controller Id Ki: Integralverstärkung des Stromreglers Id.
@@ -2503,7 +2503,7 @@ pub mod records {
         /// UNSIGNED16, rw locked.
         #[inline]
         pub fn current_controller_id_ki(&self) -> u16 {
-            super::glue::get_u16(&self.0.borrow().0, 646)
+            super::glue::get_u16(&self.0.borrow().0, 630)
         }
     }
 
@@ -2511,13 +2511,13 @@ pub mod records {
         /// Sets [`internal_service`](Self::internal_service).
         #[inline]
         pub fn set_internal_service(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 626, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 610, value);
         }
 
         /// Sets [`internal_service_password`](Self::internal_service_password).
         #[inline]
         pub fn set_internal_service_password(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 628, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 612, value);
         }
 
         /// Sets [`node_number`](Self::node_number).
@@ -2529,7 +2529,7 @@ pub mod records {
         /// Sets [`serial_number`](Self::serial_number).
         #[inline]
         pub fn set_serial_number(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 324, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 308, value);
         }
 
         /// Sets [`current_limit_display`](Self::current_limit_display).
@@ -2538,55 +2538,55 @@ pub mod records {
             &mut self,
             value: super::units::Centiampere<u16>,
         ) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 630, value.0);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 614, value.0);
         }
 
         /// Sets [`position_controller_kp`](Self::position_controller_kp).
         #[inline]
         pub fn set_position_controller_kp(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 632, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 616, value);
         }
 
         /// Sets [`position_controller_ki`](Self::position_controller_ki).
         #[inline]
         pub fn set_position_controller_ki(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 634, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 618, value);
         }
 
         /// Sets [`velocity_controller_kp`](Self::velocity_controller_kp).
         #[inline]
         pub fn set_velocity_controller_kp(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 636, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 620, value);
         }
 
         /// Sets [`velocity_controller_ki`](Self::velocity_controller_ki).
         #[inline]
         pub fn set_velocity_controller_ki(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 638, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 622, value);
         }
 
         /// Sets [`current_controller_iq_kp`](Self::current_controller_iq_kp).
         #[inline]
         pub fn set_current_controller_iq_kp(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 640, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 624, value);
         }
 
         /// Sets [`current_controller_iq_ki`](Self::current_controller_iq_ki).
         #[inline]
         pub fn set_current_controller_iq_ki(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 642, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 626, value);
         }
 
         /// Sets [`current_controller_id_kp`](Self::current_controller_id_kp).
         #[inline]
         pub fn set_current_controller_id_kp(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 644, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 628, value);
         }
 
         /// Sets [`current_controller_id_ki`](Self::current_controller_id_ki).
         #[inline]
         pub fn set_current_controller_id_ki(&mut self, value: u16) {
-            super::glue::put_u16(&mut self.0.borrow_mut().0, 646, value);
+            super::glue::put_u16(&mut self.0.borrow_mut().0, 630, value);
         }
     }
 
@@ -2740,7 +2740,7 @@ pub mod records {
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     pub type InputFunctions9<D> = InputFunctions1<D>;
 
-    /// `607Dh` Software position limit: Softwareendlagen in Positionseinheiten, umgerechnet wie 607Ah. Werden sie während einer Positionierung geändert und würden überfahren, bremst der Antrieb mit der eingestellten Verzögerung auf sie; er rechnet dazu Bremspunkte für beide Endlagen und das Ziel.
+    /// `607Dh` Software position limit: Softwareendlagen in Positionseinheiten, umgerechnet wie 607Ah. Würde eine Endlage nach einer Änderung während der Positionierung überfahren, bremst der Antrieb mit der eingestellten Verzögerung bis zu ihr ab; dazu berechnet er Bremspunkte für beide Endlagen und das Ziel.
     #[derive(Debug)]
     pub struct SoftwarePositionLimit<D>(pub(super) D);
 
@@ -2750,7 +2750,7 @@ pub mod records {
         /// INTEGER32, rw, in PU, default -2147483648 PU.
         #[inline]
         pub fn min_position_limit(&self) -> super::units::PositionUnit<i32> {
-            super::units::PositionUnit(super::glue::get_i32(&self.0.borrow().0, 516))
+            super::units::PositionUnit(super::glue::get_i32(&self.0.borrow().0, 500))
         }
 
         /// `607Dh.2` Max position limit: Größte zulässige Position.
@@ -2758,7 +2758,7 @@ pub mod records {
         /// INTEGER32, rw, in PU, default 2147483647 PU.
         #[inline]
         pub fn max_position_limit(&self) -> super::units::PositionUnit<i32> {
-            super::units::PositionUnit(super::glue::get_i32(&self.0.borrow().0, 520))
+            super::units::PositionUnit(super::glue::get_i32(&self.0.borrow().0, 504))
         }
     }
 
@@ -2769,7 +2769,7 @@ pub mod records {
             &mut self,
             value: super::units::PositionUnit<i32>,
         ) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 516, value.0);
+            super::glue::put_i32(&mut self.0.borrow_mut().0, 500, value.0);
         }
 
         /// Sets [`max_position_limit`](Self::max_position_limit).
@@ -2778,7 +2778,7 @@ pub mod records {
             &mut self,
             value: super::units::PositionUnit<i32>,
         ) {
-            super::glue::put_i32(&mut self.0.borrow_mut().0, 520, value.0);
+            super::glue::put_i32(&mut self.0.borrow_mut().0, 504, value.0);
         }
     }
 
@@ -2792,7 +2792,7 @@ pub mod records {
         /// UNSIGNED32, rw, in inc, default 1 inc.
         #[inline]
         pub fn encoder_increments(&self) -> super::units::Cia402Increment<u32> {
-            super::units::Cia402Increment(super::glue::get_u32(&self.0.borrow().0, 552))
+            super::units::Cia402Increment(super::glue::get_u32(&self.0.borrow().0, 536))
         }
 
         /// `608Fh.2` Motor revolutions: Umdrehungen des Motors.
@@ -2800,7 +2800,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1.
         #[inline]
         pub fn motor_revolutions(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 556)
+            super::glue::get_u32(&self.0.borrow().0, 540)
         }
     }
 
@@ -2811,13 +2811,13 @@ pub mod records {
             &mut self,
             value: super::units::Cia402Increment<u32>,
         ) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 552, value.0);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 536, value.0);
         }
 
         /// Sets [`motor_revolutions`](Self::motor_revolutions).
         #[inline]
         pub fn set_motor_revolutions(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 556, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 540, value);
         }
     }
 
@@ -2831,7 +2831,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1.
         #[inline]
         pub fn motor_shaft_revolutions(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 560)
+            super::glue::get_u32(&self.0.borrow().0, 544)
         }
 
         /// `6091h.2` Driving shaft revolutions: Umdrehungen der Abtriebswelle.
@@ -2839,7 +2839,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1.
         #[inline]
         pub fn driving_shaft_revolutions(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 564)
+            super::glue::get_u32(&self.0.borrow().0, 548)
         }
     }
 
@@ -2847,13 +2847,13 @@ pub mod records {
         /// Sets [`motor_shaft_revolutions`](Self::motor_shaft_revolutions).
         #[inline]
         pub fn set_motor_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 560, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 544, value);
         }
 
         /// Sets [`driving_shaft_revolutions`](Self::driving_shaft_revolutions).
         #[inline]
         pub fn set_driving_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 564, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 548, value);
         }
     }
 
@@ -2868,7 +2868,7 @@ pub mod records {
         #[inline]
         pub fn feed(&self) -> super::units::Cia402PositionUnit<u32> {
             super::units::Cia402PositionUnit(
-                super::glue::get_u32(&self.0.borrow().0, 568),
+                super::glue::get_u32(&self.0.borrow().0, 552),
             )
         }
 
@@ -2877,7 +2877,7 @@ pub mod records {
         /// UNSIGNED32, rw, default 1.
         #[inline]
         pub fn shaft_revolutions(&self) -> u32 {
-            super::glue::get_u32(&self.0.borrow().0, 572)
+            super::glue::get_u32(&self.0.borrow().0, 556)
         }
     }
 
@@ -2885,13 +2885,13 @@ pub mod records {
         /// Sets [`feed`](Self::feed).
         #[inline]
         pub fn set_feed(&mut self, value: super::units::Cia402PositionUnit<u32>) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 568, value.0);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 552, value.0);
         }
 
         /// Sets [`shaft_revolutions`](Self::shaft_revolutions).
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 572, value);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 556, value);
         }
     }
 
@@ -2908,7 +2908,7 @@ pub mod records {
             &self,
         ) -> super::units::Cia402VelocityUnit<u32> {
             super::units::Cia402VelocityUnit(
-                super::glue::get_u32(&self.0.borrow().0, 576),
+                super::glue::get_u32(&self.0.borrow().0, 560),
             )
         }
 
@@ -2920,7 +2920,7 @@ pub mod records {
             &self,
         ) -> super::units::Cia402VelocityUnit<u32> {
             super::units::Cia402VelocityUnit(
-                super::glue::get_u32(&self.0.borrow().0, 580),
+                super::glue::get_u32(&self.0.borrow().0, 564),
             )
         }
     }
@@ -2932,7 +2932,7 @@ pub mod records {
             &mut self,
             value: super::units::Cia402VelocityUnit<u32>,
         ) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 576, value.0);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 560, value.0);
         }
 
         /// Sets [`speed_during_search_for_zero`](Self::speed_during_search_for_zero).
@@ -2941,7 +2941,7 @@ pub mod records {
             &mut self,
             value: super::units::Cia402VelocityUnit<u32>,
         ) {
-            super::glue::put_u32(&mut self.0.borrow_mut().0, 580, value.0);
+            super::glue::put_u32(&mut self.0.borrow_mut().0, 564, value.0);
         }
     }
 }
@@ -3210,7 +3210,7 @@ pub mod pdos {
         pub fn of(dictionary: &super::Fullmo) -> Self {
             Self {
                 statusword: super::types::DriveStatusword(
-                    super::glue::get_u16(&dictionary.0, 722),
+                    super::glue::get_u16(&dictionary.0, 706),
                 ),
             }
         }
@@ -3275,7 +3275,7 @@ pub mod pdos {
         pub fn of(dictionary: &super::Fullmo) -> Self {
             Self {
                 statusword: super::types::DriveStatusword(
-                    super::glue::get_u16(&dictionary.0, 722),
+                    super::glue::get_u16(&dictionary.0, 706),
                 ),
                 modes_of_operation_display: super::types::DriveMode(
                     super::glue::get_i8(&dictionary.0, 763),
@@ -3343,10 +3343,10 @@ pub mod pdos {
         pub fn of(dictionary: &super::Fullmo) -> Self {
             Self {
                 statusword: super::types::DriveStatusword(
-                    super::glue::get_u16(&dictionary.0, 722),
+                    super::glue::get_u16(&dictionary.0, 706),
                 ),
                 position_actual_value: super::units::PositionUnit(
-                    super::glue::get_i32(&dictionary.0, 480),
+                    super::glue::get_i32(&dictionary.0, 464),
                 ),
             }
         }
@@ -3411,10 +3411,10 @@ pub mod pdos {
         pub fn of(dictionary: &super::Fullmo) -> Self {
             Self {
                 statusword: super::types::DriveStatusword(
-                    super::glue::get_u16(&dictionary.0, 722),
+                    super::glue::get_u16(&dictionary.0, 706),
                 ),
                 velocity_actual_value: super::units::VelocityUnit(
-                    super::glue::get_i32(&dictionary.0, 492),
+                    super::glue::get_i32(&dictionary.0, 476),
                 ),
             }
         }
@@ -3555,7 +3555,7 @@ pub mod types {
         "additional information", }
     }
 
-    /// disable operation reaction: Option Codes von 605Ch; eigene des Herstellers gibt es nicht.
+    /// disable operation reaction: Option Codes von 605Ch; herstellerspezifische gibt es nicht.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct DisableOperationReaction(pub i16);
@@ -3573,7 +3573,7 @@ pub mod types {
         "disable drive", 1 => "slow down ramp", }
     }
 
-    /// drive controlword: Steuerwort ohne Zusätze des Herstellers. Bit 8 zählt nur im Zustand Operation enabled.
+    /// drive controlword: Steuerwort ohne Zusätze des Herstellers. Bit 8 wird nur im Zustand Operation enabled ausgewertet.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct DriveControlword(pub u16);
@@ -3686,7 +3686,7 @@ pub mod types {
             Self(self.0 & !(1 << 5) | (value as u16) << 5)
         }
 
-        /// Bit 5, profile position mode change set immediately: 1: der Sollwert gilt sofort, die Liste der Sollwerte wird gelöscht. 0: er wird hinten angestellt.
+        /// Bit 5, profile position mode change set immediately: 1: Der Sollwert gilt sofort, die Liste der Sollwerte wird gelöscht. 0: Er wird in die Liste der Sollwerte eingereiht.
         #[inline]
         pub const fn profile_position_mode_change_set_immediately(self) -> bool {
             self.0 >> 5 & 1 != 0
@@ -3715,7 +3715,7 @@ pub mod types {
             Self(self.0 & !(1 << 6) | (value as u16) << 6)
         }
 
-        /// Bit 6, profile position mode relative: 0 absolut, 1 relativ positionieren; wozu relativ, sagt 60F2h.
+        /// Bit 6, profile position mode relative: 0: absolute, 1: relative Positionierung; den Bezugspunkt legt 60F2h fest.
         #[inline]
         pub const fn profile_position_mode_relative(self) -> bool {
             self.0 >> 6 & 1 != 0
@@ -3819,7 +3819,7 @@ pub mod types {
             Self(self.0 & !(1 << 9) | (value as u16) << 9)
         }
 
-        /// Bit 9, profile position mode change on set-point: Mit Bit 4 und ohne Bit 5: 1 geht am Sollwert auf den nächsten über, ohne anzuhalten.
+        /// Bit 9, profile position mode change on set-point: Mit Bit 4 und ohne Bit 5: Bei 1 folgt auf den erreichten Sollwert ohne Halt der nächste.
         #[inline]
         pub const fn profile_position_mode_change_on_set_point(self) -> bool {
             self.0 >> 9 & 1 != 0
@@ -3856,13 +3856,13 @@ pub mod types {
     pub struct DriveHomingMethod(pub i8);
 
     impl DriveHomingMethod {
-        /// -19 homing on left block: Fährt links auf einen Anschlag.
+        /// -19 homing on left block: Fährt nach links auf einen Anschlag.
         pub const HOMING_ON_LEFT_BLOCK: Self = Self(-19);
 
-        /// -18 homing on right block: Fährt rechts auf einen Anschlag.
+        /// -18 homing on right block: Fährt nach rechts auf einen Anschlag.
         pub const HOMING_ON_RIGHT_BLOCK: Self = Self(-18);
 
-        /// 0 none: Nach CiA 402: keine Methode. Das Handbuch nennt den Wert nicht. Not supported.
+        /// 0 none: Keine Methode (CiA 402). Not supported.
         pub const NONE: Self = Self(0);
 
         /// 17 negative limit switch: Auf den negativen Endschalter, wie 1.
@@ -3907,7 +3907,7 @@ pub mod types {
         /// 30 home switch as method 14: Auf den Referenzschalter, Start in negativer Richtung, wie 14.
         pub const HOME_SWITCH_AS_METHOD_14: Self = Self(30);
 
-        /// 35 current position: Setzt die Referenz dort, wo die Achse steht.
+        /// 35 current position: Übernimmt die momentane Position als Referenz.
         pub const CURRENT_POSITION: Self = Self(35);
     }
 
@@ -3932,7 +3932,7 @@ pub mod types {
         /// -1 internal service mode: Interner Betrieb des Herstellers; nicht für Anwender.
         pub const INTERNAL_SERVICE_MODE: Self = Self(-1);
 
-        /// 0 no mode: Nach CiA 402: keine Betriebsart, beim Schreiben keine Änderung. Das Handbuch nennt den Wert nicht. Not supported.
+        /// 0 no mode: Keine Betriebsart, beim Schreiben keine Änderung (CiA 402). Not supported.
         pub const NO_MODE: Self = Self(0);
 
         /// 1 profile position mode: Positionieren mit Rampen.
@@ -4012,7 +4012,7 @@ pub mod types {
             Self(self.0 & !(1 << 3) | (value as u16) << 3)
         }
 
-        /// Bit 4, voltage enabled: Leistungsspannung liegt an.
+        /// Bit 4, voltage enabled: Die Leistungsspannung liegt an.
         #[inline]
         pub const fn voltage_enabled(self) -> bool {
             self.0 >> 4 & 1 != 0
@@ -4064,7 +4064,7 @@ pub mod types {
             Self(self.0 & !(1 << 7) | (value as u16) << 7)
         }
 
-        /// Bit 9, remote: Das Steuerwort wird befolgt.
+        /// Bit 9, remote: Das Steuerwort wird ausgewertet.
         #[inline]
         pub const fn remote(self) -> bool {
             self.0 >> 9 & 1 != 0
@@ -4122,7 +4122,7 @@ pub mod types {
             Self(self.0 & !(1 << 10) | (value as u16) << 10)
         }
 
-        /// Bit 10, homing mode target reached: Nur zusammen mit Bits 12 und 13 zu deuten, siehe 4.2.2.
+        /// Bit 10, homing mode target reached: Nur zusammen mit den Bits 12 und 13 auszuwerten, siehe 4.2.2.
         #[inline]
         pub const fn homing_mode_target_reached(self) -> bool {
             self.0 >> 10 & 1 != 0
@@ -4148,7 +4148,7 @@ pub mod types {
             Self(self.0 & !(1 << 10) | (value as u16) << 10)
         }
 
-        /// Bit 11, internal limit active: Eine Grenze des Antriebs wirkt.
+        /// Bit 11, internal limit active: Eine interne Begrenzung ist wirksam.
         #[inline]
         pub const fn internal_limit_active(self) -> bool {
             self.0 >> 11 & 1 != 0
@@ -4174,7 +4174,7 @@ pub mod types {
             Self(self.0 & !(1 << 12) | (value as u16) << 12)
         }
 
-        /// Bit 12, profile position mode set-point acknowledge: 0-\>1: Sollwert angenommen oder zwischengespeichert. 1-\>0: der nächste kann kommen.
+        /// Bit 12, profile position mode set-point acknowledge: 0-\>1: Der Sollwert ist angenommen oder zwischengespeichert. 1-\>0: Der nächste Sollwert kann übergeben werden.
         #[inline]
         pub const fn profile_position_mode_set_point_acknowledge(self) -> bool {
             self.0 >> 12 & 1 != 0
@@ -4190,7 +4190,7 @@ pub mod types {
             Self(self.0 & !(1 << 12) | (value as u16) << 12)
         }
 
-        /// Bit 12, profile velocity mode speed is zero: 1: Istdrehzahl ist 0, 0: sie ist es nicht; Schwelle und Zeit stehen in 606Fh und 6070h.
+        /// Bit 12, profile velocity mode speed is zero: 1: Die Istdrehzahl ist 0. 0: Die Istdrehzahl ist nicht 0. Schwelle und Zeit stehen in 606Fh und 6070h.
         #[inline]
         pub const fn profile_velocity_mode_speed_is_zero(self) -> bool {
             self.0 >> 12 & 1 != 0
@@ -4206,7 +4206,7 @@ pub mod types {
             Self(self.0 & !(1 << 12) | (value as u16) << 12)
         }
 
-        /// Bit 12, homing mode homing attained: Referenzfahrt erfolgreich; mit Bits 10 und 13 zu deuten, siehe 4.2.2.
+        /// Bit 12, homing mode homing attained: Referenzfahrt erfolgreich; zusammen mit den Bits 10 und 13 auszuwerten, siehe 4.2.2.
         #[inline]
         pub const fn homing_mode_homing_attained(self) -> bool {
             self.0 >> 12 & 1 != 0
@@ -4472,7 +4472,7 @@ pub mod types {
         "manufacturer specific", }
     }
 
-    /// fault reaction: Option Codes von 605Eh; eigene des Herstellers gibt es nicht.
+    /// fault reaction: Option Codes von 605Eh; herstellerspezifische gibt es nicht.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct FaultReaction(pub i16);
@@ -4500,13 +4500,13 @@ pub mod types {
         "voltage limit", }
     }
 
-    /// halt reaction: Option Codes von 605Dh; eigene des Herstellers gibt es nicht.
+    /// halt reaction: Option Codes von 605Dh; herstellerspezifische gibt es nicht.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct HaltReaction(pub i16);
 
     impl HaltReaction {
-        /// 0 disable drive: Antrieb abschalten, die Achse läuft aus. Neuere Ausgaben von CiA 402 kennen diesen Wert nicht.
+        /// 0 disable drive: Antrieb abschalten, die Achse läuft aus. Nur Version 2 von CiA 402 hat diesen Wert, neuere Ausgaben reservieren ihn.
         pub const DISABLE_DRIVE: Self = Self(0);
 
         /// 1 slow down ramp: Mit der normalen Rampe bremsen, Betrieb bleibt freigegeben.
@@ -4669,13 +4669,13 @@ pub mod types {
         "left limit switch", 8..= 11 => "right limit switch", }
     }
 
-    /// quick stop reaction: Option Codes von 605Ah; das Gerät kennt alle von 0 bis 8, eigene des Herstellers gibt es nicht.
+    /// quick stop reaction: Option Codes von 605Ah; das Gerät unterstützt 0 bis 8, herstellerspezifische gibt es nicht.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct QuickStopReaction(pub i16);
 
     impl QuickStopReaction {
-        /// 0 disable drive: Antrieb abschalten, die Achse läuft aus.
+        /// 0 disable drive: Antrieb abschalten, die Achse läuft aus, dann Switch on disabled.
         pub const DISABLE_DRIVE: Self = Self(0);
 
         /// 1 slow down ramp: Mit der normalen Rampe bremsen, dann Switch on disabled.
@@ -4785,7 +4785,7 @@ pub mod types {
         "major revision", }
     }
 
-    /// shutdown reaction: Option Codes von 605Bh; eigene des Herstellers gibt es nicht.
+    /// shutdown reaction: Option Codes von 605Bh; herstellerspezifische gibt es nicht.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct ShutdownReaction(pub i16);
@@ -4864,7 +4864,7 @@ pub mod machines {
     /// State of the power drive, as `6041h` shows it.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum PowerDriveState {
-        /// Not ready to switch on: Das Gerät läuft an und prüft sich.
+        /// Not ready to switch on: Das Gerät startet und führt einen Selbsttest aus.
         NotReadyToSwitchOn,
         /// Switch on disabled: Anlauf beendet, Einschalten gesperrt.
         SwitchOnDisabled,
@@ -5024,10 +5024,10 @@ pub mod errors {
     /// Zwischenkreisspannung zu niedrig. Unterspannung im Zwischenkreis.
     pub const ZWISCHENKREISSPANNUNG_ZU_NIEDRIG: u16 = 0x3221;
 
-    /// Störung der Endstufe. Sammelmeldung der Endstufe ohne weitere Angabe.
+    /// Störung der Endstufe. Die Endstufe meldet einen Fehler.
     pub const STOERUNG_DER_ENDSTUFE: u16 = 0x3330;
 
-    /// Temperatur zu hoch. Übertemperatur; wo gemessen wird, ist nicht angegeben.
+    /// Temperatur zu hoch. Eine Temperatur ist zu hoch.
     pub const TEMPERATUR_ZU_HOCH: u16 = 0x4210;
 
     /// I²t-Überlast. Die I²t-Überwachung hat ausgelöst.
@@ -5063,7 +5063,7 @@ pub mod errors {
     /// Störung der Endstufe (Signal FLTB). Das Signal FLTB der Endstufe meldet einen Fehler.
     pub const STOERUNG_DER_ENDSTUFE_SIGNAL_FLTB: u16 = 0x7113;
 
-    /// Motor blockiert. Die Blockfahrtüberwachung hat einen blockierten Motor erkannt; siehe auch die Einschränkung bei Drehmomentbetrieb (5.1).
+    /// Motor blockiert. Die Blockfahrtüberwachung hat einen blockierten Motor erkannt; siehe auch die Einschränkung im Drehmomentbetrieb (5.1).
     pub const MOTOR_BLOCKIERT: u16 = 0x7121;
 
     /// Gebersystem gestört. Fehler des Motorgebers.
@@ -5322,7 +5322,7 @@ pub mod defaults {
     );
 
     /// Of `607Ch`.
-    pub const HOME_OFFSET: super::units::Cia402PositionUnit<i32> = super::units::Cia402PositionUnit(
+    pub const HOME_OFFSET: super::units::PositionUnit<i32> = super::units::PositionUnit(
         0,
     );
 
@@ -5724,24 +5724,24 @@ impl glue::Constrained for Fullmo {
 /// Conditions between entries.
 #[allow(dead_code, unreachable_pub, unused_parens, unused_variables, unused_comparisons)]
 pub mod constraints {
-    /// software limits in order: Untere und obere Softwareendlage dürfen sich nicht kreuzen.
+    /// software limits in order: Die untere Softwareendlage darf nicht über der oberen liegen.
     ///
     /// `0x607D.1 <= 0x607D.2`.
     pub fn software_limits_in_order(dictionary: &super::Fullmo) -> bool {
-        i64::from(super::glue::get_i32(&dictionary.0, 516))
-            <= i64::from(super::glue::get_i32(&dictionary.0, 520))
+        i64::from(super::glue::get_i32(&dictionary.0, 500))
+            <= i64::from(super::glue::get_i32(&dictionary.0, 504))
     }
 
     /// conversion factors not zero: Jeder der sechs Faktoren steht in einer der beiden Umrechnungen im Nenner.
     ///
     /// `0x608F.1 > 0 and 0x608F.2 > 0 and 0x6091.1 > 0 and 0x6091.2 > 0 and 0x6092.1 > 0 and 0x6092.2 > 0`.
     pub fn conversion_factors_not_zero(dictionary: &super::Fullmo) -> bool {
-        i64::from(super::glue::get_u32(&dictionary.0, 552)) > 0
+        i64::from(super::glue::get_u32(&dictionary.0, 536)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 540)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 544)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 548)) > 0
+            && i64::from(super::glue::get_u32(&dictionary.0, 552)) > 0
             && i64::from(super::glue::get_u32(&dictionary.0, 556)) > 0
-            && i64::from(super::glue::get_u32(&dictionary.0, 560)) > 0
-            && i64::from(super::glue::get_u32(&dictionary.0, 564)) > 0
-            && i64::from(super::glue::get_u32(&dictionary.0, 568)) > 0
-            && i64::from(super::glue::get_u32(&dictionary.0, 572)) > 0
     }
 }
 
@@ -5780,34 +5780,34 @@ static ORDER: [u16; 13] = [3, 5, 12, 7, 11, 6, 1, 2, 9, 0, 8, 4, 10];
 /// Entries by row: attributes and place in turn.
 static ENTRIES: [glue::table::EntryRow; 272] = glue::table::entries(
     &[
-        0, 304, 1, 760, 2, 308, 3, 604, 4, 0, 0, 312, 0, 316, 0, 320, 4, 1, 5, 0, 6, 288,
-        4, 1, 5, 4, 6, 289, 4, 1, 5, 8, 6, 290, 4, 1, 5, 12, 6, 291, 6, 292, 5, 16, 5,
-        20, 5, 24, 5, 28, 5, 32, 5, 36, 5, 40, 5, 44, 6, 293, 5, 48, 5, 52, 5, 56, 5, 60,
-        5, 64, 5, 68, 5, 72, 5, 76, 6, 294, 5, 80, 5, 84, 5, 88, 5, 92, 5, 96, 5, 100, 5,
-        104, 5, 108, 6, 295, 5, 112, 5, 116, 5, 120, 5, 124, 5, 128, 5, 132, 5, 136, 5,
-        140, 4, 1, 5, 144, 6, 296, 4, 1, 5, 148, 6, 297, 4, 1, 5, 152, 6, 298, 4, 1, 5,
-        156, 6, 299, 6, 300, 5, 160, 5, 164, 5, 168, 5, 172, 5, 176, 5, 180, 5, 184, 5,
-        188, 6, 301, 5, 192, 5, 196, 5, 200, 5, 204, 5, 208, 5, 212, 5, 216, 5, 220, 6,
-        302, 5, 224, 5, 228, 5, 232, 5, 236, 5, 240, 5, 244, 5, 248, 5, 252, 6, 303, 5,
-        256, 5, 260, 5, 264, 5, 268, 5, 272, 5, 276, 5, 280, 5, 284, 7, 2, 8, 606, 8,
-        608, 8, 610, 9, 612, 9, 614, 9, 616, 9, 618, 9, 620, 9, 622, 9, 624, 4, 3, 10,
-        626, 11, 628, 1, 761, 0, 324, 12, 630, 10, 632, 10, 634, 10, 636, 10, 638, 10,
-        640, 10, 642, 10, 644, 10, 646, 4, 4, 3, 648, 3, 650, 13, 328, 13, 332, 3, 652,
-        13, 336, 3, 654, 13, 340, 4, 4, 3, 656, 3, 658, 13, 344, 13, 348, 3, 660, 13,
-        352, 3, 662, 13, 356, 4, 4, 3, 664, 3, 666, 13, 360, 13, 364, 3, 668, 13, 368, 3,
-        670, 13, 372, 4, 4, 3, 672, 3, 674, 13, 376, 13, 380, 3, 676, 13, 384, 3, 678,
-        13, 388, 4, 4, 3, 680, 3, 682, 13, 392, 13, 396, 3, 684, 13, 400, 3, 686, 13,
-        404, 4, 4, 3, 688, 3, 690, 13, 408, 13, 412, 3, 692, 13, 416, 3, 694, 13, 420, 4,
-        4, 3, 696, 3, 698, 13, 424, 13, 428, 3, 700, 13, 432, 3, 702, 13, 436, 4, 4, 3,
-        704, 3, 706, 13, 440, 13, 444, 3, 708, 13, 448, 3, 710, 13, 452, 4, 4, 3, 712, 3,
-        714, 13, 456, 13, 460, 3, 716, 13, 464, 3, 718, 13, 468, 14, 720, 15, 722, 16,
-        724, 17, 726, 17, 728, 18, 730, 18, 732, 19, 762, 20, 763, 21, 472, 21, 476, 21,
-        480, 22, 484, 14, 734, 21, 488, 21, 492, 14, 736, 14, 738, 14, 740, 14, 742, 23,
-        744, 14, 746, 14, 748, 24, 750, 2, 496, 2, 500, 24, 752, 24, 754, 25, 504, 26,
-        508, 26, 512, 4, 1, 13, 516, 13, 520, 27, 764, 22, 524, 22, 528, 22, 532, 22,
-        536, 22, 540, 22, 544, 22, 548, 4, 1, 2, 552, 2, 556, 4, 1, 2, 560, 2, 564, 4, 1,
-        2, 568, 2, 572, 28, 765, 4, 1, 22, 576, 22, 580, 22, 584, 3, 756, 22, 588, 22,
-        592, 14, 758, 21, 596, 26, 600,
+        0, 0, 1, 744, 2, 4, 3, 588, 4, 0, 0, 8, 0, 12, 0, 16, 4, 1, 2, 20, 5, 745, 4, 1,
+        2, 24, 5, 746, 4, 1, 2, 28, 5, 747, 4, 1, 2, 32, 5, 748, 5, 749, 2, 36, 2, 40, 2,
+        44, 2, 48, 2, 52, 2, 56, 2, 60, 2, 64, 5, 750, 2, 68, 2, 72, 2, 76, 2, 80, 2, 84,
+        2, 88, 2, 92, 2, 96, 5, 751, 2, 100, 2, 104, 2, 108, 2, 112, 2, 116, 2, 120, 2,
+        124, 2, 128, 5, 752, 2, 132, 2, 136, 2, 140, 2, 144, 2, 148, 2, 152, 2, 156, 2,
+        160, 4, 1, 2, 164, 5, 753, 4, 1, 2, 168, 5, 754, 4, 1, 2, 172, 5, 755, 4, 1, 2,
+        176, 5, 756, 5, 757, 2, 180, 2, 184, 2, 188, 2, 192, 2, 196, 2, 200, 2, 204, 2,
+        208, 5, 758, 2, 212, 2, 216, 2, 220, 2, 224, 2, 228, 2, 232, 2, 236, 2, 240, 5,
+        759, 2, 244, 2, 248, 2, 252, 2, 256, 2, 260, 2, 264, 2, 268, 2, 272, 5, 760, 2,
+        276, 2, 280, 2, 284, 2, 288, 2, 292, 2, 296, 2, 300, 2, 304, 6, 2, 7, 590, 7,
+        592, 7, 594, 8, 596, 8, 598, 8, 600, 8, 602, 8, 604, 8, 606, 8, 608, 4, 3, 9,
+        610, 10, 612, 1, 761, 0, 308, 11, 614, 9, 616, 9, 618, 9, 620, 9, 622, 9, 624, 9,
+        626, 9, 628, 9, 630, 4, 4, 3, 632, 3, 634, 12, 312, 12, 316, 3, 636, 12, 320, 3,
+        638, 12, 324, 4, 4, 3, 640, 3, 642, 12, 328, 12, 332, 3, 644, 12, 336, 3, 646,
+        12, 340, 4, 4, 3, 648, 3, 650, 12, 344, 12, 348, 3, 652, 12, 352, 3, 654, 12,
+        356, 4, 4, 3, 656, 3, 658, 12, 360, 12, 364, 3, 660, 12, 368, 3, 662, 12, 372, 4,
+        4, 3, 664, 3, 666, 12, 376, 12, 380, 3, 668, 12, 384, 3, 670, 12, 388, 4, 4, 3,
+        672, 3, 674, 12, 392, 12, 396, 3, 676, 12, 400, 3, 678, 12, 404, 4, 4, 3, 680, 3,
+        682, 12, 408, 12, 412, 3, 684, 12, 416, 3, 686, 12, 420, 4, 4, 3, 688, 3, 690,
+        12, 424, 12, 428, 3, 692, 12, 432, 3, 694, 12, 436, 4, 4, 3, 696, 3, 698, 12,
+        440, 12, 444, 3, 700, 12, 448, 3, 702, 12, 452, 13, 704, 14, 706, 15, 708, 16,
+        710, 16, 712, 17, 714, 17, 716, 18, 762, 19, 763, 20, 456, 20, 460, 20, 464, 21,
+        468, 13, 718, 20, 472, 20, 476, 13, 720, 13, 722, 13, 724, 13, 726, 22, 728, 13,
+        730, 13, 732, 23, 734, 2, 480, 2, 484, 23, 736, 23, 738, 24, 488, 25, 492, 25,
+        496, 4, 1, 12, 500, 12, 504, 26, 764, 21, 508, 21, 512, 21, 516, 21, 520, 21,
+        524, 21, 528, 21, 532, 4, 1, 2, 536, 2, 540, 4, 1, 2, 544, 2, 548, 4, 1, 2, 552,
+        2, 556, 27, 765, 4, 1, 21, 560, 21, 564, 21, 568, 3, 740, 21, 572, 21, 576, 13,
+        742, 20, 580, 25, 584,
     ],
 );
 
@@ -5891,20 +5891,13 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
         \x03\x02\x0C\x0D\x08",
     factory: &FACTORY,
     node_id_places: &NODE_ID_PLACES,
-    regions: &[
-        glue::table::Region {
-            storage: glue::Storage::Communication,
-            start: 0,
-            end: 304,
-            layout: 0x9A36_7C8D,
-        },
-    ],
+    regions: &[],
     granularity: 8,
     dummies: glue::table::Dummies::NONE,
 });
 
 /// What entries have in common.
-static ATTRIBUTES: [glue::table::Attributes; 29] = [
+static ATTRIBUTES: [glue::table::Attributes; 28] = [
     glue::table::Attributes {
         data_type: glue::DataType::Unsigned32,
         flags: glue::table::Flags::READ,
@@ -5961,21 +5954,10 @@ static ATTRIBUTES: [glue::table::Attributes; 29] = [
         condition: glue::table::NONE,
     },
     glue::table::Attributes {
-        data_type: glue::DataType::Unsigned32,
-        flags: glue::table::Flags::READ.with(glue::table::Flags::WRITE),
-        place: glue::table::Place::Image,
-        storage: glue::Storage::Communication,
-        page: 0,
-        size: 4,
-        limits: glue::table::NONE,
-        values: glue::table::NONE,
-        condition: glue::table::NONE,
-    },
-    glue::table::Attributes {
         data_type: glue::DataType::Unsigned8,
         flags: glue::table::Flags::READ.with(glue::table::Flags::WRITE),
         place: glue::table::Place::Image,
-        storage: glue::Storage::Communication,
+        storage: glue::Storage::No,
         page: 0,
         size: 1,
         limits: glue::table::NONE,
@@ -6255,65 +6237,64 @@ static ATTRIBUTES: [glue::table::Attributes; 29] = [
 /// Values that get the node-ID added to them.
 static NODE_ID_PLACES: [glue::image::NodeIdPlace; 9] = [
     glue::image::NodeIdPlace {
-        offset: 0,
-        size: 4,
-    },
-    glue::image::NodeIdPlace {
         offset: 4,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 8,
+        offset: 20,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 12,
+        offset: 24,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 144,
+        offset: 28,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 148,
+        offset: 32,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 152,
+        offset: 164,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 156,
+        offset: 168,
         size: 4,
     },
     glue::image::NodeIdPlace {
-        offset: 308,
+        offset: 172,
+        size: 4,
+    },
+    glue::image::NodeIdPlace {
+        offset: 176,
         size: 4,
     },
 ];
 
 /// The image after a factory reset of node 0.
 static FACTORY: [u8; 768] = *b"\
-        \x00\x02\x00\x00\x00\x03\x00\x80\x00\x04\x00\x80\x00\x05\x00\x80\
-        \x10\x00\x40\x60\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x10\x00\x40\x60\x08\x00\x60\x60\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x10\x00\x40\x60\x20\x00\x7A\x60\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x10\x00\x40\x60\x20\x00\xFF\x60\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x80\x01\x00\x00\x80\x02\x00\x80\x80\x03\x00\x80\x80\x04\x00\x80\
-        \x10\x00\x41\x60\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x10\x00\x41\x60\x08\x00\x61\x60\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x10\x00\x41\x60\x20\x00\x64\x60\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x10\x00\x41\x60\x20\x00\x6C\x60\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \xFF\xFF\xFF\xFF\x01\x02\x02\x02\xFF\xFF\xFF\xFF\x01\x02\x02\x02\
         \x92\x01\x02\x00\x80\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x02\x00\x00\x00\x03\x00\x80\x00\x04\x00\x80\
+        \x00\x05\x00\x80\x10\x00\x40\x60\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x10\x00\x40\x60\x08\x00\x60\x60\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x10\x00\x40\x60\x20\x00\x7A\x60\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x10\x00\x40\x60\x20\x00\xFF\x60\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x80\x01\x00\x00\x80\x02\x00\x80\x80\x03\x00\x80\
+        \x80\x04\x00\x80\x10\x00\x41\x60\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x10\x00\x41\x60\x08\x00\x61\x60\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x10\x00\x41\x60\x20\x00\x64\x60\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x10\x00\x41\x60\x20\x00\x6C\x60\x00\x00\x00\x00\
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
@@ -6341,6 +6322,7 @@ static FACTORY: [u8; 768] = *b"\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
         \x00\x00\x00\x00\x02\x00\x00\x00\x01\x00\x01\x00\x02\x00\x00\x00\
         \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\
-        \x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x01\x01\x00\x23\x00\x00";
+        \x00\x00\x00\x00\x00\x00\x00\x00\x00\xFF\xFF\xFF\xFF\x01\x02\x02\
+        \x02\xFF\xFF\xFF\xFF\x01\x02\x02\x02\x00\x01\x01\x00\x23\x00\x00";
 /// Names of the entries, one a line.
 static NAMES: &str = "Device type\nError register\nCOB-ID EMCY\nProducer heartbeat time\nIdentity object.Highest sub-index supported\nIdentity object.Vendor-ID\nIdentity object.Product code\nIdentity object.Revision number\nRPDO 1 communication parameter.highest sub-index supported\nRPDO 1 communication parameter.COB-ID used by RPDO\nRPDO 1 communication parameter.transmission type\nRPDO 2 communication parameter.highest sub-index supported\nRPDO 2 communication parameter.COB-ID used by RPDO\nRPDO 2 communication parameter.transmission type\nRPDO 3 communication parameter.highest sub-index supported\nRPDO 3 communication parameter.COB-ID used by RPDO\nRPDO 3 communication parameter.transmission type\nRPDO 4 communication parameter.highest sub-index supported\nRPDO 4 communication parameter.COB-ID used by RPDO\nRPDO 4 communication parameter.transmission type\nRPDO 1 mapping parameter.number of mapped entries\nRPDO 1 mapping parameter.mapped entry 1\nRPDO 1 mapping parameter.mapped entry 2\nRPDO 1 mapping parameter.mapped entry 3\nRPDO 1 mapping parameter.mapped entry 4\nRPDO 1 mapping parameter.mapped entry 5\nRPDO 1 mapping parameter.mapped entry 6\nRPDO 1 mapping parameter.mapped entry 7\nRPDO 1 mapping parameter.mapped entry 8\nRPDO 2 mapping parameter.number of mapped entries\nRPDO 2 mapping parameter.mapped entry 1\nRPDO 2 mapping parameter.mapped entry 2\nRPDO 2 mapping parameter.mapped entry 3\nRPDO 2 mapping parameter.mapped entry 4\nRPDO 2 mapping parameter.mapped entry 5\nRPDO 2 mapping parameter.mapped entry 6\nRPDO 2 mapping parameter.mapped entry 7\nRPDO 2 mapping parameter.mapped entry 8\nRPDO 3 mapping parameter.number of mapped entries\nRPDO 3 mapping parameter.mapped entry 1\nRPDO 3 mapping parameter.mapped entry 2\nRPDO 3 mapping parameter.mapped entry 3\nRPDO 3 mapping parameter.mapped entry 4\nRPDO 3 mapping parameter.mapped entry 5\nRPDO 3 mapping parameter.mapped entry 6\nRPDO 3 mapping parameter.mapped entry 7\nRPDO 3 mapping parameter.mapped entry 8\nRPDO 4 mapping parameter.number of mapped entries\nRPDO 4 mapping parameter.mapped entry 1\nRPDO 4 mapping parameter.mapped entry 2\nRPDO 4 mapping parameter.mapped entry 3\nRPDO 4 mapping parameter.mapped entry 4\nRPDO 4 mapping parameter.mapped entry 5\nRPDO 4 mapping parameter.mapped entry 6\nRPDO 4 mapping parameter.mapped entry 7\nRPDO 4 mapping parameter.mapped entry 8\nTPDO 1 communication parameter.highest sub-index supported\nTPDO 1 communication parameter.COB-ID used by TPDO\nTPDO 1 communication parameter.transmission type\nTPDO 2 communication parameter.highest sub-index supported\nTPDO 2 communication parameter.COB-ID used by TPDO\nTPDO 2 communication parameter.transmission type\nTPDO 3 communication parameter.highest sub-index supported\nTPDO 3 communication parameter.COB-ID used by TPDO\nTPDO 3 communication parameter.transmission type\nTPDO 4 communication parameter.highest sub-index supported\nTPDO 4 communication parameter.COB-ID used by TPDO\nTPDO 4 communication parameter.transmission type\nTPDO 1 mapping parameter.number of mapped entries\nTPDO 1 mapping parameter.mapped entry 1\nTPDO 1 mapping parameter.mapped entry 2\nTPDO 1 mapping parameter.mapped entry 3\nTPDO 1 mapping parameter.mapped entry 4\nTPDO 1 mapping parameter.mapped entry 5\nTPDO 1 mapping parameter.mapped entry 6\nTPDO 1 mapping parameter.mapped entry 7\nTPDO 1 mapping parameter.mapped entry 8\nTPDO 2 mapping parameter.number of mapped entries\nTPDO 2 mapping parameter.mapped entry 1\nTPDO 2 mapping parameter.mapped entry 2\nTPDO 2 mapping parameter.mapped entry 3\nTPDO 2 mapping parameter.mapped entry 4\nTPDO 2 mapping parameter.mapped entry 5\nTPDO 2 mapping parameter.mapped entry 6\nTPDO 2 mapping parameter.mapped entry 7\nTPDO 2 mapping parameter.mapped entry 8\nTPDO 3 mapping parameter.number of mapped entries\nTPDO 3 mapping parameter.mapped entry 1\nTPDO 3 mapping parameter.mapped entry 2\nTPDO 3 mapping parameter.mapped entry 3\nTPDO 3 mapping parameter.mapped entry 4\nTPDO 3 mapping parameter.mapped entry 5\nTPDO 3 mapping parameter.mapped entry 6\nTPDO 3 mapping parameter.mapped entry 7\nTPDO 3 mapping parameter.mapped entry 8\nTPDO 4 mapping parameter.number of mapped entries\nTPDO 4 mapping parameter.mapped entry 1\nTPDO 4 mapping parameter.mapped entry 2\nTPDO 4 mapping parameter.mapped entry 3\nTPDO 4 mapping parameter.mapped entry 4\nTPDO 4 mapping parameter.mapped entry 5\nTPDO 4 mapping parameter.mapped entry 6\nTPDO 4 mapping parameter.mapped entry 7\nTPDO 4 mapping parameter.mapped entry 8\nmotor parameter.number of elements\nmotor parameter.motor temperature\nmotor parameter.supply current\nmotor parameter.phase current Iq\nmotor parameter.AMS errors 1\nmotor parameter.AMS errors 2\nmotor parameter.AMS errors 3\nmotor parameter.DC link voltage\nmotor parameter.I²t current limit\nmotor parameter.I²t memory\nmotor parameter.logic supply voltage\ncontroller parameter.number of elements\ncontroller parameter.internal service\ncontroller parameter.internal service password\ncontroller parameter.node number\ncontroller parameter.serial number\ncontroller parameter.current limit display\ncontroller parameter.position controller Kp\ncontroller parameter.position controller Ki\ncontroller parameter.velocity controller Kp\ncontroller parameter.velocity controller Ki\ncontroller parameter.current controller Iq Kp\ncontroller parameter.current controller Iq Ki\ncontroller parameter.current controller Id Kp\ncontroller parameter.current controller Id Ki\ninput functions 1.number of elements\ninput functions 1.edge functions\ninput functions 1.edge TPDOs\ninput functions 1.result 1\ninput functions 1.result 2\ninput functions 1.motion delay\ninput functions 1.target velocity\ninput functions 1.acceleration\ninput functions 1.target position\ninput functions 2.number of elements\ninput functions 2.edge functions\ninput functions 2.edge TPDOs\ninput functions 2.result 1\ninput functions 2.result 2\ninput functions 2.motion delay\ninput functions 2.target velocity\ninput functions 2.acceleration\ninput functions 2.target position\ninput functions 3.number of elements\ninput functions 3.edge functions\ninput functions 3.edge TPDOs\ninput functions 3.result 1\ninput functions 3.result 2\ninput functions 3.motion delay\ninput functions 3.target velocity\ninput functions 3.acceleration\ninput functions 3.target position\ninput functions 4.number of elements\ninput functions 4.edge functions\ninput functions 4.edge TPDOs\ninput functions 4.result 1\ninput functions 4.result 2\ninput functions 4.motion delay\ninput functions 4.target velocity\ninput functions 4.acceleration\ninput functions 4.target position\ninput functions 5.number of elements\ninput functions 5.edge functions\ninput functions 5.edge TPDOs\ninput functions 5.result 1\ninput functions 5.result 2\ninput functions 5.motion delay\ninput functions 5.target velocity\ninput functions 5.acceleration\ninput functions 5.target position\ninput functions 6.number of elements\ninput functions 6.edge functions\ninput functions 6.edge TPDOs\ninput functions 6.result 1\ninput functions 6.result 2\ninput functions 6.motion delay\ninput functions 6.target velocity\ninput functions 6.acceleration\ninput functions 6.target position\ninput functions 7.number of elements\ninput functions 7.edge functions\ninput functions 7.edge TPDOs\ninput functions 7.result 1\ninput functions 7.result 2\ninput functions 7.motion delay\ninput functions 7.target velocity\ninput functions 7.acceleration\ninput functions 7.target position\ninput functions 8.number of elements\ninput functions 8.edge functions\ninput functions 8.edge TPDOs\ninput functions 8.result 1\ninput functions 8.result 2\ninput functions 8.motion delay\ninput functions 8.target velocity\ninput functions 8.acceleration\ninput functions 8.target position\ninput functions 9.number of elements\ninput functions 9.edge functions\ninput functions 9.edge TPDOs\ninput functions 9.result 1\ninput functions 9.result 2\ninput functions 9.motion delay\ninput functions 9.target velocity\ninput functions 9.acceleration\ninput functions 9.target position\nControlword\nStatusword\nQuick stop option code\nShutdown option code\nDisable operation option code\nHalt option code\nFault reaction option code\nModes of operation\nModes of operation display\nPosition demand value\nPosition actual internal value\nPosition actual value\nPosition window\nPosition window time\nVelocity demand value\nVelocity actual value\nVelocity window\nVelocity window time\nVelocity threshold\nVelocity threshold time\nTarget torque\nMax torque\nMax current\nTorque demand\nMotor rated current\nMotor rated torque\nTorque actual value\nCurrent actual value\nDC link circuit voltage\nTarget position\nHome offset\nSoftware position limit.Highest sub-index supported\nSoftware position limit.Min position limit\nSoftware position limit.Max position limit\nPolarity\nMax profile velocity\nMax motor speed\nProfile velocity\nProfile acceleration\nProfile deceleration\nQuick stop deceleration\nTorque slope\nPosition encoder resolution.Highest sub-index supported\nPosition encoder resolution.Encoder increments\nPosition encoder resolution.Motor revolutions\nGear ratio.Highest sub-index supported\nGear ratio.Motor shaft revolutions\nGear ratio.Driving shaft revolutions\nFeed constant.Highest sub-index supported\nFeed constant.Feed\nFeed constant.Shaft revolutions\nHoming method\nHoming speeds.Highest sub-index supported\nHoming speeds.Speed during search for switch\nHoming speeds.Speed during search for zero\nHoming acceleration\nTouch probe function\nMax acceleration\nMax deceleration\nPositioning option code\nPosition demand internal value\nTarget velocity\n";

@@ -889,7 +889,7 @@ impl Pmc {
         Ok(())
     }
 
-    /// `5664h` capture values: Positions captured by the measuring input; the manual lists the object but does not describe it, see 60BAh and 60BBh. `sub` is the sub-index, 1 to 2; `None` for any other.
+    /// `5664h` capture values: Positions captured by the measuring input; see also 60BAh and 60BBh. `sub` is the sub-index, 1 to 2; `None` for any other.
     ///
     /// INTEGER32, ro, in PU.
     #[inline]
@@ -1272,7 +1272,7 @@ impl Pmc {
         glue::put_u32(&mut self.0, 328, value.0);
     }
 
-    /// `6077h` torque actual value: Motor torque relative to the nominal torque, derived from the controller's internal current value.
+    /// `6077h` torque actual value: Motor torque relative to the nominal torque, derived from an internal current value of the controller.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 %.
     #[inline]
@@ -1612,7 +1612,7 @@ impl Pmc {
         glue::put_u32(&mut self.0, 384, value.0);
     }
 
-    /// `60C6h` max deceleration: Upper limit of the profile deceleration (6084h). The manual does not say what its default of 0 means.
+    /// `60C6h` max deceleration: Upper limit of the profile deceleration (6084h).
     ///
     /// UNSIGNED32, rw, RPDO, in PU/s², default 0 PU/s², stored with the application parameters.
     #[inline]
@@ -3357,7 +3357,7 @@ pub mod records {
             super::units::Decicelsius(super::glue::get_i16(&self.0.borrow().0, 686))
         }
 
-        /// `6410h.10` cosinus phi: Power factor; the manual gives no scale.
+        /// `6410h.10` cosinus phi: Power factor.
         ///
         /// UNSIGNED16, rw, default 89, stored with the application parameters.
         #[inline]
@@ -3365,7 +3365,7 @@ pub mod records {
             super::glue::get_u16(&self.0.borrow().0, 484)
         }
 
-        /// `6410h.11` start voltage: Start voltage in U/f operation; the manual gives no unit.
+        /// `6410h.11` start voltage: Start voltage in U/f operation.
         ///
         /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
@@ -3373,7 +3373,7 @@ pub mod records {
             super::glue::get_u16(&self.0.borrow().0, 486)
         }
 
-        /// `6410h.12` IxR factor: IxR compensation in U/f operation; the manual gives no unit.
+        /// `6410h.12` IxR factor: IxR compensation in U/f operation.
         ///
         /// UNSIGNED16, rw, stored with the application parameters.
         #[inline]
@@ -5514,7 +5514,7 @@ pub mod types {
     pub struct ModesOfOperation(pub i8);
 
     impl ModesOfOperation {
-        /// -113 motor heating: Printed as 8Fh, which is -113 in a signed byte; current heats the motor at standstill.
+        /// -113 motor heating: Byte 8Fh; current heats the motor at standstill.
         pub const MOTOR_HEATING: Self = Self(-113);
 
         /// 0 no mode: No change when written; no mode active when read.
@@ -5549,7 +5549,7 @@ pub mod types {
     pub struct MotorType(pub u16);
 
     impl MotorType {
-        /// 0 non-standard motor: The printed default; not in the printed list, named after CiA 402.
+        /// 0 non-standard motor: A motor of no other type (CiA 402).
         pub const NON_STANDARD_MOTOR: Self = Self(0);
 
         /// 7 asynchronous: Squirrel cage induction motor.

@@ -1111,7 +1111,7 @@ impl Pmm {
         glue::put_i32(&mut self.0, 568, value.0);
     }
 
-    /// `3073h` actual booster current: Current that the boost converter delivers. The manual states no sign convention.
+    /// `3073h` actual booster current: Current that the boost converter delivers.
     ///
     /// INTEGER16, ro, TPDO, in A.
     #[inline]
@@ -1125,7 +1125,7 @@ impl Pmm {
         glue::put_i16(&mut self.0, 650, value.0);
     }
 
-    /// `3074h` actual charger current: Output current of the charger, i.e. battery charging current plus input current of the 24 V supply. No sign convention stated.
+    /// `3074h` actual charger current: Output current of the charger, i.e. battery charging current plus input current of the 24 V supply.
     ///
     /// INTEGER16, ro, TPDO, in mA.
     #[inline]
@@ -4254,7 +4254,7 @@ pub mod types {
         "start battery test", 2..= 2 => "start booster", 7..= 7 => "fault reset", }
     }
 
-    /// PMM digital inputs: Levels of the 24 V inputs, of the test feedback signals and of the operating elements. The manual states no general polarity; its examples agree with 1 = 24 V.
+    /// PMM digital inputs: Levels of the 24 V inputs, of the test feedback signals and of the operating elements.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct PmmDigitalInputs(pub u32);
@@ -4416,7 +4416,7 @@ pub mod types {
             Self(self.0 & !(1 << 19) | (value as u32) << 19)
         }
 
-        /// Bit 20, feedback X13.6: Counterpart of bit 4. The manual neither calls it a feedback signal nor names it among the bits that test pulses reach. Clamp X13.6 to X13.5 24V feed-in.
+        /// Bit 20, feedback X13.6: Counterpart of bit 4. Clamp X13.6 to X13.5 24V feed-in.
         #[inline]
         pub const fn feedback_x13_6(self) -> bool {
             self.0 >> 20 & 1 != 0
@@ -4442,7 +4442,7 @@ pub mod types {
             Self(self.0 & !(1 << 27) | (value as u32) << 27)
         }
 
-        /// Bit 28, selector switch 0: First bit of the selector switch of the manual function; its coding is not stated.
+        /// Bit 28, selector switch 0: First bit of the selector switch of the manual function.
         #[inline]
         pub const fn selector_switch_0(self) -> bool {
             self.0 >> 28 & 1 != 0
@@ -4772,7 +4772,7 @@ pub mod types {
         "LED field bus 3", }
     }
 
-    /// PMM output mask: Selects the outputs that an internal function drives. Several bits together switch outputs in parallel (X14.3 and X14.4: 0006h); 0000h switches the function's output off.
+    /// PMM output mask: Selects the outputs that an internal function drives. Several bits together switch outputs in parallel (X14.3 and X14.4: 000Ch); 0000h switches the function's output off.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct PmmOutputMask(pub u16);
@@ -5271,7 +5271,7 @@ pub mod types {
         "alarm level", }
     }
 
-    /// battery type: Chemistry and sub-type in one byte, in the coding that the manual takes from CiA 418, appendix A. As of July 2007 the unit supports the lithium ion type only.
+    /// battery type: Chemistry and sub-type in one byte, coded after CiA 418, appendix A. As of July 2007 the unit supports the lithium ion type only.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct BatteryType(pub u8);
@@ -6399,8 +6399,7 @@ pub mod units {
     }
 
     ::firmware_glue::unit! {
-        #[doc =
-        " volt per second: one raw step is 1 V/s. Ramp of an output voltage; the manual prints V/sec."]
+        #[doc = " volt per second: one raw step is 1 V/s. Ramp of an output voltage."]
         pub struct VoltPerSecond = "V/s", scale 1 / 1, step 1 / 1 of BaseVPers;
     }
 
@@ -7404,7 +7403,7 @@ impl glue::Constrained for Pmm {
 /// Conditions between entries.
 #[allow(dead_code, unreachable_pub, unused_parens, unused_variables, unused_comparisons)]
 pub mod constraints {
-    /// dc-link voltage ladder: The thresholds of the DC link have to keep this order, from the under voltage limit of the PMC up to its over voltage limit. Equal values are allowed only where the manual allows them or has them by default.
+    /// dc-link voltage ladder: The thresholds of the DC link have to keep this order, from the under voltage limit of the PMC up to its over voltage limit. Only two pairs may be equal: target voltage of the booster and switch-off voltage of the chopper, and maximal DC link voltage and over voltage limit of the PMC.
     ///
     /// `pmc:0x6510.4 < 0x30FA.3 < 0x30FB.8 < 0x30FA.1 < 0x30FB.7 <= 0x30FC.2 < 0x30FC.1 < 0x30FA.2 <= pmc:0x6510.5`. Only what can be told from this device.
     pub fn dc_link_voltage_ladder(dictionary: &super::Pmm) -> bool {
@@ -7448,7 +7447,7 @@ pub mod constraints {
             < i64::from(super::glue::get_u16(&dictionary.0, 330)) * 1000
     }
 
-    /// charging voltage fits the battery: The manual advises the maximum bloc voltage times the number of blocs. More is dangerous for the cells and is refused; less is safe and allowed, as whole volts cannot meet every product and a lower voltage spares the cells. It has to stay above the nominal voltage, or the battery would never hold the charge for an emergency drive; that bound is implied, not printed.
+    /// charging voltage fits the battery: Best is the maximum bloc voltage times the number of blocs. More is dangerous for the cells and is refused; less is safe and allowed, as whole volts cannot meet every product and a lower voltage spares the cells. It has to stay above the nominal voltage, or the battery would never hold the charge for an emergency drive.
     ///
     /// `0x3020.4 * 0x3020.5 < 0x30F1.4 <= 0x3020.4 * 0x3020.6`.
     pub fn charging_voltage_fits_the_battery(dictionary: &super::Pmm) -> bool {

@@ -3,6 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use firmware_glue::quantity::Fraction;
 use firmware_glue::{Dictionary as _, Quantity as _};
 use od_generated::fullmo::types::{
@@ -10,8 +12,8 @@ use od_generated::fullmo::types::{
 };
 use od_generated::fullmo::{Fullmo, units};
 use od_spec::model::{
-    Access, Author, DataType, Dictionary, EntryId, Fact, Index, Origin, PdoMapping, SubIndex, System,
-    TypeKind,
+    Access, Author, DataType, Dictionary, EntryId, Erratum, ErratumKind, Fact, Index, Origin, PdoMapping,
+    Storage, SubIndex, System, TableContent, TypeKind,
 };
 use od_tests::compile_clean;
 
@@ -46,6 +48,51 @@ fn every_object_that_the_manual_names_and_no_other() {
     // The error register carries the bits that an emergency message shows; CiA 301 asks for it.
     manual.retain(|index| *index >= 0x2000);
     assert_eq!(manual, expected);
+}
+
+/// Each chapter lists the objects that it implements, and describes others, too.
+#[test]
+fn objects_that_a_chapter_describes_and_does_not_list_have_an_erratum() {
+    let system = fullmo();
+    let mut described: BTreeMap<String, [BTreeSet<Index>; 2]> = BTreeMap::new();
+    for section in &system.document.sections {
+        let chapter = section.number.split('.').next().unwrap().to_owned();
+        let [listed, shown] = described.entry(chapter).or_default();
+        for table in &section.tables {
+            match &table.content {
+                TableContent::Overview(list) => listed.extend(list),
+                TableContent::Objects(list) => shown.extend(list),
+                _ => {}
+            }
+        }
+    }
+    let mut only_described: BTreeSet<u16> = BTreeSet::new();
+    for (chapter, [listed, shown]) in described.iter().filter(|(_, [listed, _])| !listed.is_empty()) {
+        for index in shown.difference(listed) {
+            let says_so = |erratum: &Erratum| {
+                matches!(erratum.kind, ErratumKind::Count | ErratumKind::Gap)
+                    && erratum.place.get("de").is_some_and(|place| place.starts_with(&format!("{chapter}.")))
+                    && erratum.at.iter().any(|at| at.index() == *index)
+            };
+            assert!(system.errata.iter().any(says_so), "{index} in chapter {chapter}");
+            only_described.insert(index.0);
+        }
+    }
+    let of_the_manual = [
+        0x6063, 0x606B, 0x606C, 0x606D, 0x606E, 0x606F, 0x6070, 0x6074, 0x608F, 0x6091, 0x6092, 0x60B8,
+        0x60F2, 0x60FC,
+    ];
+    assert_eq!(only_described, of_the_manual.into());
+}
+
+#[test]
+fn nothing_is_known_to_be_stored() {
+    let system = fullmo();
+    let device = &system.devices[0];
+    assert!(!device.objects.contains_key(&Index(0x1010)));
+    let stored: Vec<EntryId> =
+        device.entries().filter(|(.., entry)| entry.stored != Storage::No).map(|(id, ..)| id).collect();
+    assert!(stored.is_empty(), "{stored:?}");
 }
 
 #[test]
@@ -154,6 +201,10 @@ fn scales_are_those_of_the_manual() {
         assert_eq!(step(0x3402, sub), (1, 100, "V"), "3402h.{sub}");
     }
     assert_eq!(step(0x3404, 5), (1, 100, "A"));
+    for index in [0x6062, 0x6064, 0x6067, 0x607A, 0x607C] {
+        let unit = system.devices[0].entry(id(index, 0)).unwrap().unit.as_ref().unwrap();
+        assert_eq!(unit.name, "position unit", "{index:04X}h");
+    }
     assert_eq!(step(0x6075, 0), (1, 1, "mA"));
     assert_eq!(step(0x6076, 0), (1, 1, "mNm"));
     assert_eq!(step(0x6079, 0), (1, 1, "mV"));

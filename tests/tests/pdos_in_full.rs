@@ -3,7 +3,7 @@
 use firmware_glue::{Dictionary as _, pdo};
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
-use od_spec::model::{Dictionary, Direction, Index, Mapped, Pdo, System, Value};
+use od_spec::model::{Dictionary, Direction, Index, Mapped, Pdo, Storage, System, Value};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 
@@ -17,7 +17,7 @@ od-spec: 1
 title: Lamp
 uses: [cia301]
 devices:
-  lamp: {name: Lamp, bit-rates: [125], granularity: 32, features: [heartbeat producer], dummies: [unsigned32]}
+  lamp: {name: Lamp, bit-rates: [125], granularity: 32, features: [heartbeat producer, store parameters], dummies: [unsigned32]}
 objects:
   0x2000: {name: level, type: unsigned32, access: rw, pdo: receive}
   0x2001: {name: hours, type: unsigned32, access: ro, pdo: transmit}
@@ -104,6 +104,30 @@ fn system(text: &str) -> System {
     let compiled = compile(&mut sources, root, &mut NoFiles);
     let shown = render(&compiled.diagnostics, &sources, Format::Human, false);
     compiled.system.unwrap_or_else(|| panic!("{shown}"))
+}
+
+/// The storage of the parameters that can be written, of a device with these objects of its own and this said of all its PDOs.
+fn storage(objects: &str, said: &str) -> Vec<Storage> {
+    let device = DEVICE.replace(", store parameters", "");
+    let made = MADE.replace("  lamp:\n", &format!("  lamp:\n{said}"));
+    let system = system(&format!("{device}{objects}{made}"));
+    let parameters = system.devices[0].entries().filter(|(_, object, _)| object.role().is_pdo_parameter());
+    let mut kept: Vec<Storage> =
+        parameters.filter(|(.., entry)| entry.access.is_writable()).map(|(.., entry)| entry.stored).collect();
+    kept.dedup();
+    kept
+}
+
+#[test]
+fn parameters_are_stored_where_the_device_can_store_them() {
+    let count = |count: u8| format!("  0x1010: {{from: cia301, array: {{count: {count}}}}}\n");
+    assert_eq!(storage("", ""), [Storage::No]);
+    // "Save all parameters", and the communication parameters alone.
+    assert_eq!(storage(&count(1), ""), [Storage::Communication]);
+    assert_eq!(storage(&count(2), ""), [Storage::Communication]);
+    // What is said goes before that.
+    assert_eq!(storage(&count(2), "    stored: no\n"), [Storage::No]);
+    assert_eq!(storage("", "    stored: communication\n"), [Storage::Communication]);
 }
 
 /// What a PDO is, wherever it is written.

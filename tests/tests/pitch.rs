@@ -5,8 +5,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{
-    Access, DataType, Dictionary, EntryId, ErratumKind, Index, ObjectKind, Origin, PdoMapping, Storage,
-    SubIndex, System, TableContent, TypeKind, Value,
+    Access, DataType, Dictionary, EntryId, Erratum, ErratumKind, Index, ObjectKind, Origin, PdoMapping,
+    Storage, SubIndex, System, TableContent, TypeKind, Value,
 };
 use od_tests::compile_clean;
 
@@ -202,6 +202,34 @@ fn every_16_bit_view_follows_its_target() {
         assert_eq!(entry.stored, Storage::No, "{at}");
         assert_eq!(entry.eds.default, target.eds.default, "{at}");
     }
+}
+
+/// What a view gives outside its range is a choice, and the documents say so of each.
+#[test]
+fn saturation_of_every_view_is_an_erratum() {
+    let system = pitch();
+    let views = system.device("pmc").unwrap().entries().filter(|(.., entry)| entry.alias.is_some());
+    for (view, ..) in views {
+        let chosen = |erratum: &Erratum| {
+            erratum.reads.get("en").is_some_and(|reads| reads.contains("saturates"))
+                && erratum.at.iter().any(|at| at.index() == view.index)
+        };
+        assert!(system.errata.iter().any(chosen), "{view}");
+    }
+}
+
+/// Table 35: X14.3 is 0004h, X14.4 is 0008h; the example above it adds other numbers.
+#[test]
+fn two_outputs_in_parallel_are_the_sum_of_their_masks() {
+    let system = pitch();
+    let mask = &system.types["PMM output mask"];
+    let TypeKind::Bits(fields) = &mask.kind else { panic!("bits") };
+    let together: u32 = ["output X14.3", "output X14.4"]
+        .map(|name| 1 << fields.iter().find(|field| field.name == name).unwrap().first)
+        .into_iter()
+        .sum();
+    assert_eq!(together, 0x000C);
+    assert!(mask.about.get("en").unwrap().contains(&format!("X14.3 and X14.4: {together:04X}h")));
 }
 
 #[test]

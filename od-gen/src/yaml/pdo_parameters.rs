@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::model::{
     Access, CommunicationParameter, DataType, Direction, Entry, Index, Object, Pdo, Role, Storage, SubIndex,
-    Value, usual_pdo_names,
+    Value, usual_pdo_names, usual_pdo_storage,
 };
 use od_spec::name_pattern::{NamePattern, Numbers};
 
@@ -267,12 +267,13 @@ fn limit_node(entry: &Entry, limit: i128) -> Node {
     }
 }
 
-/// Whether the parameters of PDOs are stored with the communication parameters, as most PDOs have it.
-pub(super) fn are_stored(context: &Context<'_>, pdos: &[&Pdo]) -> bool {
+/// `stored:`: what keeps the parameters of PDOs that can be written, where most have it otherwise than follows from the device.
+pub(super) fn stored(context: &Context<'_>, pdos: &[&Pdo]) -> Option<Storage> {
     let indices = |pdo: &&Pdo| [pdo.communication_index(), pdo.mapping_index()].map(Index);
     let objects = pdos.iter().flat_map(indices).filter_map(|index| context.device.objects.get(&index));
-    let writable = objects.flat_map(|object| &object.entries).filter(|entry| entry.access.is_writable());
-    let (stored, not): (Vec<&Entry>, Vec<&Entry>) =
-        writable.partition(|entry| entry.stored == Storage::Communication);
-    stored.len() >= not.len()
+    let writable: Vec<&Entry> =
+        objects.flat_map(|object| &object.entries).filter(|entry| entry.access.is_writable()).collect();
+    let count = |storage: Storage| writable.iter().filter(|entry| entry.stored == storage).count();
+    let usual = usual_pdo_storage(&context.device.objects);
+    [Storage::Communication, Storage::No].into_iter().find(|&other| count(other) > count(usual))
 }

@@ -42,9 +42,8 @@ pub(super) fn items(context: &Context<'_>, pdos: &[&Pdo]) -> Vec<Item> {
         return Vec::new();
     }
     let mut items = Vec::new();
-    if !pdo_parameters::are_stored(context, pdos) {
-        items.push(Item::new("stored", Node::yes_no(false)));
-    }
+    let stored = pdo_parameters::stored(context, pdos);
+    items.extend(stored.map(|storage| Item::new("stored", Node::plain(storage.word()))));
     if !parameters.is_empty() {
         items.push(Item::new("parameters", Node::Block(parameters)));
     }

@@ -21,7 +21,7 @@ fn device(count: u16) -> System {
         "
 od-spec: 1
 title: Lamp
-devices: {{lamp: {{name: Lamp, bit-rates: [125], granularity: 8, dummies: [unsigned8]}}}}
+devices: {{lamp: {{name: Lamp, bit-rates: [125], granularity: 8, dummies: [unsigned8], features: [store parameters]}}}}
 uses: [cia301]
 allow: {{OD0503: numbers that follow each other}}
 objects:
@@ -218,6 +218,18 @@ fn storage_is_neither_added_nor_lost() {
     let specification = written(&system);
     assert_eq!(difference(&system, &model(&specification.text)), None);
     assert!(specification.text.contains("RPDO 2 in full, not under `pdos:`"), "{}", specification.text);
+}
+
+#[test]
+fn where_nothing_stores_only_storage_is_said() {
+    let mut system = device(2);
+    system.devices[0].objects.remove(&Index(0x1010));
+    assert!(!kept(&system).contains("stored"));
+    for object in system.devices[0].objects.values_mut().filter(|object| object.origin == Origin::Pdo) {
+        let writable = object.entries.iter_mut().filter(|entry| entry.access.is_writable());
+        writable.for_each(|entry| entry.stored = Storage::Communication);
+    }
+    assert!(kept(&system).contains("stored: communication"));
 }
 
 #[test]

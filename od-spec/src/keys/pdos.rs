@@ -6,7 +6,7 @@ use super::table::keys;
 keys! {
     /// `pdos:` of a device.
     PDOS = "a device's PDOs" {
-        "stored": Shape::Choice(&["communication", "no"]), "whether parameters that can be written are stored with the communication parameters; `no` also where nobody knows; `communication` unless given";
+        "stored": Shape::Choice(&["communication", "no"]), "whether parameters that can be written are stored with the communication parameters; `no` also where nobody knows; unless given, `communication` if the device has 1010h (sub-index 1 or 2), else `no`";
         "parameters": Shape::Map(&PDO_DIRECTIONS), "what the parameter objects of all PDOs are called, and what else they have of their own";
         "receive": Shape::MapOf(KeyKind::PdoNumber, &Shape::Map(&PDO)), "RPDOs by number", "{1: {map: [controlword]}}";
         "transmit": Shape::MapOf(KeyKind::PdoNumber, &Shape::Map(&PDO)), "TPDOs by number";

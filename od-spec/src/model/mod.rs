@@ -41,7 +41,7 @@ pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transiti
 pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
-pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names};
+pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names, usual_pdo_storage};
 pub use ratio::Ratio;
 pub use role::Role;
 pub use text::Text;

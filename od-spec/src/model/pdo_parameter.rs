@@ -1,6 +1,8 @@
 //! What the parameter objects of a PDO hold, and what it is called where nobody says otherwise.
 
-use super::{Access, DataType, Direction};
+use std::collections::BTreeMap;
+
+use super::{Access, DataType, Direction, Index, Object, Storage, SubIndex};
 
 /// An entry of the communication parameters of a PDO (CiA 301, object 22h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,6 +106,16 @@ impl CommunicationParameter {
             }
             Self::SyncStart => "SYNC counter value of the first transmission; 0: any",
         }
+    }
+}
+
+/// What keeps the parameters of PDOs that can be written, where the specification says nothing: a device that stores communication
+/// parameters (1010h.2), or all of them (1010h.1), stores these.
+pub fn usual_pdo_storage(objects: &BTreeMap<Index, Object>) -> Storage {
+    let stores = |store: &Object| [1, 2].into_iter().any(|sub| store.entry(SubIndex(sub)).is_some());
+    match objects.get(&Index(0x1010)) {
+        Some(store) if stores(store) => Storage::Communication,
+        Some(_) | None => Storage::No,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The parameter objects that a PDO has: communication (1400h, 1800h and following) and mapping (1600h, 1A00h and following).
 
-use super::pdo_parameters::{Described, Said};
+use super::pdo_parameters::{Described, Kept, Said};
 use crate::ast::PdoDecl;
 use crate::model::{
     Access, CommunicationParameter, DataType, Entry, Fact, Index, Mapped, Object, ObjectKind, Origin, Pdo,
@@ -22,16 +22,16 @@ struct Parameter {
 }
 
 impl Parameter {
-    fn into_entry(self, stored: Option<Spanned<Storage>>, span: Span) -> Entry {
+    fn into_entry(self, kept: Kept, span: Span) -> Entry {
         let Said { name: (name, named), access, min, max, .. } = self.said;
         let right = access.map_or(self.access, |access| access.value);
-        let storage = stored.map_or(Storage::Communication, |stored| stored.value);
+        let storage = kept.said.map_or(kept.usual, |said| said.value);
         let facts = [
             (Fact::Name, named),
             (Fact::Access, access.map(|access| access.span)),
             (Fact::LowLimit, min.map(|min| min.span)),
             (Fact::HighLimit, max.map(|max| max.span)),
-            (Fact::Storage, stored.filter(|_| right.is_writable()).map(|stored| stored.span)),
+            (Fact::Storage, kept.said.filter(|_| right.is_writable()).map(|said| said.span)),
         ];
         let facts = facts
             .into_iter()
@@ -49,13 +49,7 @@ impl Parameter {
     }
 }
 
-fn object(
-    index: u16,
-    name: String,
-    parameters: Vec<Parameter>,
-    stored: Option<Spanned<Storage>>,
-    span: Span,
-) -> Object {
+fn object(index: u16, name: String, parameters: Vec<Parameter>, kept: Kept, span: Span) -> Object {
     Object {
         index: Index(index),
         name,
@@ -68,7 +62,7 @@ fn object(
         since: None,
         links: Vec::new(),
         about: Text::default(),
-        entries: parameters.into_iter().map(|parameter| parameter.into_entry(stored, span)).collect(),
+        entries: parameters.into_iter().map(|parameter| parameter.into_entry(kept, span)).collect(),
         span,
     }
 }
@@ -130,7 +124,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
         count.default = number(highest);
     }
     let name = described.communication_name(pdo);
-    let mut object = object(pdo.communication_index(), name, list, described.stored, pdo.span);
+    let mut object = object(pdo.communication_index(), name, list, described.kept, pdo.span);
     if let (Some(flag), Some(cob_id)) = (decl.no_rtr, object.entries.get_mut(1)) {
         cob_id.facts.state(Fact::RemoteFrames, stated(Some(flag.span), decl));
     }
@@ -167,7 +161,7 @@ pub(super) fn mapping_object(
         }
     }));
     let name = described.mapping_name(pdo);
-    let mut object = object(pdo.mapping_index(), name, list, described.stored, pdo.span);
+    let mut object = object(pdo.mapping_index(), name, list, described.kept, pdo.span);
     if let (Some(capacity), Some(count)) = (decl.capacity, object.entries.first_mut()) {
         count.facts.state(Fact::Capacity, stated(Some(capacity.span), decl));
     }

@@ -12,11 +12,19 @@ use crate::model::{
 use crate::name_pattern::{NamePattern, Numbers};
 use crate::source::{Span, Spanned};
 
+/// What keeps the values of parameters that can be written.
+#[derive(Clone, Copy)]
+pub(super) struct Kept {
+    /// What is said.
+    pub said: Option<Spanned<Storage>>,
+    /// Where nothing is said.
+    pub usual: Storage,
+}
+
 /// What is said about the parameters of a PDO, the nearest first.
 pub(super) struct Described<'a> {
     layers: [Option<&'a PdoParametersDecl>; 2],
-    /// What keeps the values of entries that can be written.
-    pub stored: Option<Spanned<Storage>>,
+    pub kept: Kept,
     direction: Direction,
     number: u16,
 }
@@ -33,10 +41,10 @@ pub(super) struct Said {
 }
 
 impl<'a> Described<'a> {
-    pub(super) fn new(all: &'a PdosDecl, decl: &'a PdoDecl) -> Self {
+    pub(super) fn new(all: &'a PdosDecl, decl: &'a PdoDecl, usual: Storage) -> Self {
         Self {
             layers: [decl.parameters.as_ref(), all.parameters(decl.direction)],
-            stored: all.stored,
+            kept: Kept { said: all.stored, usual },
             direction: decl.direction,
             number: decl.number.value,
         }

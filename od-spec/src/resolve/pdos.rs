@@ -11,7 +11,9 @@ use super::values::{self, Expected};
 use crate::ast::{Name, PdoDecl, PdosDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, Value};
+use crate::model::{
+    DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, Value, usual_pdo_storage,
+};
 use crate::source::{Span, Spanned};
 
 /// Resolves the PDOs of a device and adds their parameter objects. A PDO whose parameter objects are written in full follows from
@@ -27,6 +29,7 @@ pub(super) fn resolve(
     let mut pdos: Vec<Pdo> = Vec::new();
     let mut parameters: Vec<Object> = Vec::new();
     let names = Names::new(objects.values());
+    let usual_storage = usual_pdo_storage(objects);
     let of_some = decl.list.iter().filter_map(|one| one.parameters.as_ref());
     for described in [&decl.receive, &decl.transmit].into_iter().flatten().chain(of_some) {
         check_limits(described, diagnostics);
@@ -39,7 +42,7 @@ pub(super) fn resolve(
         }
         let map: Vec<Spanned<Mapped>> =
             one.map.iter().filter_map(|name| mapped(name, &names, objects, broken, diagnostics)).collect();
-        let described = Described::new(decl, one);
+        let described = Described::new(decl, one, usual_storage);
         let made =
             pdo(one, info, &map, diagnostics).filter(|pdo| is_of_one_kind(pdo, &described, diagnostics));
         match made {

@@ -2,8 +2,8 @@
 
 use super::{Language, Notation, Word, Wording};
 use crate::model::{
-    Access, Alias, Category, Departure, Entry, ErratumKind, Fact, Outside, Part, PdoMapping, Ratio, Rounding,
-    Storage,
+    Access, Alias, Category, Departure, Dictionary, Entry, EntryId, ErratumKind, Fact, Index, Outside, Part,
+    PdoMapping, Ratio, Rounding, Storage, SubIndex,
 };
 
 impl Wording {
@@ -71,6 +71,15 @@ impl Wording {
             Storage::Manufacturer => Word::StoredManufacturer,
             Storage::Remanent => Word::StoredRemanent,
         })
+    }
+
+    /// The same for a device, which may lack the command for communication parameters and save them with all others.
+    pub fn storage_group_of(self, storage: Storage, device: &Dictionary) -> &'static str {
+        let has = |sub: u8| device.entry(EntryId { index: Index(0x1010), sub: SubIndex(sub) }).is_some();
+        if storage == Storage::Communication && has(1) && !has(2) {
+            return self.word(Word::StoredWithAll);
+        }
+        self.storage_group(storage)
     }
 
     /// Whether a standard demands an object.

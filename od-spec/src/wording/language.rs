@@ -77,6 +77,8 @@ words! {
     Remanent "remanent": "by itself", "von selbst";
     /// Heading of what is kept with the communication parameters.
     StoredCommunication "stored_communication": "1010h.2, communication parameters", "1010h.2, Kommunikationsparameter";
+    /// Heading of communication parameters of a device that saves all parameters together.
+    StoredWithAll "stored_with_all": "1010h.1, communication parameters with all others", "1010h.1, Kommunikationsparameter mit allen anderen";
     /// Heading of what is kept with the application parameters.
     StoredApplication "stored_application": "1010h.3, application parameters", "1010h.3, Anwendungsparameter";
     /// Heading of what is kept with the manufacturer parameters.

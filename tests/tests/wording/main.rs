@@ -15,6 +15,7 @@ mod documents;
 mod dump;
 mod eds;
 mod facts;
+mod manuals;
 #[path = "../../shared/markdown.rs"]
 #[expect(dead_code, reason = "the documents' own tests use more of it")]
 mod markdown;
