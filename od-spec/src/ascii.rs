@@ -1,19 +1,26 @@
 //! Text for files that hold ASCII only (CiA 306 4.2).
 
+use std::borrow::Cow;
+
 /// Replaces every character outside printable ASCII by its usual transcription: `ä` → `ae`, `°` → `deg`, `²` → `2`.
 /// What has none becomes `?`.
 pub fn transliterate(text: &str) -> String {
+    in_ascii(text).into_owned()
+}
+
+/// [`transliterate`], without a copy of what is printable ASCII already.
+pub fn in_ascii(text: &str) -> Cow<'_, str> {
     if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
-        return text.to_owned();
+        return Cow::Borrowed(text);
     }
-    text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
+    Cow::Owned(text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
         match c {
             ' '..='~' => out.push(c),
             _ if c.is_whitespace() => out.push(' '),
             _ => out.push_str(transcription(c)),
         }
         out
-    })
+    }))
 }
 
 const fn transcription(c: char) -> &'static str {

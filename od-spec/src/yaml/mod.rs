@@ -10,7 +10,7 @@ use granit_parser::{Event, Parser, ScalarStyle};
 
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
-use crate::visible::turns_text;
+use crate::visible::turning;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 64;
@@ -169,10 +169,7 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
 
 /// Refuses characters that make the text around them look like another, wherever they stand, in comments, too.
 fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
-    if text.is_ascii() {
-        return;
-    }
-    for (at, c) in text.char_indices().filter(|(_, c)| turns_text(*c)) {
+    for (at, c) in turning(text) {
         let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         diagnostics.push(turned(Span { file: id, start: place(at), end: place(at + c.len_utf8()) }, c));
     }
@@ -281,9 +278,8 @@ impl Builder<'_> {
     /// An escape stands for the character; the character itself is reported already.
     fn refuse_escape_that_turns(&mut self, kind: &NodeKind, span: Span) {
         if let NodeKind::Scalar { text, plain: false } = kind
-            && !text.is_ascii()
-            && let Some(c) = text.chars().find(|c| turns_text(*c))
-            && !self.text[span.start as usize..span.end as usize].contains(turns_text)
+            && let Some((_, c)) = turning(text).next()
+            && turning(&self.text[span.start as usize..span.end as usize]).next().is_none()
         {
             self.diagnostics.push(turned(span, c));
         }
