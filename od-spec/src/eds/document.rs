@@ -167,7 +167,10 @@ pub struct Section {
 impl Section {
     /// A section without keys. The name may hold neither brackets nor line breaks.
     pub fn new(name: &str) -> Self {
-        Self { comments: Vec::new(), lines: vec![Line::new_header(name)] }
+        // As many as an entry's section usually has.
+        let mut lines = Vec::with_capacity(8);
+        lines.push(Line::new_header(name));
+        Self { comments: Vec::new(), lines }
     }
 
     /// The section with comments directly above its header, a line each, without their `;`.

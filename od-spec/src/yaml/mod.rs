@@ -4,7 +4,7 @@
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
@@ -18,6 +18,8 @@ const MAX_DEPTH: usize = 64;
 pub(crate) const MERGE: &str = "<<";
 /// Most bytes that anchors and aliases may add to a document.
 const MAX_ALIAS_BYTES: usize = 16 << 20;
+/// Entries of a map among which equal keys are looked for one by one.
+const SMALL: usize = 16;
 /// What a value counts beside its text.
 const BYTES_PER_VALUE: usize = 64;
 
@@ -184,18 +186,8 @@ fn turned(span: Span, c: char) -> Diagnostic {
 
 /// A collection that is being read.
 enum Open {
-    List {
-        start: Span,
-        anchor: usize,
-        items: Vec<Node>,
-    },
-    Map {
-        start: Span,
-        anchor: usize,
-        entries: Vec<(Spanned<String>, Node)>,
-        seen: BTreeMap<String, Span>,
-        key: Key,
-    },
+    List { start: Span, anchor: usize, items: Vec<Node> },
+    Map { start: Span, anchor: usize, entries: Vec<(Spanned<String>, Node)>, key: Key },
 }
 
 enum Key {
@@ -252,8 +244,7 @@ impl Builder<'_> {
             }
             Event::MappingStart(_, anchor, tag) => {
                 self.refuse_tag(tag.is_some(), span);
-                let (entries, seen) = (Vec::new(), BTreeMap::new());
-                self.stack.push(Open::Map { start: span, anchor, entries, seen, key: Key::Expected });
+                self.stack.push(Open::Map { start: span, anchor, entries: Vec::new(), key: Key::Expected });
                 return self.depth_is_fine(span);
             }
             Event::SequenceEnd | Event::MappingEnd => return self.close(span),
@@ -369,10 +360,10 @@ impl Builder<'_> {
         match self.stack.last_mut() {
             None => self.root = Some(node),
             Some(Open::List { items, .. }) => items.push(node),
-            Some(Open::Map { entries, seen, key, .. }) => match std::mem::replace(key, Key::Expected) {
+            Some(Open::Map { entries, key, .. }) => match std::mem::replace(key, Key::Expected) {
                 Key::Read(name) => entries.push((name, node)),
                 Key::Dropped => {}
-                Key::Expected => *key = read_key(node, entries, seen, self.diagnostics),
+                Key::Expected => *key = read_key(node, entries, self.diagnostics),
             },
         }
         true
@@ -385,8 +376,11 @@ impl Builder<'_> {
                 let last = items.last().map(|node| node.span);
                 (start, anchor, NodeKind::List(items), last)
             }
-            Open::Map { start, anchor, entries, .. } => {
+            Open::Map { start, anchor, mut entries, .. } => {
                 let last = entries.last().map(|(_, node)| node.span);
+                if entries.len() > SMALL {
+                    refuse_equal_keys(&mut entries, self.diagnostics);
+                }
                 (start, anchor, NodeKind::Map(entries), last)
             }
         };
@@ -423,12 +417,7 @@ impl Builder<'_> {
     }
 }
 
-fn read_key(
-    node: Node,
-    entries: &[(Spanned<String>, Node)],
-    seen: &mut BTreeMap<String, Span>,
-    diagnostics: &mut Diagnostics,
-) -> Key {
+fn read_key(node: Node, entries: &[(Spanned<String>, Node)], diagnostics: &mut Diagnostics) -> Key {
     let span = node.span;
     let NodeKind::Scalar { text, .. } = node.kind else {
         if !matches!(node.kind, NodeKind::Broken) {
@@ -451,34 +440,40 @@ fn read_key(
         // The key stays, so that nobody misses what it would have brought.
         return Key::Read(Spanned::new(text, span));
     }
-    if let Some(first) = earlier(&text, entries, seen) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::DUPLICATE_KEY,
-                span,
-                format!("key `{}` stands twice in this map", shorten(&text)),
-            )
-            .label("again here")
-            .with(first, "first here")
-            .help("remove one of the two, or join their values"),
-        );
+    let key = Spanned::new(text, span);
+    let first = entries.iter().take(SMALL).find(|(name, _)| *name == key);
+    if let Some((first, _)) = first {
+        diagnostics.push(equal_keys(first, &key));
         return Key::Dropped;
     }
-    Key::Read(Spanned::new(text, span))
+    Key::Read(key)
 }
 
-/// The place of an equal key. Small maps, which is nearly all of them, are searched; large ones get an index.
-fn earlier(
-    text: &str,
-    entries: &[(Spanned<String>, Node)],
-    seen: &mut BTreeMap<String, Span>,
-) -> Option<Span> {
-    const SMALL: usize = 16;
-    if entries.len() <= SMALL {
-        return entries.iter().find(|(name, _)| name.value == text).map(|(name, _)| name.span);
+/// Takes keys that stood before out of a large map, which nearly no map is.
+fn refuse_equal_keys(entries: &mut Vec<(Spanned<String>, Node)>, diagnostics: &mut Diagnostics) {
+    let mut order: Vec<usize> = (0..entries.len()).collect();
+    // Of equal keys, the first in the text stays the first.
+    order.sort_by(|one, other| entries[*one].0.value.cmp(&entries[*other].0.value));
+    let mut again = BTreeSet::new();
+    for equal in order.chunk_by(|one, other| entries[*one].0 == entries[*other].0) {
+        let first = &entries[equal[0]].0;
+        if first.value != MERGE {
+            for at in &equal[1..] {
+                diagnostics.push(equal_keys(first, &entries[*at].0));
+                again.insert(*at);
+            }
+        }
     }
-    for (name, _) in &entries[seen.len()..] {
-        seen.insert(name.value.clone(), name.span);
+    if !again.is_empty() {
+        let mut at = 0..;
+        entries.retain(|_| at.next().is_none_or(|at| !again.contains(&at)));
     }
-    seen.get(text).copied()
+}
+
+fn equal_keys(first: &Spanned<String>, again: &Spanned<String>) -> Diagnostic {
+    let message = format!("key `{}` stands twice in this map", shorten(&again.value));
+    Diagnostic::new(codes::DUPLICATE_KEY, again.span, message)
+        .label("again here")
+        .with(first.span, "first here")
+        .help("remove one of the two, or join their values")
 }
