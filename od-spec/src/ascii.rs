@@ -8,9 +8,15 @@ pub fn transliterate(text: &str) -> String {
     in_ascii(text).into_owned()
 }
 
+/// Whether a text is printable ASCII only.
+pub fn is_printable(text: &str) -> bool {
+    // Without an end in between, the compiler looks at many bytes at once.
+    text.bytes().fold(true, |all, byte| all & matches!(byte, b' '..=b'~'))
+}
+
 /// [`transliterate`], without a copy of what is printable ASCII already.
 pub fn in_ascii(text: &str) -> Cow<'_, str> {
-    if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
+    if is_printable(text) {
         return Cow::Borrowed(text);
     }
     Cow::Owned(text.chars().fold(String::with_capacity(text.len()), |mut out, c| {

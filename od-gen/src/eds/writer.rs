@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 
-use od_spec::ascii::{in_ascii, transliterate};
+use od_spec::ascii::{in_ascii, is_printable, transliterate};
 use od_spec::eds::{Document, Section};
 
 /// Longest line without its line break (CiA 306 4.2).
@@ -63,8 +63,7 @@ const fn longest(key: &str) -> usize {
 
 /// Whether readers find the text as it is behind a key.
 fn fits(key: &str, text: &str) -> bool {
-    let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
-    is_plain && text.len() <= longest(key) && text.trim() == text
+    is_printable(text) && text.len() <= longest(key) && text.trim() == text
 }
 
 /// The lines of a comment, those after the first indented.
@@ -91,8 +90,7 @@ fn broken(comment: &str) -> Vec<Cow<'_, str>> {
 
 /// Whether a comment fits a line as it is, with single blanks between its words.
 fn is_line(comment: &str) -> bool {
-    let is_plain = comment.bytes().all(|byte| matches!(byte, b' '..=b'~'));
-    is_plain
+    is_printable(comment)
         && (1..=COMMENT_WIDTH - 2).contains(&comment.len())
         && !comment.starts_with(' ')
         && !comment.ends_with(' ')

@@ -226,7 +226,9 @@ impl Builder<'_> {
                 }
             }
             Event::Scalar(text, style, anchor, tag) => {
-                self.refuse_tag(tag.is_some(), span);
+                if tag.is_some() {
+                    self.refuse_tag(span);
+                }
                 let plain = style == ScalarStyle::Plain;
                 let kind = if plain && matches!(&*text, "" | "~" | "null") {
                     NodeKind::Null
@@ -238,12 +240,16 @@ impl Builder<'_> {
                 return self.add(Node { span, kind }, anchor);
             }
             Event::SequenceStart(_, anchor, tag) => {
-                self.refuse_tag(tag.is_some(), span);
+                if tag.is_some() {
+                    self.refuse_tag(span);
+                }
                 self.stack.push(Open::List { start: span, anchor, items: Vec::new() });
                 return self.depth_is_fine(span);
             }
             Event::MappingStart(_, anchor, tag) => {
-                self.refuse_tag(tag.is_some(), span);
+                if tag.is_some() {
+                    self.refuse_tag(span);
+                }
                 self.stack.push(Open::Map { start: span, anchor, entries: Vec::new(), key: Key::Expected });
                 return self.depth_is_fine(span);
             }
@@ -276,14 +282,12 @@ impl Builder<'_> {
         }
     }
 
-    fn refuse_tag(&mut self, tagged: bool, value: Span) {
-        if tagged {
-            let span = self.tag_before(value);
-            self.diagnostics.push(
-                Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
-                    .help("remove the tag; the place decides how a value is read"),
-            );
-        }
+    fn refuse_tag(&mut self, value: Span) {
+        let span = self.tag_before(value);
+        self.diagnostics.push(
+            Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
+                .help("remove the tag; the place decides how a value is read"),
+        );
     }
 
     /// The tag that stands before a value, perhaps with an anchor between them; else the value.
