@@ -63,7 +63,7 @@ const fn longest(key: &str) -> usize {
 
 /// Whether readers find the text as it is behind a key.
 fn fits(key: &str, text: &str) -> bool {
-    is_printable(text) && text.len() <= longest(key) && text.trim() == text
+    is_printable(text) && text.len() <= longest(key) && !text.starts_with(' ') && !text.ends_with(' ')
 }
 
 /// The lines of a comment, those after the first indented.

@@ -68,13 +68,10 @@ impl Provenance {
         // It stands in a comment of one line.
         let name = visible(&name).into_owned();
         // FNV-1a of 64 bits.
-        let hash = sources.files().flat_map(|(_, file)| file.text().lines()).fold(
-            0xCBF2_9CE4_8422_2325,
-            |hash, line| {
-                let bytes = line.bytes().chain([b'\n']);
-                bytes.fold(hash, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3))
-            },
-        );
+        let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01B3);
+        let lines = sources.files().flat_map(|(_, file)| file.text().lines());
+        let hash = lines
+            .fold(0xCBF2_9CE4_8422_2325, |hash, line| step(line.as_bytes().iter().fold(hash, step), &b'\n'));
         Self { name, hash }
     }
 }

@@ -51,13 +51,12 @@ impl Ratio {
 
     /// Product; `None` when it does not fit 128 bits.
     pub fn checked_mul(self, other: Self) -> Option<Self> {
-        // Reduce crosswise first, so that intermediate products stay small.
+        // Reduced crosswise, intermediate products stay small, and the product is in lowest terms.
         let left = Self::new(self.numerator, other.denominator)?;
         let right = Self::new(other.numerator, self.denominator)?;
-        Self::new(
-            left.numerator.checked_mul(right.numerator)?,
-            left.denominator.checked_mul(right.denominator)?,
-        )
+        let numerator =
+            left.numerator.checked_mul(right.numerator).filter(|product| *product != i128::MIN)?;
+        Some(Self { numerator, denominator: left.denominator.checked_mul(right.denominator)? })
     }
 
     /// Quotient; `None` for a zero divisor or an overflow.

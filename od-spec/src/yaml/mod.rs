@@ -445,8 +445,9 @@ fn read_key(node: Node, entries: &[(Spanned<String>, Node)], diagnostics: &mut D
         return Key::Read(Spanned::new(text, span));
     }
     let key = Spanned::new(text, span);
-    let first = entries.iter().take(SMALL).find(|(name, _)| *name == key);
-    if let Some((first, _)) = first {
+    if entries.len() <= SMALL
+        && let Some((first, _)) = entries.iter().find(|(name, _)| *name == key)
+    {
         diagnostics.push(equal_keys(first, &key));
         return Key::Dropped;
     }
