@@ -9,6 +9,7 @@ use od_spec::model::{
 
 use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::language::Word;
+use crate::long_list::LongList;
 use crate::outline::section_anchor;
 use crate::source::Source;
 use crate::tables::Columns;
@@ -21,7 +22,7 @@ impl Source<'_> {
     /// The page of a device: all links stay on it. The source is that of the device alone.
     pub(crate) fn device(&self, device: &Dictionary) -> DeviceView {
         let uses = Uses::new(self, device);
-        let objects: Vec<ObjectView> =
+        let objects: LongList<ObjectView> =
             device.objects.values().map(|object| self.object(device, object, &uses)).collect();
         let rows = device.objects.values().map(|object| self.overview_row(object)).collect();
         let overview =

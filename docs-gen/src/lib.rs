@@ -10,6 +10,7 @@ mod chapters;
 mod conditions;
 mod device;
 mod language;
+mod long_list;
 mod markdown;
 mod options;
 mod outline;

@@ -4,6 +4,8 @@
 
 use serde::Serialize;
 
+pub use crate::long_list::LongList;
+
 /// Version of the format; raised when a template would have to change.
 pub(crate) const FORMAT: u32 = 1;
 
@@ -215,7 +217,7 @@ pub struct DeviceView {
     /// Overview of all objects.
     pub overview: Table,
     /// The objects.
-    pub objects: Vec<ObjectView>,
+    pub objects: LongList<ObjectView>,
     /// Factory PDOs.
     pub pdos: Vec<PdoView>,
     /// Error codes, aliases, units, storage and constraints of this device alone.

@@ -1,19 +1,32 @@
 //! Text for files that hold ASCII only (CiA 306 4.2).
 
+use std::borrow::Cow;
+
 /// Replaces every character outside printable ASCII by its usual transcription: `ä` → `ae`, `°` → `deg`, `²` → `2`.
 /// What has none becomes `?`.
 pub fn transliterate(text: &str) -> String {
-    if text.bytes().all(|byte| matches!(byte, b' '..=b'~')) {
-        return text.to_owned();
+    in_ascii(text).into_owned()
+}
+
+/// Whether a text is printable ASCII only.
+pub fn is_printable(text: &str) -> bool {
+    // Without an end in between, the compiler looks at many bytes at once.
+    text.bytes().fold(true, |all, byte| all & matches!(byte, b' '..=b'~'))
+}
+
+/// [`transliterate`], without a copy of what is printable ASCII already.
+pub fn in_ascii(text: &str) -> Cow<'_, str> {
+    if is_printable(text) {
+        return Cow::Borrowed(text);
     }
-    text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
+    Cow::Owned(text.chars().fold(String::with_capacity(text.len()), |mut out, c| {
         match c {
             ' '..='~' => out.push(c),
             _ if c.is_whitespace() => out.push(' '),
             _ => out.push_str(transcription(c)),
         }
         out
-    })
+    }))
 }
 
 const fn transcription(c: char) -> &'static str {

@@ -1,5 +1,7 @@
 //! What the text of a scalar means, by the type that its place expects.
 
+use std::borrow::Cow;
+
 use crate::model::Ratio;
 
 /// Why a text is not a number.
@@ -51,7 +53,8 @@ pub fn integer(text: &str) -> Result<i128, NumberError> {
     if radix == 10 && digits.len() > 1 && digits.starts_with('0') {
         return Err(NumberError::LeadingZero);
     }
-    let digits: String = digits.chars().filter(|c| *c != '_').collect();
+    let digits =
+        if digits.contains('_') { Cow::Owned(digits.replace('_', "")) } else { Cow::Borrowed(digits) };
     let value = i128::from_str_radix(&digits, radix).map_err(|_| NumberError::TooLarge)?;
     if value > i128::from(u64::MAX) {
         return Err(NumberError::TooLarge);

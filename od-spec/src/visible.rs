@@ -9,6 +9,12 @@ pub const fn turns_text(c: char) -> bool {
     matches!(c, '\u{61C}' | '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }
 
+/// The characters of a text that turn what is around them, each with its place. In UTF-8, they begin with one of two bytes.
+pub fn turning(text: &str) -> impl Iterator<Item = (usize, char)> {
+    let at = memchr::memchr2_iter(0xD8, 0xE2, text.as_bytes());
+    at.filter_map(|at| Some((at, text[at..].chars().next().filter(|c| turns_text(*c))?)))
+}
+
 /// Whether a character is obeyed, and not shown: by a terminal, by who reads lines, or by who lays out text.
 pub fn is_hidden(c: char) -> bool {
     c.is_control() || turns_text(c) || matches!(c, '\u{2028}' | '\u{2029}')
@@ -66,7 +72,7 @@ pub fn visible_json(text: &str) -> Cow<'_, str> {
 /// A foreign text with signs of the same length for what turns text, so that no output has to mind it: foreign files are read
 /// whatever is in them. Places stay, and so does the file.
 pub fn straight(text: &str) -> Cow<'_, str> {
-    if text.is_ascii() || !text.contains(turns_text) {
+    if turning(text).next().is_none() {
         return Cow::Borrowed(text);
     }
     Cow::Owned(text.chars().map(|c| if turns_text(c) { stand_in(c) } else { c }).collect())
@@ -116,5 +122,12 @@ mod tests {
             "{\"a\": \"\\u009b\\u007f\\u202e\"}\n"
         );
         assert_eq!(straight("a\u{202e}b\u{61c}"), "a\u{fffd}b·");
+    }
+
+    #[test]
+    fn what_turns_text_is_found_wherever_it_stands() {
+        let all: String = (char::MIN..=char::MAX).collect();
+        let expected = all.char_indices().filter(|(_, c)| turns_text(*c));
+        assert!(turning(&all).eq(expected) && turning(&all).count() == 12);
     }
 }

@@ -69,7 +69,7 @@ fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
         };
         facts.push(format!("{what} {}", WORDING.value(Some(index), entry, default)));
     }
-    (!facts.is_empty()).then(|| facts.join("; "))
+    facts.into_iter().reduce(|line, fact| line + "; " + &fact)
 }
 
 /// The name of the entry that an alias shows.

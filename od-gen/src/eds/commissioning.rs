@@ -10,10 +10,10 @@ use super::writer::SectionWriter;
 pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, commissioning: &Commissioning) {
     let mut section = SectionWriter::new("DeviceComissioning", &[]);
     section.key("NodeID", commissioning.node);
-    section.key("NodeName", &commissioning.node_name);
+    section.text("NodeName", &commissioning.node_name);
     section.key("Baudrate", commissioning.bit_rate);
     section.key("NetNumber", commissioning.net_number);
-    section.key("NetworkName", &commissioning.net_name);
+    section.text("NetworkName", &commissioning.net_name);
     section.flag("CANopenManager", false);
     let serial = EntryId { index: Index(0x1018), sub: SubIndex(4) };
     let serial = commissioning.values.get(&serial).or_else(|| device.entry(serial)?.default.as_ref());

@@ -12,12 +12,12 @@ const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dictionary) {
     let info = &device.info;
     let mut section = SectionWriter::new("DeviceInfo", &[]);
-    section.key("VendorName", &system.vendor.name);
+    section.text("VendorName", &system.vendor.name);
     section.key("VendorNumber", format_args!("0x{:08X}", system.vendor.number));
-    section.key("ProductName", &info.product_name);
+    section.text("ProductName", &info.product_name);
     section.key("ProductNumber", format_args!("0x{:08X}", info.product));
     section.key("RevisionNumber", format_args!("0x{:08X}", info.product_revision));
-    section.key("OrderCode", &info.order_code);
+    section.text("OrderCode", &info.order_code);
     for rate in BIT_RATES {
         section.flag(&format!("BaudRate_{rate}"), info.bit_rates.contains(&rate));
     }

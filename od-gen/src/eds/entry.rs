@@ -16,7 +16,7 @@ pub(super) fn write(
 ) {
     let is_domain = entry.data_type == DataType::Domain;
     let kind = if is_domain { ObjectKind::Domain } else { ObjectKind::Var };
-    section.key("ParameterName", name);
+    section.text("ParameterName", name);
     section.key("ObjectType", format_args!("0x{:X}", kind.code()));
     section.key("DataType", format_args!("0x{:04X}", entry.data_type.code()));
     let (low, high) = entry.hull();
@@ -26,7 +26,7 @@ pub(super) fn write(
     if let Some(high) = high {
         section.key("HighLimit", high);
     }
-    section.key("AccessType", entry.eds.access.word());
+    section.text("AccessType", entry.eds.access.word());
     let notation = value::Notation { object, entry, node: node.map(|commissioning| commissioning.node) };
     if let Some(default) = entry.default.as_ref().filter(|_| entry.eds.default && !is_domain) {
         section.value("DefaultValue", &notation.text(default));
@@ -59,6 +59,6 @@ pub(super) fn write(
 /// What an object or entry of a node is called in the application.
 pub(super) fn denotation(section: &mut SectionWriter, node: &Commissioning, of: Denoted) {
     if let Some(name) = node.denotations.get(&of) {
-        section.key("Denotation", name);
+        section.text("Denotation", name);
     }
 }

@@ -9,19 +9,19 @@ use super::writer::SectionWriter;
 pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, file: &str, last_eds: Option<&str>) {
     let info = &device.file;
     let mut section = SectionWriter::new("FileInfo", &[GENERATED.to_owned()]);
-    section.key("FileName", file);
+    section.text("FileName", file);
     section.key("FileVersion", info.version);
     section.key("FileRevision", info.revision);
-    section.key("EDSVersion", "4.0");
-    section.key("Description", &info.description);
-    section.key("CreationTime", time_text((info.created.hour, info.created.minute)));
+    section.text("EDSVersion", "4.0");
+    section.text("Description", &info.description);
+    section.text("CreationTime", &time_text((info.created.hour, info.created.minute)));
     section.key("CreationDate", date_text(info.created.date));
-    section.key("CreatedBy", &info.created_by);
-    section.key("ModificationTime", time_text((info.modified.hour, info.modified.minute)));
+    section.text("CreatedBy", &info.created_by);
+    section.text("ModificationTime", &time_text((info.modified.hour, info.modified.minute)));
     section.key("ModificationDate", date_text(info.modified.date));
-    section.key("ModifiedBy", &info.modified_by);
+    section.text("ModifiedBy", &info.modified_by);
     if let Some(last_eds) = last_eds {
-        section.key("LastEDS", last_eds);
+        section.text("LastEDS", last_eds);
     }
     section.finish(document);
 }

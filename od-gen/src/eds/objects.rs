@@ -70,7 +70,7 @@ fn write_object(
     if !object.is_structured() {
         for var in &object.entries {
             let mut section = SectionWriter::new(
-                format!("{index:X}"),
+                &format!("{index:X}"),
                 &comments::entry(device, object.index, var, language),
             );
             entry::write(&mut section, object, var, &object.name, node);
@@ -79,9 +79,9 @@ fn write_object(
         write_links(document, object);
         return;
     }
-    let mut section = SectionWriter::new(format!("{index:X}"), &comments::object(object, language));
+    let mut section = SectionWriter::new(&format!("{index:X}"), &comments::object(object, language));
     section.key("SubNumber", object.entries.len());
-    section.key("ParameterName", &object.name);
+    section.text("ParameterName", &object.name);
     section.key("ObjectType", format_args!("0x{:X}", object.kind.code()));
     if let Some(node) = node {
         entry::denotation(&mut section, node, Denoted::object(object.index));
@@ -89,7 +89,7 @@ fn write_object(
     section.finish(document);
     for member in &object.entries {
         let name = format!("{index:X}sub{:X}", member.sub.0);
-        let mut section = SectionWriter::new(name, &comments::entry(device, object.index, member, language));
+        let mut section = SectionWriter::new(&name, &comments::entry(device, object.index, member, language));
         entry::write(&mut section, object, member, &member.name, node);
         section.finish(document);
     }
@@ -101,7 +101,7 @@ fn write_links(document: &mut Document<'_>, object: &Object) {
     if object.links.is_empty() {
         return;
     }
-    let mut section = SectionWriter::new(format!("{:X}ObjectLinks", object.index.0), &[]);
+    let mut section = SectionWriter::new(&format!("{:X}ObjectLinks", object.index.0), &[]);
     section.key("ObjectLinks", object.links.len());
     for (number, index) in (1..).zip(object.linked()) {
         section.key(&number.to_string(), format_args!("0x{:04X}", index.0));

@@ -1,8 +1,9 @@
 //! Fills a document within the limits of the format: ASCII, 255 characters a line, comments only above a section.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 
-use od_spec::ascii::transliterate;
+use od_spec::ascii::{in_ascii, is_printable, transliterate};
 use od_spec::eds::{Document, Section};
 
 /// Longest line without its line break (CiA 306 4.2).
@@ -17,17 +18,21 @@ pub(super) struct SectionWriter(Section);
 
 impl SectionWriter {
     /// Begins a section, with comments directly above its header: the one place where every reader takes them.
-    pub(super) fn new(name: impl Display, comments: &[String]) -> Self {
+    pub(super) fn new(name: &str, comments: &[String]) -> Self {
         Self(Section::new(name).with_comments(comments.iter().flat_map(|comment| broken(comment))))
     }
 
-    /// A key and its value. Text is transliterated and cut to the line length.
+    /// A key and its value.
     pub(super) fn key(&mut self, key: &str, value: impl Display) {
-        let text = value.to_string();
-        if fits(key, &text) {
-            self.0.push(key, &text);
+        self.text(key, &value.to_string());
+    }
+
+    /// A key and a text, which is transliterated and cut to the line length.
+    pub(super) fn text(&mut self, key: &str, text: &str) {
+        if fits(key, text) {
+            self.0.push(key, text);
         } else {
-            let mut ascii = transliterate(&text);
+            let mut ascii = transliterate(text);
             ascii.truncate(longest(key));
             self.0.push(key, ascii.trim());
         }
@@ -42,7 +47,7 @@ impl SectionWriter {
 
     /// A key whose value is 1 or 0.
     pub(super) fn flag(&mut self, key: &str, value: bool) {
-        self.key(key, u8::from(value));
+        self.text(key, if value { "1" } else { "0" });
     }
 
     /// Puts the section behind those of the document.
@@ -58,17 +63,16 @@ const fn longest(key: &str) -> usize {
 
 /// Whether readers find the text as it is behind a key.
 fn fits(key: &str, text: &str) -> bool {
-    let is_plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
-    is_plain && text.len() <= longest(key) && text.trim() == text
+    is_printable(text) && text.len() <= longest(key) && !text.starts_with(' ') && !text.ends_with(' ')
 }
 
 /// The lines of a comment, those after the first indented.
-fn broken(comment: &str) -> Vec<String> {
+fn broken(comment: &str) -> Vec<Cow<'_, str>> {
     // Most are short and plain: their line is the text.
     if is_line(comment) {
-        return vec![comment.to_owned()];
+        return vec![Cow::Borrowed(comment)];
     }
-    let text = transliterate(comment);
+    let text = in_ascii(comment);
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace().map(|word| word.get(..LONGEST_WORD).unwrap_or(word)) {
         match lines.last_mut() {
@@ -81,13 +85,12 @@ fn broken(comment: &str) -> Vec<String> {
             None => lines.push(word.to_owned()),
         }
     }
-    lines
+    lines.into_iter().map(Cow::Owned).collect()
 }
 
 /// Whether a comment fits a line as it is, with single blanks between its words.
 fn is_line(comment: &str) -> bool {
-    let is_plain = comment.bytes().all(|byte| matches!(byte, b' '..=b'~'));
-    is_plain
+    is_printable(comment)
         && (1..=COMMENT_WIDTH - 2).contains(&comment.len())
         && !comment.starts_with(' ')
         && !comment.ends_with(' ')

@@ -82,10 +82,10 @@ pub(super) fn exchange(
     if changes.is_empty() {
         return Ok(());
     }
+    let steps: Vec<Step> = changes.iter().map(Change::step).collect();
     let note = |phase: Phase| match directory {
         Some(directory) => {
-            let journal = Journal { phase, steps: changes.iter().map(Change::step).collect() };
-            journal.write(directory, disk).map_err(|error| WriteError::io(directory, error))
+            journal::write(phase, &steps, directory, disk).map_err(|error| WriteError::io(directory, error))
         }
         None => Ok(()),
     };
@@ -111,8 +111,8 @@ pub(super) fn exchange(
     if let Err(error) = replaced {
         let _ = note(Phase::Undo);
         let undone = (0..)
-            .zip(changes)
-            .try_for_each(|(number, change)| undo(&change.step(), &change.target, number, disk));
+            .zip(changes.iter().zip(&steps))
+            .try_for_each(|(number, (change, step))| undo(step, &change.target, number, disk));
         if undone.is_ok() {
             let _ = close();
         }

@@ -1,10 +1,13 @@
 //! Devices: objects, entries, PDOs.
 
+use std::borrow::Cow;
+
+use od_spec::ascii::in_ascii;
 use od_spec::model::{
     self, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Value,
 };
 use od_spec::wording::{Notation, Wording};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
 use super::{Words, date_time, entry_id, index, integer, ratio, words};
@@ -32,7 +35,7 @@ pub(super) struct DeviceView<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     dynamic_channels: Vec<ChannelView>,
     file: Json,
-    objects: Vec<ObjectView<'a>>,
+    objects: Objects<'a>,
     pdos: Vec<Json>,
 }
 
@@ -65,7 +68,7 @@ impl<'a> DeviceView<'a> {
                 "version": file.version,
                 "revision": file.revision,
             }),
-            objects: device.objects.values().map(object_view).collect(),
+            objects: Objects(device),
             pdos: device.pdos.iter().map(pdo_view).collect(),
         }
     }
@@ -96,6 +99,15 @@ impl ChannelView {
     }
 }
 
+/// The objects of a device, viewed one by one as they are printed.
+struct Objects<'a>(&'a Dictionary);
+
+impl Serialize for Objects<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.objects.values().map(object_view))
+    }
+}
+
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
 struct ObjectView<'a> {
@@ -118,7 +130,7 @@ struct ObjectView<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     links: Vec<String>,
     about: Words<'a>,
-    entries: Vec<EntryView<'a>>,
+    entries: Entries<'a>,
 }
 
 fn object_view(object: &Object) -> ObjectView<'_> {
@@ -135,13 +147,24 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         since: object.since.as_deref(),
         links: object.linked().map(index).collect(),
         about: words(&object.about),
-        entries: object.entries.iter().map(|entry| entry_view(object.index, entry)).collect(),
+        entries: Entries(object),
     }
 }
 
 /// The name as an EDS holds it, where that differs.
 fn eds_name(name: &str) -> Option<String> {
-    Some(od_spec::ascii::transliterate(name)).filter(|ascii| ascii != name)
+    match in_ascii(name) {
+        Cow::Borrowed(_) => None,
+        Cow::Owned(ascii) => Some(ascii),
+    }
+}
+
+struct Entries<'a>(&'a Object);
+
+impl Serialize for Entries<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.entries.iter().map(|entry| entry_view(self.0.index, entry)))
+    }
 }
 
 #[derive(Serialize)]
@@ -158,7 +181,7 @@ struct EntryView<'a> {
     access: &'static str,
     locked: bool,
     pdo: &'static str,
-    default: Option<Json>,
+    default: Option<ValueView>,
     low: Option<Json>,
     high: Option<Json>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -184,10 +207,18 @@ struct EntryView<'a> {
     identifier: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     bit_errors: Vec<Json>,
-    eds: Json,
+    eds: EdsView,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     standard: Vec<&'static str>,
     about: Words<'a>,
+}
+
+/// What an EDS says of an entry.
+#[derive(Serialize)]
+struct EdsView {
+    access: &'static str,
+    default: &'static str,
+    flags: u32,
 }
 
 fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
@@ -234,25 +265,36 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
                 json!({"bit": errors.bit, "errors": codes})
             })
             .collect(),
-        eds: json!({
-            "access": entry.eds.access.word(),
-            "default": if entry.eds.default { "written" } else { "withheld" },
-            "flags": entry.eds.flags(),
-        }),
+        eds: EdsView {
+            access: entry.eds.access.word(),
+            default: if entry.eds.default { "written" } else { "withheld" },
+            flags: entry.eds.flags(),
+        },
         standard: entry.facts.said_by(Author::Library).map(|fact| WORDING.fact(fact)).collect(),
         about: words(&entry.about),
     }
 }
 
 /// A value: `raw` for numbers, `formula` for node-ID formulas, `text` for people.
-pub(super) fn value(place: Index, entry: &Entry, value: &Value) -> Json {
-    let text = WORDING.value(Some(place), entry, value);
-    match value {
-        Value::Integer(raw) => json!({"raw": integer(*raw), "text": text}),
-        Value::NodeId(offset) => json!({"formula": text, "raw": offset}),
-        Value::Real(number) => json!({"raw": number, "text": text}),
-        Value::Text(_) | Value::Bytes(_) => json!({"text": text}),
-    }
+#[derive(Serialize)]
+pub(super) struct ValueView {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    formula: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    raw: Option<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<String>,
+}
+
+pub(super) fn value(place: Index, entry: &Entry, value: &Value) -> ValueView {
+    let words = Some(WORDING.value(Some(place), entry, value));
+    let (formula, raw, text) = match value {
+        Value::Integer(raw) => (None, Some(integer(*raw)), words),
+        Value::NodeId(offset) => (words, Some(json!(offset)), None),
+        Value::Real(number) => (None, Some(json!(number)), words),
+        Value::Text(_) | Value::Bytes(_) => (None, None, words),
+    };
+    ValueView { formula, raw, text }
 }
 
 fn pdo_view(pdo: &Pdo) -> Json {

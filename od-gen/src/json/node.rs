@@ -3,7 +3,6 @@
 use od_spec::model::Dictionary;
 use od_spec::{Commissioning, Denoted, DomainFiles};
 use serde::Serialize;
-use serde_json::Value as Json;
 
 use super::{device, entry_id, index};
 
@@ -25,7 +24,7 @@ pub(super) struct NodeView<'a> {
 #[derive(Serialize)]
 struct ValueView {
     entry: String,
-    value: Json,
+    value: device::ValueView,
 }
 
 #[derive(Serialize)]

@@ -98,9 +98,9 @@ fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node
     if bit_31 == Bit31::NotValid && raw & NOT_VALID != 0 && id == 0 {
         return None;
     }
-    let on_node = subject.on_node(parameter.value, node);
+    let on_node = || subject.on_node(parameter.value, node);
     if id > 0x7FF {
-        return Some(format!("{id:X}h{on_node} is no 11-bit identifier"));
+        return Some(format!("{id:X}h{} is no 11-bit identifier", on_node()));
     }
     // A client talks to the first channel of another node on the identifiers that are kept for that.
     let is_client = matches!(parameter.id.index.0, 0x1280..=0x12FF);
@@ -108,12 +108,12 @@ fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node
     match (kept, parameter.id.sub.0) {
         (Some(0), 1) | (Some(1), 2) => None,
         (Some(0), _) => {
-            Some(format!("{id:03X}h{on_node} is kept for requests to a server, not for its answers"))
+            Some(format!("{id:03X}h{} is kept for requests to a server, not for its answers", on_node()))
         }
         (Some(_), _) => {
-            Some(format!("{id:03X}h{on_node} is kept for answers of a server, not for requests to it"))
+            Some(format!("{id:03X}h{} is kept for answers of a server, not for requests to it", on_node()))
         }
-        (None, _) => is_restricted(id).then(|| format!("{id:03X}h{on_node} is kept for another service")),
+        (None, _) => is_restricted(id).then(|| format!("{id:03X}h{} is kept for another service", on_node())),
     }
 }
 

@@ -32,7 +32,7 @@ fn is_told(object: &Object) -> bool {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| object.is_structured()) {
         let Some(count) = object.entry(SubIndex(0)) else { continue };
-        let id = format!("{}: sub-index 0", object.index);
+        let id = format_args!("{}: sub-index 0", object.index);
         let told = is_told(object);
         let problem = if count.access.is_writable() && !told {
             let what =

@@ -1,13 +1,14 @@
 //! Objects of one device, and entries of one object, have names of their own, also in ASCII, and none looks like another
 //! one's `object.entry`.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::findings::Findings;
 use super::help::Help;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
-use crate::ascii::transliterate;
+use crate::ascii::in_ascii;
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{DataType, Entry, Fact, Object};
 
@@ -30,23 +31,29 @@ pub const CODE: &Code = &Code {
 };
 
 /// Objects by their names as an EDS writes them.
-type ByName<'a> = BTreeMap<String, &'a Object>;
+type ByName<'a> = BTreeMap<Cow<'a, str>, &'a Object>;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let mut by_name = ByName::new();
     for object in subject.device.objects.values() {
-        if let Some(before) = by_name.insert(transliterate(&object.name), object) {
+        if let Some(before) = by_name.insert(in_ascii(&object.name), object) {
             findings.push(same_name(subject, before, object));
         }
-        if DataType::from_name(&object.name).is_some() {
-            let message = format!("`{}` is the name of a data type", object.name);
+    }
+    for name in DataType::ALL.map(DataType::name) {
+        if let Some(object) = by_name.get(name).filter(|object| object.name == name) {
+            let message = format!("`{name}` is the name of a data type");
             let help = "choose another name; this one means the data type wherever an object is named";
             findings.push(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
         }
     }
+    // Only a name with a dot can look like an object and its entry.
+    by_name.retain(|name, _| name.contains('.'));
     for object in subject.device.objects.values().filter(|object| object.is_structured()) {
         check_entries(subject, object, findings);
-        check_dotted(subject, object, &by_name, findings);
+        if !by_name.is_empty() {
+            check_dotted(subject, object, &by_name, findings);
+        }
     }
 }
 
@@ -65,9 +72,9 @@ fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnos
 
 /// Two entries of one object.
 fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings) {
-    let mut by_name: BTreeMap<String, &Entry> = BTreeMap::new();
+    let mut by_name: BTreeMap<Cow<'_, str>, &Entry> = BTreeMap::new();
     for entry in &object.entries {
-        let Some(before) = by_name.insert(transliterate(&entry.name), entry) else { continue };
+        let Some(before) = by_name.insert(in_ascii(&entry.name), entry) else { continue };
         let (index, first, second) = (object.index, before.sub, entry.sub);
         let (place, before_place) = (subject.place(entry, Fact::Name), subject.place(before, Fact::Name));
         let message = if entry.name == before.name {
@@ -96,7 +103,7 @@ fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings
 fn check_dotted(subject: &Subject<'_>, object: &Object, by_name: &ByName<'_>, findings: &mut Findings) {
     for entry in &object.entries {
         let full = format!("{}.{}", object.name, entry.name);
-        let Some(namesake) = by_name.get(&transliterate(&full)) else { continue };
+        let Some(namesake) = by_name.get(&in_ascii(&full)) else { continue };
         let (index, sub) = (object.index, entry.sub);
         let message =
             format!("`{}` is the name of {} and means {index}.{sub}", shorten(&full), namesake.index);

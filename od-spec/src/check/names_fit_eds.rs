@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use super::texts_fit_eds::unfit;
-use crate::ascii::transliterate;
+use crate::ascii::{in_ascii, transliterate};
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{Dictionary, Fact, SystemSource};
 use crate::source::Span;
@@ -106,7 +106,7 @@ fn check_header(source: SystemSource, device: &Dictionary, findings: &mut Findin
 }
 
 fn check_name(name: &str, place: Span, findings: &mut Findings) {
-    let written = transliterate(name);
+    let written = in_ascii(name);
     let problem = if written.len() > LONGEST {
         let length = name.chars().count();
         format!("the name `{}` has {length} characters, an EDS holds {LONGEST}", shorten(name))

@@ -17,7 +17,9 @@ fn text(node: &Node) -> Option<&str> {
 }
 
 fn in_map(node: &Node, keys: &Keys, listed: &[&str], diagnostics: &mut Diagnostics) {
-    for (name, value) in node.entries() {
+    // A scalar is in the first language, or in none.
+    let parents = node.entries().iter().filter(|(_, value)| !matches!(value.kind, NodeKind::Scalar { .. }));
+    for (name, value) in parents {
         if let Some(key) = keys.keys.iter().find(|key| key.name == name.value) {
             in_value(value, key.shape, listed, diagnostics);
         }

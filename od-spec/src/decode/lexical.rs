@@ -106,7 +106,10 @@ pub fn is_device_key(text: &str) -> bool {
 
 /// `0x6040`, or `0x3511..0x3519`.
 pub(crate) fn indices(text: &str) -> Option<IndexRange> {
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let Some((first, last)) = text.split_once("..") else {
+        let single = index(text.trim())?;
+        return Some(IndexRange { first: single, last: single });
+    };
     let (first, last) = (index(first.trim())?, index(last.trim())?);
     (first <= last).then_some(IndexRange { first, last })
 }

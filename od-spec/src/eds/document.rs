@@ -48,6 +48,7 @@ impl<'t> Document<'t> {
         if !self.lines.is_empty() {
             self.lines.push(Line::new_blank());
         }
+        self.lines.extend(section.comments);
         self.lines.extend(section.lines);
     }
 
@@ -89,7 +90,14 @@ impl<'t> Document<'t> {
 
     /// The text in UTF-8. A text that was read in another encoding is encoded again by who decoded it.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.to_string().into_bytes()
+        let lines = self.lines.iter();
+        let length = lines.clone().map(|line| line.text().len() + line.end().text().len()).sum();
+        let mut bytes = Vec::with_capacity(length);
+        for line in lines {
+            bytes.extend_from_slice(line.text().as_bytes());
+            bytes.extend_from_slice(line.end().text().as_bytes());
+        }
+        bytes
     }
 }
 
@@ -151,26 +159,29 @@ impl<'d, 't> SectionRef<'d, 't> {
 /// A section that a program writes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Section {
+    comments: Vec<Line<'static>>,
+    /// The header and the keys.
     lines: Vec<Line<'static>>,
 }
 
 impl Section {
     /// A section without keys. The name may hold neither brackets nor line breaks.
-    pub fn new(name: impl Display) -> Self {
-        Self { lines: vec![Line::new_header(name)] }
+    pub fn new(name: &str) -> Self {
+        // As many as an entry's section usually has.
+        let mut lines = Vec::with_capacity(8);
+        lines.push(Line::new_header(name));
+        Self { comments: Vec::new(), lines }
     }
 
     /// The section with comments directly above its header, a line each, without their `;`.
     #[must_use]
-    pub fn with_comments<C: Display>(mut self, comments: impl IntoIterator<Item = C>) -> Self {
-        let lines = comments.into_iter().map(|text| Line::new_comment(text));
-        let above = self.lines.iter().position(|line| line.kind() == LineKind::Header).unwrap_or(0);
-        self.lines.splice(above..above, lines);
+    pub fn with_comments<C: AsRef<str>>(mut self, comments: impl IntoIterator<Item = C>) -> Self {
+        self.comments.extend(comments.into_iter().map(|text| Line::new_comment(text.as_ref())));
         self
     }
 
     /// Adds a key and its value behind the others. Neither may hold a line break, and the key no `=`.
-    pub fn push(&mut self, key: &str, value: impl Display) {
+    pub fn push(&mut self, key: &str, value: &str) {
         self.lines.push(Line::new_key_value(key, value));
     }
 }

@@ -247,7 +247,8 @@ impl Facts {
 
 impl FromIterator<(Fact, Statement)> for Facts {
     fn from_iter<T: IntoIterator<Item = (Fact, Statement)>>(list: T) -> Self {
-        let mut facts = Self::none();
+        // As many as an entry usually has.
+        let mut facts = Self { stated: Vec::with_capacity(8) };
         for (fact, statement) in list {
             facts.state(fact, statement);
         }

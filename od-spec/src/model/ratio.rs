@@ -51,13 +51,12 @@ impl Ratio {
 
     /// Product; `None` when it does not fit 128 bits.
     pub fn checked_mul(self, other: Self) -> Option<Self> {
-        // Reduce crosswise first, so that intermediate products stay small.
+        // Reduced crosswise, intermediate products stay small, and the product is in lowest terms.
         let left = Self::new(self.numerator, other.denominator)?;
         let right = Self::new(other.numerator, self.denominator)?;
-        Self::new(
-            left.numerator.checked_mul(right.numerator)?,
-            left.denominator.checked_mul(right.denominator)?,
-        )
+        let numerator =
+            left.numerator.checked_mul(right.numerator).filter(|product| *product != i128::MIN)?;
+        Some(Self { numerator, denominator: left.denominator.checked_mul(right.denominator)? })
     }
 
     /// Quotient; `None` for a zero divisor or an overflow.
@@ -95,16 +94,14 @@ impl Ratio {
 
     /// The value with a fixed number of decimal places; `None` when that is not exact.
     pub fn to_decimal(self, places: usize) -> Option<String> {
-        let scaled =
-            self.checked_mul(Self::whole(10i128.checked_pow(u32::try_from(places).ok()?)?))?.to_whole()?;
-        let digits = scaled.unsigned_abs().to_string();
-        let sign = if scaled < 0 { "-" } else { "" };
+        let parts = 10i128.checked_pow(u32::try_from(places).ok()?)?;
+        let scaled = self.checked_mul(Self::whole(parts))?.to_whole()?;
         if places == 0 {
-            return Some(format!("{sign}{digits}"));
+            return Some(scaled.to_string());
         }
-        let digits = format!("{digits:0>width$}", width = places + 1);
-        let (whole, fraction) = digits.split_at(digits.len() - places);
-        Some(format!("{sign}{whole}.{fraction}"))
+        let sign = if scaled < 0 { "-" } else { "" };
+        let (whole, fraction) = (scaled / parts, scaled % parts);
+        Some(format!("{sign}{}.{:0places$}", whole.unsigned_abs(), fraction.unsigned_abs()))
     }
 }
 

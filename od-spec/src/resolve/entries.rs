@@ -218,8 +218,7 @@ fn special_values(
     }
     let mut values = Vec::new();
     for decl in &list.value {
-        if let Err(diagnostic) =
-            values::fits(decl.value.value, decl.value.span, data_type, &decl.value.value.to_string())
+        if let Err(diagnostic) = values::fits(decl.value.value, decl.value.span, data_type, decl.value.value)
         {
             diagnostics.push(*diagnostic);
         } else if let Some(name) = &decl.name {

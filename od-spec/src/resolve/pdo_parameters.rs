@@ -149,7 +149,7 @@ pub(super) fn check_limits(described: &PdoParametersDecl, diagnostics: &mut Diag
     for (data_type, said) in communication.chain(mapping) {
         let limits = said.into_iter().flat_map(|said| [said.min, said.max]).flatten();
         for limit in limits {
-            let fits = values::fits(limit.value, limit.span, data_type, &limit.value.to_string());
+            let fits = values::fits(limit.value, limit.span, data_type, limit.value);
             fits.unwrap_or_else(|diagnostic| diagnostics.push(*diagnostic));
         }
     }

@@ -1,5 +1,7 @@
 //! Values of entries: raw numbers, physical values, enum names, strings, node-ID formulas.
 
+use std::fmt::Display;
+
 use crate::ast::Name;
 use crate::check::codes as rule_codes;
 use crate::diag::shorten;
@@ -28,12 +30,12 @@ pub(crate) fn read(
     let refuse = |message: String, help: &str| {
         Err(Box::new(Diagnostic::new(codes::BAD_VALUE, span, message).help(help)))
     };
-    let shown = shorten(text);
+    let shown = || shorten(text);
     match expected.data_type {
         DataType::Boolean => match (scalar::yes_no(text), text) {
             (Some(value), _) => Ok(Value::Integer(i128::from(value))),
             (None, "0" | "1") => Ok(Value::Integer(i128::from(text == "1"))),
-            _ => refuse(format!("found `{shown}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
+            _ => refuse(format!("found `{}`, expected a BOOLEAN", shown()), "write `yes`, `no`, `1` or `0`"),
         },
         DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
             #[expect(clippy::cast_possible_truncation, reason = "whether the value survives is the question")]
@@ -44,7 +46,7 @@ pub(crate) fn read(
                 Ok(Value::Real(value))
             }
             _ => refuse(
-                format!("found `{shown}`, expected a finite number"),
+                format!("found `{}`, expected a finite number", shown()),
                 "write a decimal number such as `0.5`",
             ),
         },
@@ -59,7 +61,7 @@ pub(crate) fn read(
         DataType::OctetString => match octets(text) {
             Some(bytes) => Ok(Value::Bytes(bytes)),
             None => refuse(
-                format!("found `{shown}`, expected bytes"),
+                format!("found `{}`, expected bytes", shown()),
                 "write pairs of hexadecimal digits: `01A1053C`",
             ),
         },
@@ -88,7 +90,7 @@ fn integer(
     expected: Expected<'_>,
     suggestions: &mut Suggestions,
 ) -> Result<Value, Box<Diagnostic>> {
-    let shown = shorten(text);
+    let shown = || shorten(text);
     let values = match expected.named.map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) => values.as_slice(),
         _ => &[],
@@ -103,12 +105,12 @@ fn integer(
         };
         let Some(offset) = offset.and_then(|offset| u64::try_from(offset).ok()) else {
             return Err(Box::new(
-                Diagnostic::new(codes::BAD_FORMULA, span, format!("cannot read the formula `{shown}`"))
+                Diagnostic::new(codes::BAD_FORMULA, span, format!("cannot read the formula `{}`", shown()))
                     .help("write `$NODEID`, or `$NODEID + 0x180`")
                     .note("CiA 306 4.3: a formula is $NODEID and at most one added number"),
             ));
         };
-        fits(i128::from(offset) + 127, span, expected.data_type, &format!("`{shown}` for node 127"))?;
+        fits(i128::from(offset) + 127, span, expected.data_type, format_args!("`{}` for node 127", shown()))?;
         return Ok(Value::NodeId(offset));
     }
     let raw = match scalar::integer(text) {
@@ -120,7 +122,7 @@ fn integer(
                 let diagnostic = Diagnostic::new(
                     rule_codes::UNKNOWN_ENUM_VALUE,
                     span,
-                    format!("`{shown}` is not a value of this enum"),
+                    format!("`{}` is not a value of this enum", shown()),
                 );
                 return Err(Box::new(match suggestions.nearest(text, names.clone()) {
                     Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
@@ -132,7 +134,7 @@ fn integer(
                     Diagnostic::new(
                         codes::BAD_VALUE,
                         span,
-                        format!("found `{shown}`, expected a value of type {}", expected.data_type),
+                        format!("found `{}`, expected a value of type {}", shown(), expected.data_type),
                     )
                     .help(match expected.unit {
                         Some(unit) => {
@@ -145,12 +147,12 @@ fn integer(
         },
         Err(error) => {
             return Err(Box::new(
-                Diagnostic::new(codes::BAD_NUMBER, span, format!("found `{shown}`, expected an integer"))
+                Diagnostic::new(codes::BAD_NUMBER, span, format!("found `{}`, expected an integer", shown()))
                     .help(error.help()),
             ));
         }
     };
-    fits(raw, span, expected.data_type, &format!("{raw}"))?;
+    fits(raw, span, expected.data_type, raw)?;
     let is_special = expected.special.iter().any(|special| special.value == raw);
     if !values.is_empty() && !is_special && !values.iter().any(|value| value.value == raw) {
         return Err(Box::new(
@@ -177,7 +179,12 @@ fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// Checks that a raw value fits the data type.
-pub(crate) fn fits(raw: i128, span: Span, data_type: DataType, what: &str) -> Result<(), Box<Diagnostic>> {
+pub(crate) fn fits(
+    raw: i128,
+    span: Span,
+    data_type: DataType,
+    what: impl Display,
+) -> Result<(), Box<Diagnostic>> {
     let (low, high) = data_type.range().unwrap_or((i128::MIN, i128::MAX));
     if (low..=high).contains(&raw) {
         return Ok(());

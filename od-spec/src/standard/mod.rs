@@ -1,11 +1,12 @@
 //! The shipped libraries, and the standards that they describe, for comparing an object with what CiA 301 says about it: a
 //! device may have written the object in full, without the library.
 //!
-//! For comparing, the texts are read once in a process, and only when something is compared. Places in them mean nothing to whoever
-//! asks: they belong to sources of their own.
+//! For comparing, the texts are read once in a process, and only when something is compared; what a compilation has read already is
+//! not read again. Places in them mean nothing to whoever asks: they belong to other sources than the device's.
 
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
+use crate::ast::Spec;
 use crate::check::{Rule, Rules, Standard};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
@@ -27,18 +28,38 @@ static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia3
 /// Asked only for a drive with an object that is not the library's.
 static OF_DRIVES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia402"));
 /// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
-static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| read(RUNS));
+static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| resolved(&read(RUNS)?));
+/// The libraries as some compilation has read them, in the order of [`LIBRARIES`].
+static DECODED: [OnceLock<Spec>; LIBRARIES.len()] = [const { OnceLock::new() }; LIBRARIES.len()];
 
-fn shipped(name: &str) -> Option<Dictionary> {
-    let library = LIBRARIES.iter().find(|(library, _)| *library == name);
-    library.and_then(|(_, text)| read(text))
+/// Keeps the shipped ones among the libraries that a compilation has read and needs no longer.
+pub(crate) fn keep(sources: &SourceMap, libraries: Vec<Spec>) {
+    for library in libraries {
+        let text = sources.file(library.file).text();
+        if let Some(shipped) = LIBRARIES.iter().position(|(_, shipped)| *shipped == text) {
+            let _ = DECODED[shipped].set(library);
+        }
+    }
 }
 
-fn read(text: &str) -> Option<Dictionary> {
+fn shipped(name: &str) -> Option<Dictionary> {
+    let at = LIBRARIES.iter().position(|(library, _)| *library == name)?;
+    match DECODED[at].get() {
+        Some(decoded) => resolved(decoded),
+        None => resolved(&read(LIBRARIES[at].1)?),
+    }
+}
+
+fn read(text: &str) -> Option<Spec> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add("standard", text);
-    let node = yaml::parse(file, sources.file(file), &mut diagnostics)?;
-    let library = resolve::resolve(&decode(&node, &mut diagnostics), &[], &mut diagnostics).library;
+    let spec = decode(&yaml::parse(file, sources.file(file), &mut diagnostics)?, &mut diagnostics);
+    (!diagnostics.has_errors()).then_some(spec)
+}
+
+fn resolved(spec: &Spec) -> Option<Dictionary> {
+    let mut diagnostics = Diagnostics::new();
+    let library = resolve::resolve(spec, &[], &mut diagnostics).library;
     library.filter(|_| !diagnostics.has_errors())
 }
 

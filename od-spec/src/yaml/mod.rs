@@ -4,13 +4,13 @@
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
-use crate::visible::turns_text;
+use crate::visible::turning;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 64;
@@ -18,6 +18,8 @@ const MAX_DEPTH: usize = 64;
 pub(crate) const MERGE: &str = "<<";
 /// Most bytes that anchors and aliases may add to a document.
 const MAX_ALIAS_BYTES: usize = 16 << 20;
+/// Entries of a map among which equal keys are looked for one by one.
+const SMALL: usize = 16;
 /// What a value counts beside its text.
 const BYTES_PER_VALUE: usize = 64;
 
@@ -158,10 +160,7 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
 
 /// Refuses characters that make the text around them look like another, wherever they stand, in comments, too.
 fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
-    if text.is_ascii() {
-        return;
-    }
-    for (at, c) in text.char_indices().filter(|(_, c)| turns_text(*c)) {
+    for (at, c) in turning(text) {
         let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         diagnostics.push(turned(Span { file: id, start: place(at), end: place(at + c.len_utf8()) }, c));
     }
@@ -176,18 +175,8 @@ fn turned(span: Span, c: char) -> Diagnostic {
 
 /// A collection that is being read.
 enum Open {
-    List {
-        start: Span,
-        anchor: usize,
-        items: Vec<Node>,
-    },
-    Map {
-        start: Span,
-        anchor: usize,
-        entries: Vec<(Spanned<String>, Node)>,
-        seen: BTreeMap<String, Span>,
-        key: Key,
-    },
+    List { start: Span, anchor: usize, items: Vec<Node> },
+    Map { start: Span, anchor: usize, entries: Vec<(Spanned<String>, Node)>, key: Key },
 }
 
 enum Key {
@@ -226,7 +215,9 @@ impl Builder<'_> {
                 }
             }
             Event::Scalar(text, style, anchor, tag) => {
-                self.refuse_tag(tag.is_some(), span);
+                if tag.is_some() {
+                    self.refuse_tag(span);
+                }
                 let plain = style == ScalarStyle::Plain;
                 let kind = if plain && matches!(&*text, "" | "~" | "null") {
                     NodeKind::Null
@@ -238,14 +229,17 @@ impl Builder<'_> {
                 return self.add(Node { span, kind }, anchor);
             }
             Event::SequenceStart(_, anchor, tag) => {
-                self.refuse_tag(tag.is_some(), span);
+                if tag.is_some() {
+                    self.refuse_tag(span);
+                }
                 self.stack.push(Open::List { start: span, anchor, items: Vec::new() });
                 return self.depth_is_fine(span);
             }
             Event::MappingStart(_, anchor, tag) => {
-                self.refuse_tag(tag.is_some(), span);
-                let (entries, seen) = (Vec::new(), BTreeMap::new());
-                self.stack.push(Open::Map { start: span, anchor, entries, seen, key: Key::Expected });
+                if tag.is_some() {
+                    self.refuse_tag(span);
+                }
+                self.stack.push(Open::Map { start: span, anchor, entries: Vec::new(), key: Key::Expected });
                 return self.depth_is_fine(span);
             }
             Event::SequenceEnd | Event::MappingEnd => return self.close(span),
@@ -270,9 +264,8 @@ impl Builder<'_> {
     /// An escape stands for the character; the character itself is reported already.
     fn refuse_escape_that_turns(&mut self, kind: &NodeKind, span: Span) {
         if let NodeKind::Scalar { text, plain: false } = kind
-            && !text.is_ascii()
-            && let Some(c) = text.chars().find(|c| turns_text(*c))
-            && !self.text[span.start as usize..span.end as usize].contains(turns_text)
+            && let Some((_, c)) = turning(text).next()
+            && turning(&self.text[span.start as usize..span.end as usize]).next().is_none()
         {
             self.diagnostics.push(turned(span, c));
         }
@@ -305,14 +298,12 @@ impl Builder<'_> {
         is_bracket.then(|| (start.part(0, 1), closing))
     }
 
-    fn refuse_tag(&mut self, tagged: bool, value: Span) {
-        if tagged {
-            let span = self.tag_before(value);
-            self.diagnostics.push(
-                Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
-                    .help("remove the tag; the place decides how a value is read"),
-            );
-        }
+    fn refuse_tag(&mut self, value: Span) {
+        let span = self.tag_before(value);
+        self.diagnostics.push(
+            Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
+                .help("remove the tag; the place decides how a value is read"),
+        );
     }
 
     /// The tag that stands before a value, perhaps with an anchor between them; else the value.
@@ -389,10 +380,10 @@ impl Builder<'_> {
         match self.stack.last_mut() {
             None => self.root = Some(node),
             Some(Open::List { items, .. }) => items.push(node),
-            Some(Open::Map { entries, seen, key, .. }) => match std::mem::replace(key, Key::Expected) {
+            Some(Open::Map { entries, key, .. }) => match std::mem::replace(key, Key::Expected) {
                 Key::Read(name) => entries.push((name, node)),
                 Key::Dropped => {}
-                Key::Expected => *key = read_key(node, entries, seen, self.diagnostics),
+                Key::Expected => *key = read_key(node, entries, self.diagnostics),
             },
         }
         true
@@ -405,8 +396,11 @@ impl Builder<'_> {
                 let last = items.last().map(|node| node.span);
                 (start, anchor, NodeKind::List(items), last)
             }
-            Open::Map { start, anchor, entries, .. } => {
+            Open::Map { start, anchor, mut entries, .. } => {
                 let last = entries.last().map(|(_, node)| node.span);
+                if entries.len() > SMALL {
+                    refuse_equal_keys(&mut entries, self.diagnostics);
+                }
                 (start, anchor, NodeKind::Map(entries), last)
             }
         };
@@ -443,12 +437,7 @@ impl Builder<'_> {
     }
 }
 
-fn read_key(
-    node: Node,
-    entries: &[(Spanned<String>, Node)],
-    seen: &mut BTreeMap<String, Span>,
-    diagnostics: &mut Diagnostics,
-) -> Key {
+fn read_key(node: Node, entries: &[(Spanned<String>, Node)], diagnostics: &mut Diagnostics) -> Key {
     let span = node.span;
     let NodeKind::Scalar { text, .. } = node.kind else {
         if !matches!(node.kind, NodeKind::Broken) {
@@ -471,11 +460,35 @@ fn read_key(
         // The key stays, so that nobody misses what it would have brought.
         return Key::Read(Spanned::new(text, span));
     }
-    if let Some(first) = earlier(&text, entries, seen) {
-        diagnostics.push(stands_twice(&Spanned::new(text, span), first));
+    let key = Spanned::new(text, span);
+    if entries.len() <= SMALL
+        && let Some((first, _)) = entries.iter().find(|(name, _)| *name == key)
+    {
+        diagnostics.push(stands_twice(&key, first.span));
         return Key::Dropped;
     }
-    Key::Read(Spanned::new(text, span))
+    Key::Read(key)
+}
+
+/// Takes keys that stood before out of a large map, which nearly no map is.
+fn refuse_equal_keys(entries: &mut Vec<(Spanned<String>, Node)>, diagnostics: &mut Diagnostics) {
+    let mut order: Vec<usize> = (0..entries.len()).collect();
+    // Of equal keys, the first in the text stays the first.
+    order.sort_by(|one, other| entries[*one].0.value.cmp(&entries[*other].0.value));
+    let mut again = BTreeSet::new();
+    for equal in order.chunk_by(|one, other| entries[*one].0 == entries[*other].0) {
+        let first = &entries[equal[0]].0;
+        if first.value != MERGE {
+            for at in &equal[1..] {
+                diagnostics.push(stands_twice(&entries[*at].0, first.span));
+                again.insert(*at);
+            }
+        }
+    }
+    if !again.is_empty() {
+        let mut at = 0..;
+        entries.retain(|_| at.next().is_none_or(|at| !again.contains(&at)));
+    }
 }
 
 /// A key has been there before.
@@ -485,20 +498,4 @@ pub(crate) fn stands_twice(again: &Spanned<String>, first: Span) -> Diagnostic {
         .label("again here")
         .with(first, "first here")
         .help("remove one of the two, or join their values")
-}
-
-/// The place of an equal key. Small maps, which is nearly all of them, are searched; large ones get an index.
-fn earlier(
-    text: &str,
-    entries: &[(Spanned<String>, Node)],
-    seen: &mut BTreeMap<String, Span>,
-) -> Option<Span> {
-    const SMALL: usize = 16;
-    if entries.len() <= SMALL {
-        return entries.iter().find(|(name, _)| name.value == text).map(|(name, _)| name.span);
-    }
-    for (name, _) in &entries[seen.len()..] {
-        seen.insert(name.value.clone(), name.span);
-    }
-    seen.get(text).copied()
 }
