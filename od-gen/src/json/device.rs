@@ -250,7 +250,7 @@ pub(super) fn value(place: Index, entry: &Entry, value: &Value) -> Json {
     match value {
         Value::Integer(raw) => json!({"raw": integer(*raw), "text": text}),
         Value::NodeId(offset) => json!({"formula": text, "raw": offset}),
-        Value::Real(number) => json!({"raw": number, "text": text}),
+        Value::Real(real) => json!({"raw": real.number(), "text": text}),
         Value::Text(_) | Value::Bytes(_) => json!({"text": text}),
     }
 }

@@ -11,7 +11,7 @@ pub(super) fn value(index: Index, entry: &Entry, value: &Value) -> Node {
         Value::NodeId(0) => Node::plain("$NODEID"),
         Value::NodeId(offset) => Node::Plain(format!("$NODEID + 0x{offset:X}")),
         Value::Integer(raw) => integer(index, entry, *raw),
-        Value::Real(number) => Node::Plain(format!("{number:?}")),
+        Value::Real(real) => Node::Plain(format!("{:?}", real.number())),
         Value::Text(text) => Node::text(text.clone()),
         Value::Bytes(bytes) => {
             let pairs: Vec<String> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();

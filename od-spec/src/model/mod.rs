@@ -17,6 +17,7 @@ mod object;
 mod pdo;
 mod pdo_parameter;
 mod ratio;
+mod real;
 mod role;
 mod text;
 mod types;
@@ -43,6 +44,7 @@ pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialVal
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names};
 pub use ratio::Ratio;
+pub use real::Real;
 pub use role::Role;
 pub use text::Text;
 pub use types::{

@@ -4,7 +4,7 @@ use crate::ast::Name;
 use crate::check::codes as rule_codes;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
-use crate::model::{DataType, NamedType, Ratio, SpecialValue, TypeKind, Unit, Value};
+use crate::model::{DataType, NamedType, Ratio, Real, SpecialValue, TypeKind, Unit, Value};
 use crate::scalar::{self, NumberError};
 use crate::source::Span;
 
@@ -35,15 +35,9 @@ pub(crate) fn read(
             (None, "0" | "1") => Ok(Value::Integer(i128::from(text == "1"))),
             _ => refuse(format!("found `{shown}`, expected a BOOLEAN"), "write `yes`, `no`, `1` or `0`"),
         },
-        DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
-            #[expect(clippy::cast_possible_truncation, reason = "whether the value survives is the question")]
-            Ok(value)
-                if value.is_finite()
-                    && (expected.data_type == DataType::Real64 || (value as f32).is_finite()) =>
-            {
-                Ok(Value::Real(value))
-            }
-            _ => refuse(
+        DataType::Real32 | DataType::Real64 => match Real::read(text, expected.data_type) {
+            Some(real) => Ok(Value::Real(real)),
+            None => refuse(
                 format!("found `{shown}`, expected a finite number"),
                 "write a decimal number such as `0.5`",
             ),

@@ -10,7 +10,7 @@ impl Wording {
             Value::Integer(raw) => self.integer(index, entry, *raw),
             Value::NodeId(offset) => self.node_id_formula(*offset),
             // With a decimal point even where the number is whole.
-            Value::Real(number) => self.decimal(&format!("{number:?}")),
+            Value::Real(real) => self.decimal(&format!("{:?}", real.number())),
             Value::Text(text) => self.text(text),
             Value::Bytes(bytes) => self.bytes(bytes),
         }

@@ -23,7 +23,9 @@ pub(crate) fn value(entry: &Entry, text: &str) -> Value {
                 (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap());
             Value::Bytes(bytes.collect())
         }
-        DataType::Real32 | DataType::Real64 => Value::Real(text.replace(',', ".").parse().unwrap()),
+        DataType::Real32 | DataType::Real64 => {
+            Value::Real(text.replace(',', ".").parse::<f64>().unwrap().into())
+        }
         _ => Value::Integer(number(entry, text)),
     }
 }
