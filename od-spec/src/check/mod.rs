@@ -75,7 +75,7 @@ mod settings_have_an_order;
 mod standard_access_is_kept;
 mod standard_objects_are_complete;
 mod standard_objects_keep_their_type;
-mod start_values_are_allowed;
+pub(crate) mod start_values_are_allowed;
 mod stored_entries_can_be_stored;
 mod structures_have_entries;
 mod sync_start_has_an_effect;

@@ -55,7 +55,7 @@ codes! {
     NOT_A_LIBRARY Error "OD0114" "a used file is no library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
     TURNED_TEXT Error "OD0115" "a character that hides what a text says":
-        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape."
+        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape. A setting of a node has no escapes, and holds no control character either."
     TOO_MUCH Error "OD0116" "a file describes too much":
         "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or an `on:` wrong? A family of devices that is really larger goes into several files."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
