@@ -66,7 +66,7 @@ fn values(subject: &Subject<'_>, axis: &Axis<'_>, findings: &mut Findings) {
     }
     let own = entry.named_type.as_ref().filter(|named| named.stated.author != Author::Library);
     let Some(TypeKind::Enum(values)) = own.map(|named| &named.kind) else { return };
-    let takes = |raw: i128| values.iter().any(|value| value.value == raw && value.supported);
+    let takes = |raw: i128| values.of(raw).is_some_and(|value| value.supported);
     let listing = axis.supported.id;
     let unlisted = values.iter().filter(|value| value.supported && !axis.lists(value.value));
     let more = unlisted.map(|value| format!("{}, which {listing} does not list", named(value.value)));

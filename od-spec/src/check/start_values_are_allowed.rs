@@ -83,7 +83,7 @@ fn starts_right(entry: &Entry) -> bool {
 /// Whether 0 is among the values that an enum lists, if there is one.
 fn is_listed(entry: &Entry) -> bool {
     match entry.named_type.as_ref().map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.iter().any(|listed| listed.value == 0 && listed.supported),
+        Some(TypeKind::Enum(values)) => values.of(0).is_some_and(|listed| listed.supported),
         Some(TypeKind::Bits(_)) | None => true,
     }
 }

@@ -39,7 +39,9 @@ pub use dynamic_channel::DynamicChannel;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub(crate) use held::Held;
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
-pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
+pub use named_type::{
+    BitErrors, BitField, BitUsage, Edge, EnumValue, EnumValues, ModeMeaning, NamedType, TypeKind,
+};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names};

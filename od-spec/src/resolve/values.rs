@@ -98,13 +98,14 @@ fn integer(
         fits(i128::from(offset) + 127, span, expected.data_type, &format!("`{shown}` for node 127"))?;
         return Ok(Value::NodeId(offset));
     }
-    let values = match expected.named.map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.as_slice(),
-        _ => &[],
+    let listed = match expected.named.map(|named| &named.kind) {
+        Some(TypeKind::Enum(values)) => Some(values),
+        Some(TypeKind::Bits(_)) | None => None,
     };
-    if let Some(value) = values.iter().find(|value| value.name == text) {
+    if let Some(value) = listed.and_then(|values| values.named(text)) {
         return Ok(Value::Integer(value.value));
     }
+    let values = listed.map_or(&[][..], |values| values);
     let raw = match scalar::integer(text) {
         Ok(raw) => raw,
         Err(NumberError::NotANumber) => match split_physical(text).filter(|_| values.is_empty()) {
@@ -146,7 +147,7 @@ fn integer(
     };
     fits(raw, span, expected.data_type, &format!("{raw}"))?;
     let is_special = expected.special.iter().any(|special| special.value == raw);
-    if !values.is_empty() && !is_special && !values.iter().any(|value| value.value == raw) {
+    if !values.is_empty() && !is_special && listed.is_none_or(|values| values.of(raw).is_none()) {
         return Err(Box::new(
             Diagnostic::new(
                 rule_codes::UNKNOWN_ENUM_VALUE,

@@ -71,7 +71,7 @@ fn plain(entry: &Entry, text: &str) -> Option<i128> {
 fn named(entry: &Entry, name: &str) -> Option<i128> {
     let special = entry.special.iter().find(|special| transliterate(&special.name) == transliterate(name));
     let values = match entry.named_type.as_ref().map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.as_slice(),
+        Some(TypeKind::Enum(values)) => &**values,
         Some(TypeKind::Bits(_)) | None => &[],
     };
     let value = values.iter().find(|value| transliterate(&value.name) == transliterate(name));
