@@ -64,6 +64,7 @@ pub mod yaml;
 
 pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
+pub use check::start_values_are_allowed::start_of_code;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues};
 pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};

@@ -7,6 +7,8 @@ pub(crate) const DEVICES: usize = 1_000;
 pub(crate) const ENTRIES_OF_DEVICE: usize = 100_000;
 /// Entries of all devices of a file.
 pub(crate) const ENTRIES_OF_FILE: usize = 200_000;
+/// Tables that the places of all errata of a file name: each may name all of them.
+pub(crate) const TABLES_OF_ERRATA: usize = 20_000;
 /// States of a state machine. Transitions have the numbers 0 to 255, so that more could not be reached one by one.
 pub(crate) const STATES: usize = 256;
 /// Bytes that are written once and stand for many: the texts of a run, of the elements of an array, of an object that several

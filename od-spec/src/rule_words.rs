@@ -330,6 +330,17 @@ fn faults_of_services() -> Vec<(&'static str, String)> {
     vec![
         ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x607A, "target position", 7, "rw", "")),
         ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x6041, "statusword", 6, "rw", "")),
+        ("OD0830", var(0x2000, "gain", 0x11, "rw", "DefaultValue=0.10000000000000000001")),
+        (
+            "OD0839",
+            var(0x1000, "device type", 7, "ro", drive) + &var(0x6502, "modes", 7, "ro", "DefaultValue=0x20"),
+        ),
+        (
+            "OD0840",
+            var(0x1000, "device type", 7, "ro", drive)
+                + &var(0x6060, "mode", 2, "rw", "DefaultValue=6")
+                + &var(0x6502, "modes", 7, "ro", "DefaultValue=0"),
+        ),
         ("OD0319", var(0x2000, "label", 9, "rw", "DefaultValue=$NODEID+1")),
         (
             "OD0510",

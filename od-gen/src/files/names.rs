@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use od_spec::visible::is_hidden;
+
 /// What is wrong with a path that an output asks for, in words; its parts are separated by `/`.
 pub fn name_problem(path: &str) -> Option<String> {
     path.split('/').find_map(part_problem)
@@ -26,8 +28,8 @@ fn part_problem(part: &str) -> Option<String> {
     if part.starts_with('.') && !part.trim_start_matches('.').contains('.') {
         return Some(format!("there is nothing before the ending of `{shown}`"));
     }
-    if part.chars().any(char::is_control) {
-        return Some(format!("`{shown}` holds a control character"));
+    if part.contains(is_hidden) {
+        return Some(format!("`{shown}` holds a character that nobody sees"));
     }
     if let Some(c) = part.chars().find(|c| FORBIDDEN.contains(c)) {
         return Some(format!("`{shown}` holds `{c}`, which is not allowed on Windows"));
@@ -78,6 +80,8 @@ mod tests {
             "a:b",
             "c:\\x",
             "a\nb",
+            "a\u{202e}b",
+            "a\u{2028}b",
             "a\u{9b}b",
             "what?.eds",
         ] {

@@ -291,7 +291,7 @@ pub(super) fn value(place: Index, entry: &Entry, value: &Value) -> ValueView {
     let (formula, raw, text) = match value {
         Value::Integer(raw) => (None, Some(integer(*raw)), words),
         Value::NodeId(offset) => (words, Some(json!(offset)), None),
-        Value::Real(number) => (None, Some(json!(number)), words),
+        Value::Real(real) => (None, Some(json!(real.number())), words),
         Value::Text(_) | Value::Bytes(_) => (None, None, words),
     };
     ValueView { formula, raw, text }

@@ -20,9 +20,10 @@ use std::collections::BTreeMap;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
     BitField, DataType, Dictionary, Entry, EntryId, EnumValue, ErrorCode, NamedType, Object, Outside, Pdo,
-    Rounding, StateMachine, Storage, System, Text, Unit, Value,
+    Rounding, StateMachine, Storage, System, SystemSource, Text, Unit, Value,
 };
 use od_spec::source::Span;
+use od_spec::start_of_code;
 
 pub(crate) use self::condition::{Compare, Condition, Sum};
 pub(crate) use self::directory::{Block, Directory};
@@ -292,6 +293,9 @@ pub(crate) fn plan<'a>(
     language: &'a dyn Language,
     diagnostics: &mut Diagnostics,
 ) -> Plan<'a> {
+    if let Some(start) = start_of_code(device).filter(|_| system.source == SystemSource::Eds) {
+        diagnostics.push(start);
+    }
     let layout = lay_out(device, diagnostics);
     if layout.factory.len().max(layout.constants.len()) > LARGEST_IMAGE {
         diagnostics.push(

@@ -1,6 +1,6 @@
 //! Values as a person would write them: by name, in the unit, bit patterns in hexadecimal.
 
-use od_spec::model::{Entry, EnumValue, Index, NamedType, Ratio, Role, TypeKind, Unit, Value};
+use od_spec::model::{Entry, EnumValues, Index, NamedType, Ratio, Role, TypeKind, Unit, Value};
 use od_spec::scalar;
 
 use super::node::Node;
@@ -11,7 +11,7 @@ pub(super) fn value(index: Index, entry: &Entry, value: &Value) -> Node {
         Value::NodeId(0) => Node::plain("$NODEID"),
         Value::NodeId(offset) => Node::Plain(format!("$NODEID + 0x{offset:X}")),
         Value::Integer(raw) => integer(index, entry, *raw),
-        Value::Real(number) => Node::Plain(format!("{number:?}")),
+        Value::Real(real) => Node::Plain(format!("{:?}", real.number())),
         Value::Text(text) => Node::text(text.clone()),
         Value::Bytes(bytes) => {
             let pairs: Vec<String> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
@@ -24,7 +24,7 @@ fn integer(index: Index, entry: &Entry, raw: i128) -> Node {
     if entry.data_type.range() == Some((0, 1)) {
         return Node::yes_no(raw != 0);
     }
-    if let Some(value) = enum_values(entry).iter().find(|value| value.value == raw) {
+    if let Some(value) = enum_values(entry).and_then(|values| values.of(raw)) {
         return Node::text(value.name.clone());
     }
     match (hexadecimal(index, entry), u32::try_from(raw)) {
@@ -32,8 +32,11 @@ fn integer(index: Index, entry: &Entry, raw: i128) -> Node {
         (Some(Hex::Halves | Hex::Digits), _) if raw >= 0 => return hex(raw),
         (Some(Hex::Halves | Hex::Digits) | None, _) => {}
     }
-    let physical =
-        entry.unit.as_ref().filter(|_| enum_values(entry).is_empty()).and_then(|unit| physical(unit, raw));
+    let physical = entry
+        .unit
+        .as_ref()
+        .filter(|_| enum_values(entry).is_none_or(|values| values.is_empty()))
+        .and_then(|unit| physical(unit, raw));
     physical.map_or_else(|| Node::plain(raw), Node::Text)
 }
 
@@ -45,10 +48,10 @@ pub(super) fn hex(raw: i128) -> Node {
     }
 }
 
-fn enum_values(entry: &Entry) -> &[EnumValue] {
+fn enum_values(entry: &Entry) -> Option<&EnumValues> {
     match entry.named_type.as_deref() {
-        Some(NamedType { kind: TypeKind::Enum(values), .. }) => values,
-        Some(NamedType { kind: TypeKind::Bits(_), .. }) | None => &[],
+        Some(NamedType { kind: TypeKind::Enum(values), .. }) => Some(values),
+        Some(NamedType { kind: TypeKind::Bits(_), .. }) | None => None,
     }
 }
 

@@ -180,3 +180,32 @@ fn a_device_and_a_node_are_named_where_there_is_a_choice() {
     let said = refused(&["lamp.od.yaml"]);
     assert!(said.contains("error[OD0701]: no node-ID is given (add `--node ID`, 1 to 127)"), "{said}");
 }
+
+/// The EDS says nothing about the start, but code starts with something.
+#[test]
+fn code_that_starts_with_a_value_it_refuses_is_told() {
+    let scratch = Scratch::new("foreign-start");
+    let level = |at: u16, more: &str| {
+        format!("[{at:X}]\nParameterName=level {at}\nObjectType=7\nDataType=5\nAccessType=rw\n{more}\n")
+    };
+    let eds = |rest: &str| format!("[DeviceInfo]\nProductName=lamp\n{rest}");
+    scratch.file("wrong.eds", eds(&(level(0x2000, "LowLimit=1") + &level(0x2001, "LowLimit=2"))));
+    scratch.file(
+        "right.eds",
+        eds(&(level(0x2000, "LowLimit=1\nDefaultValue=1") + &level(0x2001, "LowLimit=0"))),
+    );
+    let said = |name: &str| {
+        let output = odgen(&scratch.0, &["build", name, "--rust", "--out", "out"]);
+        assert_eq!(code(&output), 0);
+        stderr(&output)
+    };
+    let wrong = said("wrong.eds");
+    assert!(wrong.contains("warning[OD0837]: in the code, 2000h (level 8192) starts with 0"), "{wrong}");
+    assert!(
+        wrong.contains("wrong.eds:8:")
+            && wrong.contains("so do 2001h")
+            && wrong.contains("help: write `DefaultValue`"),
+        "{wrong}"
+    );
+    assert!(!said("right.eds").contains("OD0837"));
+}

@@ -121,7 +121,7 @@ pub(crate) fn enriched(one: &System, other: &System) -> Vec<String> {
 /// A default to the last bit.
 fn bits(entry: &Entry) -> Option<String> {
     entry.default.as_ref().map(|default| match default {
-        Value::Real(number) => format!("{:X}", number.to_bits()),
+        Value::Real(real) => format!("{:X}", real.number().to_bits()),
         other => format!("{other:?}"),
     })
 }

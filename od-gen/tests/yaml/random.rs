@@ -99,7 +99,7 @@ fn change_entry(entry: &mut Entry, what: u8, number: i64) {
             entry.default = match pick(5) {
                 0 => Some(Value::Text(text())),
                 1 => Some(Value::Bytes(text().into_bytes())),
-                2 => Some(Value::Real(reals[pick(reals.len())])),
+                2 => Some(Value::Real(reals[pick(reals.len())].into())),
                 3 => Some(Value::NodeId(number.unsigned_abs() >> pick(64))),
                 _ => None,
             };

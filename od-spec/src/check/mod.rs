@@ -29,6 +29,9 @@ mod counts_agree;
 mod counts_are_constant;
 mod definitions_are_used;
 mod device_type_is_kept;
+mod drive_modes;
+mod drive_modes_are_listed;
+mod drive_modes_have_their_objects;
 mod drive_objects_keep_their_type;
 mod elements_are_alike;
 mod error_codes_are_listed;
@@ -72,7 +75,7 @@ mod settings_have_an_order;
 mod standard_access_is_kept;
 mod standard_objects_are_complete;
 mod standard_objects_keep_their_type;
-mod start_values_are_allowed;
+pub(crate) mod start_values_are_allowed;
 mod stored_entries_can_be_stored;
 mod structures_have_entries;
 mod sync_start_has_an_effect;
@@ -185,6 +188,8 @@ pub(crate) static RULES: &[Rule] = &[
     sync_start_has_an_effect::RULE,
     start_values_are_allowed::RULE,
     settings_have_an_order::RULE,
+    drive_modes_have_their_objects::RULE,
+    drive_modes_are_listed::RULE,
 ];
 
 /// Applies the rules to a system whose devices are types: each may become any node.

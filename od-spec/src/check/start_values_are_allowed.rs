@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{DataType, Entry, Fact, SystemSource, TypeKind};
+use crate::model::{DataType, Dictionary, Entry, EntryId, Fact, SystemSource, TypeKind};
 use crate::wording::allowed;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -16,7 +16,7 @@ const CODE: &Code = &Code {
     title: "a value at start that the entry cannot have",
     explanation: "The entry has no default, so that a generated dictionary starts with 0; but 0 lies outside its limits or is no value of its enum. Until somebody writes another one, the \
         device shows what it would refuse, and may act on it. State the value that it starts with as `default:`; where it is no promise of the maker, `eds: {default: withheld}` keeps it out \
-        of the EDS. A 0 that says \"not yet known\" is a value of its own: `special: {0: not yet known}`.",
+        of the EDS. Of an EDS, `odgen build --rust` says this: without `DefaultValue`, the code starts with 0. A 0 that says \"not yet known\" is a value of its own: `special: {0: not yet known}`.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: gain, type: unsigned8, access: rw, min: 1}",
@@ -29,21 +29,46 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     if subject.node.is_some() || subject.system.source != SystemSource::Specification {
         return;
     }
-    for (id, _, entry) in subject.device.entries() {
-        // What nobody can read shows nothing, and a view shows another entry's value.
-        let is_shown = entry.access.is_readable() && entry.alias.is_none() && entry.default.is_none();
-        if !is_shown || starts_right(entry) {
-            continue;
-        }
-        let limit = limit(entry);
-        let range = match limit {
-            Limit::Type => "no supported value of its enum".to_owned(),
-            Limit::Low | Limit::High => format!("outside {}", allowed(entry)),
-        };
-        let message = format!("{id} ({}) starts with 0, which is {range}", entry.name);
-        findings.push(Diagnostic::new(CODE, subject.place(entry, limit.fact()), message).help(
+    for (id, entry) in starting_wrong(subject.device) {
+        let message = format!("{id} ({}) starts with 0, which is {}", entry.name, problem(entry));
+        findings.push(Diagnostic::new(CODE, subject.place(entry, limit(entry).fact()), message).help(
             "add `default:`, with `eds: {default: withheld}` where it is no promise; or make 0 a `special` value",
         ));
+    }
+}
+
+/// What is to be said about code that is made of a device in an EDS: the EDS says nothing about the start, but the code has one.
+pub fn start_of_code(device: &Dictionary) -> Option<Diagnostic> {
+    /// So many entries are named.
+    const NAMED: usize = 5;
+    let mut wrong = starting_wrong(device);
+    let (id, entry) = wrong.next()?;
+    let message = format!("in the code, {id} ({}) starts with 0, which is {}", entry.name, problem(entry));
+    let diagnostic = Diagnostic::new(CODE, entry.place(limit(entry).fact()), message).help(
+        "write `DefaultValue` into the EDS; or let the firmware write these entries before anybody reads them",
+    );
+    let mut named: Vec<String> = wrong.by_ref().take(NAMED).map(|(id, _)| id.to_string()).collect();
+    match wrong.count() {
+        0 => {}
+        more => named.push(format!("{more} more")),
+    }
+    Some(if named.is_empty() { diagnostic } else { diagnostic.note(format!("so do {}", named.join(", "))) })
+}
+
+/// The entries that show a 0 which they cannot have.
+fn starting_wrong(device: &Dictionary) -> impl Iterator<Item = (EntryId, &Entry)> {
+    // What nobody can read shows nothing, and a view shows another entry's value.
+    let is_shown =
+        |entry: &Entry| entry.access.is_readable() && entry.alias.is_none() && entry.default.is_none();
+    let wrong = device.entries().filter(move |(.., entry)| is_shown(entry) && !starts_right(entry));
+    wrong.map(|(id, _, entry)| (id, entry))
+}
+
+/// What is wrong with 0.
+fn problem(entry: &Entry) -> String {
+    match limit(entry) {
+        Limit::Type => "no supported value of its enum".to_owned(),
+        Limit::Low | Limit::High => format!("outside {}", allowed(entry)),
     }
 }
 
@@ -58,7 +83,7 @@ fn starts_right(entry: &Entry) -> bool {
 /// Whether 0 is among the values that an enum lists, if there is one.
 fn is_listed(entry: &Entry) -> bool {
     match entry.named_type.as_ref().map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.iter().any(|listed| listed.value == 0 && listed.supported),
+        Some(TypeKind::Enum(values)) => values.of(0).is_some_and(|listed| listed.supported),
         Some(TypeKind::Bits(_)) | None => true,
     }
 }

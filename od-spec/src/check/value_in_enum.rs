@@ -37,10 +37,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             continue;
         }
         let is_special = |raw: i128| entry.special.iter().any(|special| special.value == raw);
-        let is_supported = |raw: i128| values.iter().any(|listed| listed.value == raw && listed.supported);
+        let is_supported = |raw: i128| values.of(raw).is_some_and(|listed| listed.supported);
         let mut raw = subject.nodes_of(value).filter_map(|node| value.integer_for(node));
         let Some(stranger) = raw.find(|raw| !is_special(*raw) && !is_supported(*raw)) else { continue };
-        let is_listed = values.iter().any(|listed| listed.value == stranger);
+        let is_listed = values.of(stranger).is_some();
         let (message, specification) = if is_listed {
             let shown = format_value(entry, &Value::Integer(stranger));
             (

@@ -98,16 +98,19 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
         alias: r.text("alias"),
         outside: r.value("outside", Outside::from_word),
         rounding: r.value("rounding", Rounding::from_word),
-        array: r.keyed("array").map(|(key, child)| ArrayDecl {
-            span: key,
-            count: child.integer("count"),
-            entry: entry(child, &keys::ARRAY, key, diagnostics),
-            elements: members(child.entries("elements"), diagnostics),
+        // Few objects have one, and both are large.
+        array: r.keyed("array").map(|(key, child)| {
+            Box::new(ArrayDecl {
+                span: key,
+                count: child.integer("count"),
+                entry: entry(child, &keys::ARRAY, key, diagnostics),
+                elements: members(child.entries("elements"), diagnostics),
+            })
         }),
         record: r
             .keyed("record")
             .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
-        sub0: r.keyed("sub0").map(|(key, child)| entry(child, &keys::SUB0, key, diagnostics)),
+        sub0: r.keyed("sub0").map(|(key, child)| Box::new(entry(child, &keys::SUB0, key, diagnostics))),
         omit: r.integers("omit"),
         links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),

@@ -39,7 +39,7 @@ codes! {
     UNKNOWN_ANCHOR Error "OD0106" "an alias refers to nothing":
         "A YAML alias `*name` repeats the value that carries the anchor `&name` before it. There is no such anchor, or the alias stands inside the very value it would repeat."
     ALIAS_BOMB Error "OD0107" "aliases expand to too much":
-        "Aliases of aliases multiply: a few lines can stand for billions of values. Expansion stops at 16 MiB, with 64 bytes for each value beside its text. Name a type once under `types:` instead of repeating values by alias."
+        "Aliases of aliases multiply: a few lines can stand for billions of values. Expansion stops at 1 MiB and 256 bytes for each byte of the file, but at 16 MiB at the latest, where each value counts 64 bytes beside its text. Name a type once under `types:` instead of repeating values by alias."
     TOO_DEEP Error "OD0108" "lists and maps are nested too deep":
         "More than 64 levels of nesting. No specification needs that depth; usually a bracket is missing."
     YAML_TAG Error "OD0109" "a YAML tag":
@@ -55,9 +55,9 @@ codes! {
     NOT_A_LIBRARY Error "OD0114" "a used file is no library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
     TURNED_TEXT Error "OD0115" "a character that hides what a text says":
-        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape."
+        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape. A setting of a node has no escapes, and holds no control character either."
     TOO_MUCH Error "OD0116" "a file describes too much":
-        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or an `on:` wrong? A family of devices that is really larger goes into several files."
+        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or an `on:` wrong? A family of devices that is really larger goes into several files."
     MISSING_PART Error "OD0117" "a part cannot be read":
         "`parts:` names files that hold more of the specification, each relative to the file that names it. There is no such file, or it may not be read."
     NOT_A_PART Error "OD0118" "a file that is no part of the specification":

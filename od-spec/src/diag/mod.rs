@@ -187,10 +187,14 @@ impl Diagnostics {
         Self { list: Vec::new(), errors: 0, said: BTreeSet::new(), suggestions: Suggestions::new() }
     }
 
-    /// Adds a message.
+    /// Adds a message, unless it was said just now: what stands for many things, such as a run of objects, is wrong for each of them.
     pub fn push(&mut self, diagnostic: Diagnostic) {
+        /// So many mistakes of one thing are remembered.
+        const REMEMBERED: usize = 4;
         self.errors += usize::from(diagnostic.severity == Severity::Error);
-        self.list.push(diagnostic);
+        if !self.list.iter().rev().take(REMEMBERED).any(|said| *said == diagnostic) {
+            self.list.push(diagnostic);
+        }
     }
 
     /// Whether a place is told for the first time that it breaks a rule: a name in a run of objects is looked up for each of

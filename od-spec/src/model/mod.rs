@@ -17,6 +17,7 @@ mod object;
 mod pdo;
 mod pdo_parameter;
 mod ratio;
+mod real;
 mod role;
 mod text;
 mod types;
@@ -38,11 +39,14 @@ pub use dynamic_channel::DynamicChannel;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub(crate) use held::Held;
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
-pub use named_type::{BitErrors, BitField, BitUsage, Edge, EnumValue, ModeMeaning, NamedType, TypeKind};
+pub use named_type::{
+    BitErrors, BitField, BitUsage, Edge, EnumValue, EnumValues, ModeMeaning, NamedType, TypeKind,
+};
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names, usual_pdo_storage};
 pub use ratio::Ratio;
+pub use real::Real;
 pub use role::Role;
 pub use text::Text;
 pub use types::{

@@ -1,5 +1,7 @@
 //! Enums and bit fields.
 
+use std::ops::Deref;
+
 use super::{DataType, Statement, Text};
 use crate::source::Spanned;
 
@@ -23,9 +25,58 @@ pub struct NamedType {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TypeKind {
     /// Named values, ascending.
-    Enum(Vec<EnumValue>),
+    Enum(EnumValues),
     /// Fields by ascending bit; they cover every bit of the base type.
     Bits(Vec<BitField>),
+}
+
+/// The values of an enum, ascending; each is found without looking at the others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EnumValues {
+    ascending: Vec<EnumValue>,
+    /// Where the names stand in it, by name.
+    by_name: Vec<usize>,
+}
+
+impl EnumValues {
+    /// The value with a number.
+    pub fn of(&self, raw: i128) -> Option<&EnumValue> {
+        let at = self.ascending.binary_search_by_key(&raw, |value| value.value).ok()?;
+        self.ascending.get(at)
+    }
+
+    /// The value with a name.
+    pub fn named(&self, name: &str) -> Option<&EnumValue> {
+        let name_at = |at: &usize| self.ascending.get(*at).map_or("", |value| value.name.as_str());
+        let at = self.by_name.partition_point(|at| name_at(at) < name);
+        self.ascending.get(*self.by_name.get(at)?).filter(|value| value.name == name)
+    }
+}
+
+impl From<Vec<EnumValue>> for EnumValues {
+    fn from(mut ascending: Vec<EnumValue>) -> Self {
+        ascending.sort_by_key(|value| value.value);
+        let mut by_name: Vec<usize> = (0..ascending.len()).collect();
+        by_name.sort_by_key(|at| ascending.get(*at).map(|value| value.name.as_str()));
+        Self { ascending, by_name }
+    }
+}
+
+impl Deref for EnumValues {
+    type Target = [EnumValue];
+
+    fn deref(&self) -> &[EnumValue] {
+        &self.ascending
+    }
+}
+
+impl<'a> IntoIterator for &'a EnumValues {
+    type Item = &'a EnumValue;
+    type IntoIter = std::slice::Iter<'a, EnumValue>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.ascending.iter()
+    }
 }
 
 /// One value of an enum.

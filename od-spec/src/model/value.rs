@@ -1,6 +1,6 @@
 //! Values of entries, and conversion between an alias and its target.
 
-use super::{DataType, Family, Outside, Ratio, Rounding};
+use super::{DataType, Family, Outside, Ratio, Real, Rounding};
 
 /// A default or parameter value.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,7 +10,7 @@ pub enum Value {
     /// The node-ID plus an offset (`$NODEID+0x180`).
     NodeId(u64),
     /// A floating-point number.
-    Real(f64),
+    Real(Real),
     /// A visible or unicode string.
     Text(String),
     /// An octet string.
@@ -58,7 +58,7 @@ impl Value {
 
     const fn real(&self) -> Option<f64> {
         match self {
-            Value::Real(number) => Some(*number),
+            Value::Real(real) => Some(real.number()),
             Value::Integer(_) | Value::NodeId(_) | Value::Text(_) | Value::Bytes(_) => None,
         }
     }
@@ -134,8 +134,8 @@ mod tests {
             (Value::Integer(0x1234), DataType::Unsigned16, Some(vec![0x34, 0x12])),
             (Value::NodeId(0x180), DataType::Unsigned32, Some(vec![0x85, 1, 0, 0])),
             (Value::NodeId(0), DataType::Unsigned8, Some(vec![5])),
-            (Value::Real(1.5), DataType::Real32, Some(vec![0, 0, 0xC0, 0x3F])),
-            (Value::Real(-2.0), DataType::Real64, Some(vec![0, 0, 0, 0, 0, 0, 0, 0xC0])),
+            (Value::Real(1.5.into()), DataType::Real32, Some(vec![0, 0, 0xC0, 0x3F])),
+            (Value::Real((-2.0).into()), DataType::Real64, Some(vec![0, 0, 0, 0, 0, 0, 0, 0xC0])),
             (Value::Text("ab".to_owned()), DataType::VisibleString, Some(b"ab".to_vec())),
             (text(), DataType::UnicodeString, Some(vec![0x61, 0, 0xE9, 0])),
             (Value::Bytes(vec![1, 0xFF]), DataType::OctetString, Some(vec![1, 0xFF])),

@@ -5,6 +5,7 @@ use crate::diag::{Diagnostic, Suggestions, codes};
 use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value};
 use crate::resolve::{self, values};
 use crate::source::{Span, Spanned};
+use crate::visible::{is_hidden, turns_text};
 use crate::wording::format_value;
 
 /// Why a setting cannot be read.
@@ -30,6 +31,9 @@ pub(super) fn setting(
 ) -> Result<Setting, Unread> {
     let device = entries.device;
     let span = assignment.span;
+    if let Some((at, c)) = assignment.value.char_indices().find(|(_, c)| is_hidden(*c)) {
+        return Err(Box::new(hidden(span.part(at, at + c.len_utf8()), c)).into());
+    }
     let Some((name, text)) = assignment.value.split_once('=') else {
         return Err(Box::new(
             Diagnostic::new(
@@ -63,6 +67,13 @@ pub(super) fn setting(
         None => id,
     };
     Ok(Setting { id, holder, value, span, value_span })
+}
+
+/// As in a specification, which cannot hold a control character without an escape.
+fn hidden(span: Span, c: char) -> Diagnostic {
+    let what = if turns_text(c) { "turns the text around it" } else { "nobody sees" };
+    Diagnostic::new(codes::TURNED_TEXT, span, format!("found U+{:04X}, which {what}", u32::from(c)))
+        .help("remove the character")
 }
 
 /// Reads the value of a known entry.

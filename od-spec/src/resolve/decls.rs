@@ -283,7 +283,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
             if over.count.is_some() && over.count != below.count {
                 note(Part::Object, vec![Fact::Count]);
             }
-            Some(ArrayDecl {
+            Some(Box::new(ArrayDecl {
                 span: over.span,
                 count: over.count.or(below.count),
                 entry: over.entry.over(&below.entry),
@@ -293,7 +293,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
                     scope,
                     &mut note,
                 ),
-            })
+            }))
         }
         // An object that says it is something else than the library's object is that.
         (over_array, below_array) => {
@@ -312,7 +312,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
     let sub0 = match (&over.sub0, &below.sub0) {
         (Some(over), Some(below)) => {
             note(Part::Entry(SubIndex(0)), differences(over, below));
-            Some(over.over(below))
+            Some(Box::new(over.over(below)))
         }
         (over, below) => over.clone().or_else(|| below.clone()),
     };

@@ -10,6 +10,7 @@ use super::types::words;
 use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::limits;
 use crate::model::{
     Devices, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table, TableContent,
 };
@@ -90,6 +91,7 @@ pub(super) fn errata(
     let places = Places::of(&system.document);
     // Without tables, the document is not described.
     let is_described = system.document.tables().next().is_some();
+    let mut room = limits::TABLES_OF_ERRATA;
     for decl in &root.errata {
         let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
         let mut at = Vec::new();
@@ -100,6 +102,17 @@ pub(super) fn errata(
         }
         let place = words(&decl.place);
         let named = places::read(place.get(system.language()).unwrap_or_default(), &at, &places);
+        let Some(rest) = room.checked_sub(named.tables.len()) else {
+            if let Some(place) = &decl.place {
+                let message =
+                    format!("the places of the errata name more than {} tables", limits::TABLES_OF_ERRATA);
+                diagnostics.push(Diagnostic::new(codes::TOO_MUCH, place.span, message).help(
+                    "name the tables where something differs; what holds for the whole manual names none",
+                ));
+            }
+            break;
+        };
+        room = rest;
         if is_described
             && let Some(number) = named.unknown
             && let Some(span) = decl.place.as_ref().map(|place| place.span)

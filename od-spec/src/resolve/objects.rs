@@ -19,7 +19,8 @@ pub(super) fn resolve(
 ) -> Option<Object> {
     let decl = &declared.decl;
     let Some(name) = &decl.entry.name else {
-        if decl.entry.unsure {
+        // A run of objects lacks it once.
+        if decl.entry.unsure || !diagnostics.is_new(codes::MISSING_KEY, decl.index.span) {
             return None;
         }
         diagnostics.push(

@@ -99,8 +99,14 @@ pub(super) fn read(place: &str, at: &[ErratumPlace], places: &Places<'_>) -> Nam
 /// The unnumbered tables of some sections that show one of the objects, in order.
 fn about(places: &Places<'_>, sections: &RangeInclusive<usize>, at: &[ErratumPlace]) -> BTreeSet<TableId> {
     let indices: BTreeSet<Index> = at.iter().map(|place| place.index()).collect();
-    let shown = indices.iter().filter_map(|index| places.unnumbered.get(index)).flatten();
-    shown.filter(|id| sections.contains(&id.section)).copied().collect()
+    let showing = indices.iter().filter_map(|index| places.unnumbered.get(index));
+    let of_sections = showing.flat_map(|tables| {
+        // They are in the order of the document.
+        let first = tables.partition_point(|id| id.section < *sections.start());
+        let end = tables.partition_point(|id| id.section <= *sections.end());
+        tables.get(first..end).unwrap_or_default()
+    });
+    of_sections.copied().collect()
 }
 
 /// What one segment of a place says.

@@ -45,7 +45,7 @@ pub(super) fn resolve(decl: &TypeDecl, maker: FileId, diagnostics: &mut Diagnost
                     .help("list the values with their names"),
                 );
             }
-            TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics))
+            TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics).into())
         }
         (None, Some(list)) => TypeKind::Bits(bits(decl, list, base, diagnostics)?),
         (Some(_), Some(_)) => {

@@ -6,7 +6,7 @@ use crate::ast::Name;
 use crate::check::codes as rule_codes;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
-use crate::model::{DataType, NamedType, Ratio, SpecialValue, TypeKind, Unit, Value};
+use crate::model::{DataType, NamedType, Ratio, Real, SpecialValue, TypeKind, Unit, Value};
 use crate::scalar::{self, NumberError};
 use crate::source::Span;
 
@@ -37,15 +37,9 @@ pub(crate) fn read(
             (None, "0" | "1") => Ok(Value::Integer(i128::from(text == "1"))),
             _ => refuse(format!("found `{}`, expected a BOOLEAN", shown()), "write `yes`, `no`, `1` or `0`"),
         },
-        DataType::Real32 | DataType::Real64 => match text.parse::<f64>() {
-            #[expect(clippy::cast_possible_truncation, reason = "whether the value survives is the question")]
-            Ok(value)
-                if value.is_finite()
-                    && (expected.data_type == DataType::Real64 || (value as f32).is_finite()) =>
-            {
-                Ok(Value::Real(value))
-            }
-            _ => refuse(
+        DataType::Real32 | DataType::Real64 => match Real::read(text, expected.data_type) {
+            Some(real) => Ok(Value::Real(real)),
+            None => refuse(
                 format!("found `{}`, expected a finite number", shown()),
                 "write a decimal number such as `0.5`",
             ),
@@ -91,11 +85,11 @@ fn integer(
     suggestions: &mut Suggestions,
 ) -> Result<Value, Box<Diagnostic>> {
     let shown = || shorten(text);
-    let values = match expected.named.map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.as_slice(),
-        _ => &[],
+    let listed = match expected.named.map(|named| &named.kind) {
+        Some(TypeKind::Enum(values)) => Some(values),
+        Some(TypeKind::Bits(_)) | None => None,
     };
-    if let Some(value) = values.iter().find(|value| value.name == text) {
+    if let Some(value) = listed.and_then(|values| values.named(text)) {
         return Ok(Value::Integer(value.value));
     }
     if text.starts_with('$') || text.contains("$NODEID") {
@@ -113,6 +107,7 @@ fn integer(
         fits(i128::from(offset) + 127, span, expected.data_type, format_args!("`{}` for node 127", shown()))?;
         return Ok(Value::NodeId(offset));
     }
+    let values = listed.map_or(&[][..], |values| values);
     let raw = match scalar::integer(text) {
         Ok(raw) => raw,
         Err(NumberError::NotANumber) => match split_physical(text).filter(|_| values.is_empty()) {
@@ -154,7 +149,7 @@ fn integer(
     };
     fits(raw, span, expected.data_type, raw)?;
     let is_special = expected.special.iter().any(|special| special.value == raw);
-    if !values.is_empty() && !is_special && !values.iter().any(|value| value.value == raw) {
+    if !values.is_empty() && !is_special && listed.is_none_or(|values| values.of(raw).is_none()) {
         return Err(Box::new(
             Diagnostic::new(
                 rule_codes::UNKNOWN_ENUM_VALUE,

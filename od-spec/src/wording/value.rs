@@ -1,7 +1,7 @@
 //! Values: defaults, special values, values of enums.
 
 use super::{Notation, Radix, Wording};
-use crate::model::{DataType, Entry, EnumValue, Index, Role, SpecialValue, TypeKind, Value};
+use crate::model::{DataType, Entry, EnumValues, Index, Role, SpecialValue, TypeKind, Value};
 
 impl Wording {
     /// A value of an entry. Without an index, what follows from the entry alone.
@@ -10,7 +10,7 @@ impl Wording {
             Value::Integer(raw) => self.integer(index, entry, *raw),
             Value::NodeId(offset) => self.node_id_formula(*offset),
             // With a decimal point even where the number is whole.
-            Value::Real(number) => self.decimal(&format!("{number:?}")),
+            Value::Real(real) => self.decimal(&format!("{:?}", real.number())),
             Value::Text(text) => self.text(text),
             Value::Bytes(bytes) => self.bytes(bytes),
         }
@@ -43,9 +43,9 @@ impl Wording {
         }
     }
 
-    fn enum_value(self, data_type: DataType, values: &[EnumValue], raw: i128) -> String {
+    fn enum_value(self, data_type: DataType, values: &EnumValues, raw: i128) -> String {
         let number = self.enum_number(data_type, raw);
-        let Some(value) = values.iter().find(|value| value.value == raw) else { return number };
+        let Some(value) = values.of(raw) else { return number };
         match self.notation {
             Notation::Eds | Notation::Manual => format!("{number}: {}", value.name),
             Notation::Rust | Notation::Json | Notation::Diagnostic => value.name.clone(),

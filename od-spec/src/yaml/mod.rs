@@ -16,10 +16,12 @@ use crate::visible::turning;
 const MAX_DEPTH: usize = 64;
 /// The merge key of YAML 1.1, which the language does not have.
 pub(crate) const MERGE: &str = "<<";
-/// Most bytes that anchors and aliases may add to a document.
+/// Most bytes that anchors and aliases may add to a document, and what they may in any: in between, so many for each byte of the file.
 const MAX_ALIAS_BYTES: usize = 16 << 20;
 /// Entries of a map among which equal keys are looked for one by one.
 const SMALL: usize = 16;
+const LEAST_ALIAS_BYTES: usize = 1 << 20;
+const ALIAS_BYTES_PER_BYTE: usize = 256;
 /// What a value counts beside its text.
 const BYTES_PER_VALUE: usize = 64;
 
@@ -128,6 +130,8 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
         stack: Vec::new(),
         anchors: BTreeMap::new(),
         alias_bytes: 0,
+        most_alias_bytes: MAX_ALIAS_BYTES
+            .min(LEAST_ALIAS_BYTES + file.text().len().saturating_mul(ALIAS_BYTES_PER_BYTE)),
         root: None,
         documents: 0,
     };
@@ -195,6 +199,7 @@ struct Builder<'a> {
     stack: Vec<Open>,
     anchors: BTreeMap<usize, Node>,
     alias_bytes: usize,
+    most_alias_bytes: usize,
     root: Option<Node>,
     documents: usize,
 }
@@ -344,7 +349,7 @@ impl Builder<'_> {
             return self.add(Node { span, kind: NodeKind::Broken }, 0);
         };
         self.alias_bytes += target.weight();
-        if self.alias_bytes > MAX_ALIAS_BYTES {
+        if self.alias_bytes > self.most_alias_bytes {
             return self.too_much(span);
         }
         if self.stack.len() + target.depth() > MAX_DEPTH {
@@ -359,7 +364,7 @@ impl Builder<'_> {
             Diagnostic::new(
                 codes::ALIAS_BOMB,
                 span,
-                format!("aliases expand to more than {} MiB", MAX_ALIAS_BYTES >> 20),
+                format!("aliases expand to more than {} MiB", self.most_alias_bytes >> 20),
             )
             .label("expansion stopped here")
             .help("aliases of aliases multiply; write the values out, or name a type once"),
@@ -372,7 +377,7 @@ impl Builder<'_> {
         if anchor != 0 {
             // What has an anchor is kept for its aliases, and an anchor may stand in another one.
             self.alias_bytes += node.weight();
-            if self.alias_bytes > MAX_ALIAS_BYTES {
+            if self.alias_bytes > self.most_alias_bytes {
                 return self.too_much(node.span);
             }
             self.anchors.insert(anchor, node.clone());

@@ -200,7 +200,7 @@ fn entry(id: EntryId, before: &Entry, after: &Entry) -> impl Iterator<Item = Dif
 /// A default to the last bit, if the file states it.
 fn default(entry: &Entry) -> Option<String> {
     entry.default.as_ref().filter(|_| entry.eds.default).map(|default| match default {
-        Value::Real(number) => format!("real {:X}", number.to_bits()),
+        Value::Real(real) => format!("real {:X}", real.number().to_bits()),
         Value::Text(text) => format!("{:?}", transliterate(text)),
         other @ (Value::Integer(_) | Value::NodeId(_) | Value::Bytes(_)) => format!("{other:?}"),
     })

@@ -79,7 +79,7 @@ fn lines(device: &Dictionary) -> impl Iterator<Item = String> + '_ {
         let value = match &entry.default {
             Some(Value::Integer(value)) => value.to_string(),
             Some(Value::NodeId(offset)) => format!("$NODEID+{offset}"),
-            Some(Value::Real(value)) => value.to_string(),
+            Some(Value::Real(real)) => real.number().to_string(),
             Some(Value::Text(text)) => text.clone(),
             Some(Value::Bytes(_)) | None => "1".to_owned(),
         };

@@ -61,6 +61,42 @@ pub const RIGHT: &[Pattern] = &[
         )
         .replace("Table 0\"", "page 0\"")
     }),
+    pattern("errata of all tables", |n| {
+        let errata = format!(
+            "errata:\n{}",
+            each(n, |_| format!(
+                "  - {{at: 0x2000, kind: name, place: Tables 1 to {n}, prints: a, reads: b, because: c}}\n"
+            ))
+        );
+        let tables = list(n, |at| format!("{{number: {}, title: t, objects: [0x2000]}}", at + 1));
+        spec(
+            &format!("{errata}document:\n  - {{section: \"1.1\", title: s, tables: [{tables}]}}\n"),
+            &objects(2, |_| String::new()),
+        )
+    }),
+    pattern("errata of all sections", |n| {
+        let errata = format!(
+            "errata:\n{}",
+            each(n, |_| format!(
+                "  - {{at: 0x2000, kind: name, place: 1.0 to 1.{}, prints: a, reads: b, because: c}}\n",
+                n - 1
+            ))
+        );
+        let sections = each(n, |at| {
+            format!("  - {{section: \"1.{at}\", title: s, tables: [{{overview: [0x2000]}}]}}\n")
+        });
+        spec(&format!("{errata}document:\n{sections}"), &objects(2, |_| String::new()))
+    }),
+    pattern("a list with an anchor", |n| {
+        let rows = list(n, |at| format!("[a{at}, b]"));
+        let tables = list(n, |_| "{rows: {columns: [x, y], rows: *rows}}".to_owned());
+        spec(
+            &format!(
+                "document:\n  - {{section: \"1\", title: s, tables: [{{rows: {{columns: [x, y], rows: &rows [{rows}]}}}}, {tables}]}}\n"
+            ),
+            &objects(2, |_| String::new()),
+        )
+    }),
     pattern("aliases", |n| {
         let aliases = each(n, |at| {
             format!("  0x{:X}: {{name: alias {at}, type: unsigned8, alias: object {at}}}\n", 0x6000 + at)

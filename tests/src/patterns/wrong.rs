@@ -425,6 +425,20 @@ pub const WRONG: &[Pattern] = &[
             ))
         )
     }),
+    pattern("a run of objects without a name", |n| spec("", &format!("  0x2000..0x{:X}: {{}}\n", index(n)))),
+    pattern("a run of objects without a type", |n| {
+        spec("", &format!("  0x2000..0x{:X}: {{name: \"a {{n}}\", access: ro}}\n", index(n)))
+    }),
+    pattern("a run of objects with values that do not fit", |n| {
+        spec(
+            "",
+            &format!(
+                "  0x2000..0x{:X}: {{name: \"a {{n}}\", type: unsigned8, access: rw, default: 300, min: 400}}\n",
+                index(n)
+            ),
+        )
+    }),
+    pattern("objects without keys", |n| spec("", &each(n, |at| format!("  0x{:X}: {{}}\n", index(at))))),
     pattern("placeholders of no type", |n| {
         device_with(&format!(", dummies: [{}]", list(n, |at| format!("unsignd{at}"))), "", "")
     }),

@@ -83,7 +83,7 @@ impl Raw {
     pub(crate) fn value(self) -> Value {
         match self {
             Self::Number(number) => Value::Integer(number),
-            Self::Real(number) => Value::Real(number.into()),
+            Self::Real(number) => Value::Real(f64::from(number).into()),
             Self::Text(text) => Value::Text(text.to_owned()),
             Self::Octets(octets) => Value::Bytes(octets.to_vec()),
         }

@@ -264,3 +264,18 @@ fn settings_of_a_large_specification() {
         @"error[OD0310]: `pmm` has no entry `dc-link voltage.nominal valu`"
     );
 }
+
+/// As in a specification, where they stand at most as escapes.
+#[test]
+fn characters_that_nobody_sees_are_refused() {
+    let label = "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}\n\
+        objects:\n  0x2000: {name: label, type: unicode-string, access: rw, capacity: 20}\n";
+    for hidden in ["\u{202e}", "\u{2069}", "\u{200f}", "\u{1b}", "\u{7}", "\n", "\t", "\u{9b}", "\u{2028}"] {
+        for text in [format!("2000=a{hidden}b"), format!("{hidden}2000=a"), format!("la{hidden}bel=a")] {
+            let assigned = assigned(label, "lamp", &[&text]);
+            let codes: Vec<_> = assigned.diagnostics.iter().map(|one| one.code.id).collect();
+            assert_eq!(codes, ["OD0115"], "{text:?}");
+        }
+    }
+    assert!(assigned(label, "lamp", &["2000=a b"]).diagnostics.is_empty());
+}

@@ -216,7 +216,7 @@ fn settings_that_a_dcf_cannot_hold() {
         label=: error[OD0319]: 2001h (label): the value is empty, which reads as no value
         title=≤ 5: error[OD0319]: 2007h (title): the value holds `=`, which EDS readers misread
         title=Größe: error[OD0319]: 2007h (title): the value has characters that an EDS cannot hold
-        title=a→b: error[OD0319]: 2007h (title): the value holds a control character, which EDS readers misread
+        title=a→b: error[OD0115]: found U+0009, which nobody sees
         ratio=1e39: error[OD0401]: found `1e39`, expected a finite number
         ratio= 0.5 : 2003h = Real(0.5)
         "#);

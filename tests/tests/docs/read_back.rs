@@ -27,7 +27,7 @@ fn default(entry: &Entry, cell: &str) -> Option<Value> {
         DataType::OctetString => {
             Value::Bytes(cell.split(' ').map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect())
         }
-        DataType::Real32 | DataType::Real64 => Value::Real(cell.parse().unwrap()),
+        DataType::Real32 | DataType::Real64 => Value::Real(cell.parse::<f64>().unwrap().into()),
         _ => Value::Integer(number(entry, cell)),
     })
 }

@@ -18,7 +18,7 @@ fn read(keys: &str) -> String {
         None => "-".to_owned(),
         Some(Value::Integer(raw)) => raw.to_string(),
         Some(Value::NodeId(offset)) => format!("node+{offset}"),
-        Some(Value::Real(number)) => format!("{number}"),
+        Some(Value::Real(real)) => real.number().to_string(),
         Some(Value::Text(text)) => format!("'{text}'"),
         Some(Value::Bytes(bytes)) => format!("{bytes:02X?}"),
     };

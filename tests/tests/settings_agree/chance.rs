@@ -87,7 +87,7 @@ fn written(value: &Value) -> String {
     match value {
         Value::Integer(number) => number.to_string(),
         Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
-        Value::Real(number) => number.to_string(),
+        Value::Real(real) => real.number().to_string(),
         Value::Text(text) => text.clone(),
         Value::Bytes(octets) => {
             let digits: Vec<String> = octets.iter().map(|octet| format!("{octet:02X}")).collect();
@@ -104,7 +104,7 @@ fn value(device: &Dictionary, object: &Object, entry: &Entry, random: &mut Rando
     match data_type {
         DataType::Real32 | DataType::Real64 => {
             let numbers = [0.0, 0.5, -1.0, 1e9, f64::from(f32::MAX)];
-            random.pick(&numbers).map(|number| Value::Real(*number))
+            random.pick(&numbers).map(|number| Value::Real((*number).into()))
         }
         DataType::VisibleString => Some(Value::Text(text(entry, 1, random))),
         DataType::UnicodeString => Some(Value::Text(text(entry, 2, random))),

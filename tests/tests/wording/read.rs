@@ -23,7 +23,9 @@ pub(crate) fn value(entry: &Entry, text: &str) -> Value {
                 (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(&digits[at..at + 2], 16).unwrap());
             Value::Bytes(bytes.collect())
         }
-        DataType::Real32 | DataType::Real64 => Value::Real(text.replace(',', ".").parse().unwrap()),
+        DataType::Real32 | DataType::Real64 => {
+            Value::Real(text.replace(',', ".").parse::<f64>().unwrap().into())
+        }
         _ => Value::Integer(number(entry, text)),
     }
 }
@@ -69,7 +71,7 @@ fn plain(entry: &Entry, text: &str) -> Option<i128> {
 fn named(entry: &Entry, name: &str) -> Option<i128> {
     let special = entry.special.iter().find(|special| transliterate(&special.name) == transliterate(name));
     let values = match entry.named_type.as_ref().map(|named| &named.kind) {
-        Some(TypeKind::Enum(values)) => values.as_slice(),
+        Some(TypeKind::Enum(values)) => &**values,
         Some(TypeKind::Bits(_)) | None => &[],
     };
     let value = values.iter().find(|value| transliterate(&value.name) == transliterate(name));

@@ -9,20 +9,29 @@ fn full(object: &str) -> String {
 
 /// A drive with further objects.
 fn drive(objects: &str) -> String {
+    with_modes("0", "", objects)
+}
+
+/// A drive with a value of 6502h, an enum `mode` that stands for the type of 6060h, and further objects.
+fn with_modes(modes: &str, values: &str, objects: &str) -> String {
+    let types = match values {
+        "" => String::new(),
+        values => format!("types:\n  mode: {{base: integer8, values: {{{values}}}}}\n"),
+    };
     format!(
         "uses: [cia301, cia402]
-devices:
+{types}devices:
   io: {{name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer, drive]}}
 pdos:
   io: {{receive: {{1: {{map: [0x6040]}}}}, transmit: {{1: {{map: [0x6041]}}}}}}
 objects:
-  0x6502: {{from: cia402, default: 0}}
+  0x6502: {{from: cia402, default: {modes}}}
 {objects}"
     )
 }
 
 pub(crate) fn wrong() -> Vec<Case> {
-    [shapes(), types(), sub_indices(), access(), drives()].into_iter().flatten().collect()
+    [shapes(), types(), sub_indices(), access(), drives(), modes()].into_iter().flatten().collect()
 }
 
 fn shapes() -> Vec<Case> {
@@ -149,7 +158,72 @@ fn drives() -> Vec<Case> {
     ]
 }
 
+/// What homing needs.
+const HOMING: &str = "  0x6098: {from: cia402, pdo: none}\n  0x6099: {from: cia402, array: {pdo: none}}\n";
+const OWN_MODE: &str = "  0x6060: {from: cia402, type: mode, default: 0}";
+
+fn modes() -> Vec<Case> {
+    let lacks = |name, modes, objects: &str| case::wrong(name, with_modes(modes, "", objects), "OD0839");
+    let unlisted = |name, modes, values, object: &str| {
+        case::wrong(name, with_modes(modes, values, &format!("{HOMING}{object}")), "OD0840")
+    };
+    vec![
+        lacks("positioning without its objects", "1", ""),
+        lacks("velocity mode without its objects", "2", ""),
+        lacks("profile velocity without its objects", "4", ""),
+        lacks("torque without its objects", "8", ""),
+        lacks("homing without its objects", "0x20", ""),
+        lacks("homing without speeds", "0x20", "  0x6098: {from: cia402, pdo: none}"),
+        lacks("interpolation without its objects", "0x40", ""),
+        lacks("cyclic positions without its objects", "0x80", ""),
+        lacks("cyclic velocities without its objects", "0x100", ""),
+        lacks("cyclic torques without its objects", "0x200", ""),
+        case::wrong(
+            "homing of the second axis without its objects",
+            with_modes(
+                "0",
+                "",
+                "  0x67FF: {from: cia402, default: 0x00020192}\n  0x6FFF: {from: cia402, default: 0x00020192}\n  0x6D02: {from: cia402, default: 0x20}",
+            )
+            .replace("0x00020192, features: [heartbeat producer", "0xFFFF0192, features: [heartbeat producer, drive axis 2")
+            .replace("map: [0x6040]", "map: [0x6040, 0x6840]")
+            .replace("map: [0x6041]", "map: [0x6041, 0x6841]"),
+            "OD0839",
+        ),
+        unlisted("a mode that is not listed", "0x20", "", "  0x6060: {from: cia402, default: 1}"),
+        unlisted(
+            "a reserved mode",
+            "0x20",
+            "",
+            "  0x6060: {name: mode, type: integer8, access: rw, default: 5, eds: {default: withheld}}",
+        ),
+        unlisted(
+            "a display of a mode that is not listed",
+            "0x20",
+            "",
+            "  0x6061: {from: cia402, default: 3}",
+        ),
+        unlisted(
+            "an enum with a mode that is not listed",
+            "0x20",
+            "0: none, 1: positioning, 6: homing",
+            OWN_MODE,
+        ),
+        unlisted("an enum without a mode that is listed", "0x20", "0: none", OWN_MODE),
+        unlisted(
+            "an enum that does not support a mode that is listed",
+            "0x20",
+            "0: none, 6: {name: homing, supported: no}",
+            OWN_MODE,
+        ),
+        unlisted("a mode that is not listed, set", "0x20", "", "").set(&["6060=1"]),
+    ]
+}
+
 pub(crate) fn right() -> Vec<Right> {
+    let of_modes = |name, modes, values, object: &str| {
+        case::right(name, with_modes(modes, values, &format!("{HOMING}{object}")))
+    };
     let right = |name, object| case::right(name, full(object));
     let of_drive = |name, object| case::right(name, drive(object));
     vec![
@@ -207,6 +281,27 @@ pub(crate) fn right() -> Vec<Right> {
         of_drive(
             "limits as a RECORD",
             "  0x607D: {name: limits, record: {1: {name: low, type: integer32, access: rw}, 2: {name: high, type: integer32, access: rw}}}",
+        ),
+        of_modes("homing with its objects", "0x20", "", ""),
+        of_modes("a mode that is listed", "0x20", "", "  0x6060: {from: cia402, default: 6}"),
+        of_modes("no mode", "0x20", "", "  0x6060: {from: cia402, default: 0}"),
+        of_modes("a mode that is listed, set", "0x20", "", "").set(&["6060=6"]),
+        of_modes(
+            "a mode of the maker's own, beside the bits of CiA 402",
+            "0x10020",
+            "0: none, -1: service, 6: homing",
+            OWN_MODE,
+        ),
+        of_modes(
+            "an enum with a mode that is not supported",
+            "0x20",
+            "0: none, 1: {name: positioning, supported: no}, 6: homing",
+            OWN_MODE,
+        ),
+        case::right(
+            "a drive that does not say its modes",
+            drive("  0x6060: {from: cia402, default: 1}")
+                .replace("  0x6502: {from: cia402, default: 0}\n", "  0x6502: {from: cia402}\n"),
         ),
         of_drive("a mode of version 2", "  0x6060: {from: cia402, access: wo}"),
         of_drive(

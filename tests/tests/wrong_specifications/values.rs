@@ -102,6 +102,20 @@ pub(crate) fn wrong() -> Vec<Case> {
         ),
         case::wrong("a REAL32 of twelve digits", real("real32", "0.123456789012"), "OD0830"),
         case::wrong("an integer that a REAL32 does not have", real("real32", "16777217"), "OD0830"),
+        case::wrong(
+            "a REAL32 with digits behind those of a REAL64",
+            real("real32", "0.10000000000000000001"),
+            "OD0830",
+        ),
+        case::wrong("a REAL64 of twenty digits", real("real64", "0.10000000000000000001"), "OD0830"),
+        case::wrong("an integer that a REAL64 does not have", real("real64", "9007199254740993"), "OD0830"),
+        case::wrong("a number that is 0 in a REAL64", real("real64", "1e-400"), "OD0830"),
+        case::wrong(
+            "a REAL64 of twenty digits, set",
+            with("", "0x2000: {name: gain, type: real64, access: rw}"),
+            "OD0830",
+        )
+        .set(&["2000=0.10000000000000000001"]),
         case::wrong("a number that is 0 in a REAL32", real("real32", "1e-50"), "OD0830"),
         case::wrong(
             "a REAL32 of ten digits, set",
@@ -165,6 +179,9 @@ pub(crate) fn right() -> Vec<Right> {
         number("a tenth as a program prints it", "real32", "0.10000000149011612"),
         number("the last integer of a REAL32", "real32", "16777216"),
         number("twelve digits of a REAL64", "real64", "0.123456789012"),
+        number("a tenth of a REAL64", "real64", "0.1"),
+        number("a tenth of a REAL64 as a program prints it", "real64", "0.10000000000000001"),
+        number("the last integer of a REAL64", "real64", "9007199254740992"),
         case::right(
             "a REAL32 of eight digits, set",
             with("", "0x2000: {name: gain, type: real32, access: rw}"),

@@ -453,16 +453,16 @@ impl Values<'_, '_> {
                 };
                 quote!(#literal)
             }
-            Value::Real(number) => {
+            Value::Real(real) => {
                 let literal = if kind.data_type == DataType::Real32 {
                     #[expect(
                         clippy::cast_possible_truncation,
                         reason = "the nearest value that the type has"
                     )]
-                    let single = *number as f32;
+                    let single = real.number() as f32;
                     Literal::f32_unsuffixed(single)
                 } else {
-                    Literal::f64_unsuffixed(*number)
+                    Literal::f64_unsuffixed(real.number())
                 };
                 quote!(#literal)
             }

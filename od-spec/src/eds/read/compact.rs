@@ -92,7 +92,7 @@ pub(super) fn object(
         None => sub0,
     };
     let head = EntryDecl { name: common.name, eds: common.eds, ..EntryDecl::empty(place) };
-    with_shape(ObjectDecl { sub0: Some(sub0), ..declaration(index, place, head) }, kind, elements)
+    with_shape(ObjectDecl { sub0: Some(Box::new(sub0)), ..declaration(index, place, head) }, kind, elements)
 }
 
 /// The lines of a list by element; what no element has is reported.

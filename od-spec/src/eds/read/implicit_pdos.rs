@@ -73,7 +73,7 @@ fn communication(direction: Direction, at: u16, mask: i128, place: Span) -> Obje
     let members: Vec<_> = members.collect();
     let sub0 = entry::count_of("highest sub-index supported", highest, Access::Const, place);
     let head = EntryDecl { name: Some(made(name, place)), ..EntryDecl::empty(place) };
-    let object = ObjectDecl { sub0: Some(sub0), ..declaration(Index(first + at), place, head) };
+    let object = ObjectDecl { sub0: Some(Box::new(sub0)), ..declaration(Index(first + at), place, head) };
     with_shape(object, ObjectKind::Record, members)
 }
 
@@ -89,6 +89,6 @@ fn mapping(direction: Direction, at: u16, place: Span) -> ObjectDecl {
     let name = made(format!("{title} {} mapping parameter", at + 1), place);
     let sub0 = entry::count_of("number of mapped entries", 0, Access::Rw, place);
     let head = EntryDecl { name: Some(name), ..EntryDecl::empty(place) };
-    let object = ObjectDecl { sub0: Some(sub0), ..declaration(Index(first + at), place, head) };
+    let object = ObjectDecl { sub0: Some(Box::new(sub0)), ..declaration(Index(first + at), place, head) };
     with_shape(object, ObjectKind::Record, members)
 }

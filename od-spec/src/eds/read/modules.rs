@@ -180,7 +180,7 @@ impl Extension {
         }
         let head = EntryDecl { name: Some(made(name, place)), ..EntryDecl::empty(place) };
         let sub0 = entry::made_up("NrOfObjects", DataType::Unsigned8, Access::Ro, place);
-        let object = ObjectDecl { sub0: Some(sub0), ..declaration(self.index, place, head) };
+        let object = ObjectDecl { sub0: Some(Box::new(sub0)), ..declaration(self.index, place, head) };
         objects.push(with_shape(object, ObjectKind::Array, vec![(sub, member)]));
     }
 }

@@ -127,7 +127,7 @@ fn structured(
 ) -> ObjectDecl {
     let members = members(index, part, context);
     let sub0 = match part.subs.get(&0) {
-        Some(count) => Some(sub(EntryId { index, sub: SubIndex(0) }, kind, count, context)),
+        Some(count) => Some(Box::new(sub(EntryId { index, sub: SubIndex(0) }, kind, count, context))),
         None => {
             let message = format!("{index} has no sub-index 0");
             let help = "add the section, with `DataType=0x0005` and the highest sub-index as its default";

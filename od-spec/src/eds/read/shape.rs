@@ -49,7 +49,7 @@ pub(super) fn with_shape(
         entry: EntryDecl::empty(span),
         elements: members.clone(),
     };
-    ObjectDecl { omit: omit.collect(), array: Some(array), ..object }
+    ObjectDecl { omit: omit.collect(), array: Some(Box::new(array)), ..object }
 }
 
 /// The sub-indices from 1 on.
