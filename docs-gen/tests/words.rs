@@ -9,7 +9,7 @@ use docs_gen::{Format, Options, Templates, context};
 use minijinja::value::{Serde, Value};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, compile};
+use od_spec::{Loader, compile};
 
 /// Specifications that have, together with [`VIEWS`], everything that documents can show.
 const SPECIFICATIONS: [&str; 5] = [
@@ -19,6 +19,16 @@ const SPECIFICATIONS: [&str; 5] = [
     "tests/readers/everything.od.yaml",
     "tests/ui/ok_everything.od.yaml",
 ];
+
+/// Reads the parts of shipped specifications.
+struct Devices;
+
+impl Loader for Devices {
+    fn load(&mut self, path: &str, _from: &str) -> Result<Vec<u8>, String> {
+        let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../od-spec/devices");
+        std::fs::read(directory.join(path)).map_err(|error| error.to_string())
+    }
+}
 
 /// What none of them has: views of every kind, and a manufacturer's storage group.
 const VIEWS: &str = "\
@@ -56,7 +66,7 @@ pdos: {lamp: {receive: {1: {map: [level]}}}}
 fn system(name: &str, text: &str) -> System {
     let mut sources = SourceMap::new();
     let file = sources.add(name, text);
-    compile(&mut sources, file, &mut NoFiles).system.unwrap_or_else(|| panic!("{name} has mistakes"))
+    compile(&mut sources, file, &mut Devices).system.unwrap_or_else(|| panic!("{name} has mistakes"))
 }
 
 fn systems() -> Vec<System> {

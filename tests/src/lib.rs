@@ -6,13 +6,16 @@ pub mod fuzz;
 pub mod generate;
 pub mod patterns;
 
+#[path = "../shared/shipped.rs"]
+pub mod shipped;
+
 use std::path::{Path, PathBuf};
 
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
-use od_spec::{Compiled, NoFiles, compile};
+use od_spec::{Compiled, Loader, compile};
 
 /// Why a task failed.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -22,10 +25,11 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
-/// Whether a message is a note about what the manuals of the shipped devices say: they name no vendor-ID, and have an element
-/// that is read back in an array of those that are written.
+/// Whether a message is about what the manuals of the shipped devices say: they name no vendor-ID, have an element that is read back
+/// in an array of those that are written, and list modes of operation without all objects of CiA 402.
 pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
-    diagnostic.severity() == Severity::Note && ["OD0821", "OD0822"].contains(&diagnostic.code.id)
+    let is_note = diagnostic.severity() == Severity::Note;
+    is_note && ["OD0821", "OD0822"].contains(&diagnostic.code.id) || diagnostic.code.id == "OD0839"
 }
 
 /// Compiles a file of the workspace that is expected to be without a message, but for notes.
@@ -44,10 +48,21 @@ pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> 
     let text = std::fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
     let mut sources = SourceMap::new();
     let root = sources.add(path, text);
-    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
+    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut OfWorkspace);
     match system {
         Some(system) if diagnostics.clone().without_notes().is_empty() => Ok((system, sources)),
         _ => Err(render(&diagnostics, &sources, Format::Human, false).into()),
+    }
+}
+
+/// Reads files that specifications of the workspace name.
+#[derive(Debug, Clone, Copy)]
+pub struct OfWorkspace;
+
+impl Loader for OfWorkspace {
+    fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
+        let from = root().join(from);
+        std::fs::read(from.parent().unwrap_or(&from).join(path)).map_err(|error| error.to_string())
     }
 }
 

@@ -11,6 +11,7 @@ use od_spec::source::SourceMap;
 use od_spec::{Compiled, NoFiles, compile};
 use od_tests::fuzz::{Random, Seed, YAML, mutant};
 use od_tests::root;
+use od_tests::shipped::in_one_file;
 
 /// So many modules are compiled, as one crate.
 const MODULES: usize = 24;
@@ -24,7 +25,7 @@ const RARE: [&str; 4] = [
 ];
 
 fn seeds() -> Vec<Seed> {
-    let directories = ["tests/ui", "tests/shared", "od-spec/devices"].map(|directory| root().join(directory));
+    let directories = ["tests/ui", "tests/shared"].map(|directory| root().join(directory));
     let entries = directories.iter().flat_map(|directory| std::fs::read_dir(directory).unwrap());
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| {
@@ -33,7 +34,9 @@ fn seeds() -> Vec<Seed> {
     });
     paths.sort();
     let seed = |path: &std::path::PathBuf| Seed { name: String::new(), bytes: std::fs::read(path).unwrap() };
-    paths.iter().map(seed).collect()
+    let shipped = ["pitch-control-system", "fullmo-drive"].map(in_one_file);
+    let shipped = shipped.into_iter().map(|text| Seed { name: String::new(), bytes: text.into_bytes() });
+    paths.iter().map(seed).chain(shipped).collect()
 }
 
 /// The module of the first device of a specification, or why there is none.

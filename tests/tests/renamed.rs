@@ -10,7 +10,7 @@ use od_spec::diag::Diagnostics;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 use od_tests::generate::SPECS;
-use od_tests::root;
+use od_tests::shipped::in_one_file;
 
 /// Names of devices, products and makers, and others of the same length that keep their place in the alphabet.
 const NAMES: [(&str, &str); 6] = [
@@ -47,11 +47,8 @@ fn outputs(text: &str) -> Vec<(String, String)> {
     let mut sources = SourceMap::new();
     let file = sources.add("spec.od.yaml", text);
     let system = compile(&mut sources, file, &mut NoFiles).system.unwrap();
-    // Generated code names the file and tells its checksum, which is another one.
-    let mut nameless = SourceMap::new();
-    nameless.add("spec.od.yaml", "");
     let mut diagnostics = Diagnostics::new();
-    let rust = rust::artifacts(&system, system.devices.iter(), &Provenance::of(&nameless), &mut diagnostics);
+    let rust = rust::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &mut diagnostics);
     assert!(!diagnostics.has_errors());
     let templates = [Format::Markdown, Format::Html].map(|format| Templates::new(Some(format), &[]).unwrap());
     let documents =
@@ -64,7 +61,7 @@ fn outputs(text: &str) -> Vec<(String, String)> {
 #[test]
 fn with_other_names_nothing_else_changes() {
     for stem in SPECS {
-        let text = std::fs::read_to_string(root().join(format!("od-spec/devices/{stem}.od.yaml"))).unwrap();
+        let text = in_one_file(stem);
         let other_text = renamed(&text);
         assert_ne!(text, other_text);
         let (files, other_files) = (outputs(&text), outputs(&other_text));

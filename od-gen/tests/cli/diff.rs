@@ -6,7 +6,7 @@ use std::process::Command;
 
 use insta::assert_snapshot;
 
-use crate::{FAN, LAMP, PITCH, ROOF_FAN, Scratch, code, odgen, stderr, stdout};
+use crate::{FAN, LAMP, ROOF_FAN, Scratch, code, odgen, stderr, stdout};
 
 /// The lamp, one with another description, and one with a narrower limit.
 fn lamps(name: &str) -> Scratch {
@@ -122,8 +122,8 @@ fn what_cannot_be_compared_is_an_error() {
 #[test]
 fn one_device_of_several() {
     let scratch = Scratch::new("diff-device");
-    let text = fs::read_to_string(PITCH).unwrap();
-    scratch.file("old.od.yaml", &text);
+    let text = &*crate::in_one_file::PITCH;
+    scratch.file("old.od.yaml", text);
     scratch.file("new.od.yaml", text.replacen("default: 3000 mAh", "default: 3100 mAh", 1));
     let lines = |key: &str| {
         let arguments = ["diff", "old.od.yaml", "new.od.yaml", "--format", "short", "--device", key];

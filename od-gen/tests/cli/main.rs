@@ -16,6 +16,8 @@ mod fix;
 mod foreign;
 mod formats;
 mod import;
+#[path = "../../../tests/shared/shipped.rs"]
+mod in_one_file;
 mod new;
 mod parts;
 mod provoked;

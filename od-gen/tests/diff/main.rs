@@ -7,6 +7,8 @@ mod eds;
 mod lamp;
 mod print;
 mod same;
+#[path = "../../../tests/shared/shipped.rs"]
+mod shipped;
 
 use std::sync::LazyLock;
 
@@ -16,12 +18,11 @@ use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 
-const PITCH: &str =
-    include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../od-spec/devices/pitch-control-system.od.yaml"));
-const FULLMO: &str =
-    include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../od-spec/devices/fullmo-drive.od.yaml"));
+use shipped::{PITCH, in_one_file};
 
-static PITCH_SYSTEM: LazyLock<System> = LazyLock::new(|| system(PITCH));
+static FULLMO: LazyLock<String> = LazyLock::new(|| in_one_file("fullmo-drive"));
+
+static PITCH_SYSTEM: LazyLock<System> = LazyLock::new(|| system(&PITCH));
 
 /// A change of one place in a specification, and what the comparison says about it.
 struct Case {

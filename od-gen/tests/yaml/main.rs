@@ -9,6 +9,8 @@ mod likeness;
 mod pdo_parameters;
 mod random;
 mod shipped;
+#[path = "../../../tests/shared/shipped.rs"]
+mod texts;
 
 use od_gen::yaml::{Options, Specification, specification};
 use od_spec::diag::render::{Format, render};

@@ -286,9 +286,15 @@ impl Builder<'_> {
             "check indentation, quotes, and that `: ` and ` #` inside a text are quoted"
         };
         self.diagnostics.push(match self.unclosed() {
-            Some((bracket, closing)) => diagnostic.with(bracket, "this bracket is open").help(format!(
-                "close it with `{closing}`; inside, put texts that hold a comma or a bracket in quotes"
-            )),
+            Some((bracket, closing)) => {
+                let help = format!(
+                    "close it with `{closing}`; inside, put texts that hold a comma or a bracket in quotes"
+                );
+                let is_marked = bracket.start == span.start;
+                let diagnostic =
+                    if is_marked { diagnostic } else { diagnostic.with(bracket, "this bracket is open") };
+                diagnostic.help(help)
+            }
             None => diagnostic.help(help),
         });
     }

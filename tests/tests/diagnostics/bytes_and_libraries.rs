@@ -127,12 +127,12 @@ fn libraries_from_files() {
     );
     insta::assert_snapshot!(with_libraries(LAMP, &[("../lamps.od.yaml", b"od-spec: 1\nprofile: [lamps\n")]), @r#"
         error[OD0104]: this is not YAML: unclosed bracket '['
-         --> ../lamps.od.yaml:2:10
+         --> plant/../lamps.od.yaml:2:10
           |
         2 | profile: [lamps
           |          ^
           |
-        help: check indentation, quotes, and that `: ` and ` #` inside a text are quoted
+        help: close it with `]`; inside, put texts that hold a comma or a bracket in quotes
         "#);
     insta::assert_snapshot!(
         with_libraries(
@@ -141,7 +141,7 @@ fn libraries_from_files() {
         ),
         @r#"
         error[OD0309]: feature `dimmer` names 2001h, which the library does not define
-         --> ../lamps.od.yaml:5:22
+         --> plant/../lamps.od.yaml:5:22
           |
         5 |   dimmer: {objects: [0x2001]}
           |                      ^^^^^^

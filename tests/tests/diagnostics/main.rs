@@ -25,9 +25,6 @@ use od_spec::diag::{Code, Diagnostic, Diagnostics};
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Compiled, NoFiles, compile, read_text};
 
-/// A large specification that is right.
-const PITCH: &str = include_str!("../../../od-spec/devices/pitch-control-system.od.yaml");
-
 fn ui() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("ui")
 }

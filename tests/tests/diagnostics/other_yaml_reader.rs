@@ -4,8 +4,9 @@ use od_spec::diag::Diagnostics;
 use od_spec::source::SourceMap;
 use od_spec::yaml::{Node, NodeKind};
 use od_spec::{LIBRARIES, scalar};
+use od_tests::shipped::PITCH;
 
-use crate::{PITCH, cases};
+use crate::cases;
 
 /// What two YAML readers must agree about: structure, order, and scalars by what they mean.
 fn same(ours: &Node, theirs: &serde_yaml::Value, place: &str) {
@@ -51,7 +52,7 @@ fn same_scalar(text: &str, theirs: &serde_yaml::Value, place: &str) {
 fn another_yaml_reader_sees_the_same() {
     let accepted = cases().into_iter().filter(|(name, _)| name.starts_with("ok_"));
     let libraries = LIBRARIES.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned()));
-    for (name, text) in accepted.chain(libraries).chain([("pitch".to_owned(), PITCH.to_owned())]) {
+    for (name, text) in accepted.chain(libraries).chain([("pitch".to_owned(), PITCH.clone())]) {
         let mut sources = SourceMap::new();
         let id = sources.add(name.as_str(), text.as_str());
         let mut diagnostics = Diagnostics::new();

@@ -3,9 +3,10 @@
 use od_spec::diag::Diagnostics;
 use od_spec::source::{SourceMap, Spanned};
 use od_spec::{ParameterValues, assign};
+use od_tests::shipped::PITCH;
 
 use crate::wording_rules::check_wording;
-use crate::{PITCH, human, run};
+use crate::{human, run};
 
 /// Settings of node 5, read.
 pub(crate) struct Assigned {
@@ -256,7 +257,7 @@ fn settings_that_break_conditions() {
 fn settings_of_a_large_specification() {
     // The first line only: the others show lines of a file that grows.
     let said = |setting| {
-        settings(PITCH, "pmm", &[setting]).lines().next().map(ToOwned::to_owned).unwrap_or_default()
+        settings(&PITCH, "pmm", &[setting]).lines().next().map(ToOwned::to_owned).unwrap_or_default()
     };
     insta::assert_snapshot!(said("30FA.3=700 V"), @"error[OD0606]: the values of `pmm` break `dc-link voltage ladder`");
     insta::assert_snapshot!(

@@ -19,8 +19,9 @@ use plant::{KeyName, planted, sites, text_keys};
 
 const TEXTS: &str = include_str!("../../shared/texts.od.yaml");
 
-/// Keys whose text is one of a fixed set, or that only libraries have.
-const LIBRARIES: [KeyName; 6] = [
+/// Keys whose text is one of a fixed set or names a file, or that only libraries have.
+const LIBRARIES: [KeyName; 7] = [
+    ("a specification", "parts"),
     ("a state machine", "from"),
     ("a specification", "profile"),
     ("a specification", "features"),

@@ -13,7 +13,8 @@ use std::sync::LazyLock;
 use od_gen::diff::{Change, Class, Difference, Kind, Place, Scope, short};
 use od_spec::model::{Fact, System};
 
-use crate::{Case, PITCH, PITCH_SYSTEM, difference, system};
+use crate::shipped::PITCH;
+use crate::{Case, PITCH_SYSTEM, difference, system};
 
 /// What is told otherwise: the number of elements by the elements that came and went, remote frames by the COB-ID that holds
 /// the flag. Strings with a capacity are not in the pitch control system; see the lamp. Nodes are in DCF files; see the
@@ -86,7 +87,7 @@ fn what_is_beside_the_objects() {
 
 #[test]
 fn the_printed_manual() {
-    check(PITCH, &PITCH_SYSTEM, manual::CASES);
+    check(&PITCH, &PITCH_SYSTEM, manual::CASES);
 }
 
 /// A fact or a class without a case would not be noticed when it got lost.

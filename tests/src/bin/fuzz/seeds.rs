@@ -4,12 +4,15 @@ use std::path::{Path, PathBuf};
 
 use od_tests::foreign::find;
 use od_tests::fuzz::Seed;
+use od_tests::shipped::in_one_file;
 use od_tests::{Failure, root};
 
 /// The EDS and DCF of this repository: those that try the rules, those of the shipped devices, and what the commands are shown with.
 const EDS: [&str; 3] = ["tests/eds", "generated/eds", "od-gen/tests/cli/eds"];
 /// Its specifications and libraries.
-const SPECIFICATIONS: [&str; 4] = ["od-spec/devices", "od-spec/profiles", "tests/ui", "tests/shared"];
+const SPECIFICATIONS: [&str; 3] = ["od-spec/profiles", "tests/ui", "tests/shared"];
+/// The shipped specifications, which stand in several files.
+const SHIPPED: [&str; 2] = ["pitch-control-system", "fullmo-drive"];
 
 /// Every EDS and DCF of the repository, and of the files and directories that are named, in the order of their names.
 pub(crate) fn eds(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
@@ -21,7 +24,7 @@ pub(crate) fn eds(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
 
 /// The same for specifications and libraries.
 pub(crate) fn specifications(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
-    read(&SPECIFICATIONS, more, |directory, paths| {
+    let mut seeds = read(&SPECIFICATIONS, more, |directory, paths| {
         for entry in
             std::fs::read_dir(directory).map_err(|error| format!("{}: {error}", directory.display()))?
         {
@@ -33,7 +36,11 @@ pub(crate) fn specifications(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
             }
         }
         Ok(())
-    })
+    })?;
+    let shipped =
+        SHIPPED.map(|name| Seed { name: format!("{name}.od.yaml"), bytes: in_one_file(name).into_bytes() });
+    seeds.extend(shipped);
+    Ok(seeds)
 }
 
 /// Finds files of a kind in a directory.
