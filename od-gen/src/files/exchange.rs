@@ -106,7 +106,7 @@ pub(super) fn exchange(
         return Err(error);
     }
     let replaced = (0..).zip(changes).try_for_each(|(number, change)| {
-        disk.rename(&names.new(&change.target, number), &change.target)
+        disk.rename(&names.waiting(&change.target, number), &change.target)
             .map_err(|error| WriteError::io(&change.target, error))
     });
     if let Err(error) = replaced {
@@ -129,9 +129,9 @@ fn prepare(changes: &[Change<'_>], names: Names, disk: &impl Disk) -> Result<(),
     (0..).zip(changes).try_for_each(|(number, change)| {
         let target = &change.target;
         let old = change.old.as_ref();
-        let kept = disk.write(&names.new(target, number), change.bytes, old.map(|old| &old.metadata));
+        let kept = disk.write(&names.waiting(target, number), change.bytes, old.map(|old| &old.metadata));
         let kept = kept.and_then(|()| match old {
-            Some(_) => disk.keep(target, &names.old(target, number)),
+            Some(_) => disk.keep(target, &names.kept(target, number)),
             None => Ok(()),
         });
         kept.map_err(|error| WriteError::io(target, error))
@@ -148,7 +148,7 @@ fn settle(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), WriteError> {
 /// Removes what is left of other names.
 fn discard(changes: &[Change<'_>], names: Names, disk: &impl Disk) -> Result<(), (PathBuf, io::Error)> {
     (0..).zip(changes).try_for_each(|(number, change)| {
-        [names.new(&change.target, number), names.old(&change.target, number)]
+        [names.waiting(&change.target, number), names.kept(&change.target, number)]
             .into_iter()
             .try_for_each(|path| disk.remove(&path).map_err(|error| (path, error)))
     })
@@ -199,13 +199,13 @@ pub(super) fn sweep(directory: &Path, disk: &impl Disk) -> Result<(), WriteError
 }
 
 fn discard_one(target: &Path, number: usize, names: Names, disk: &impl Disk) -> io::Result<()> {
-    disk.remove(&names.new(target, number))?;
-    disk.remove(&names.old(target, number))
+    disk.remove(&names.waiting(target, number))?;
+    disk.remove(&names.kept(target, number))
 }
 
 /// Gives a new file its name, unless somebody has changed the old one since.
 fn complete(step: &Step, target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
-    let new = Names::OfSet.new(target, number);
+    let new = Names::OfSet.waiting(target, number);
     if new.exists() && contents(target)? == step.old {
         disk.rename(&new, target)?;
     }
@@ -215,7 +215,7 @@ fn complete(step: &Step, target: &Path, number: usize, disk: &impl Disk) -> io::
 /// Brings an old file back, unless somebody has changed the new one since.
 fn undo(step: &Step, target: &Path, number: usize, names: Names, disk: &impl Disk) -> io::Result<()> {
     if contents(target)? == Some(step.new) {
-        let old = names.old(target, number);
+        let old = names.kept(target, number);
         if old.exists() {
             disk.rename(&old, target)?;
         } else if step.old.is_none() {

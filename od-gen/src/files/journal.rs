@@ -173,12 +173,12 @@ impl Names {
     }
 
     /// Where the new contents of the file with this number wait.
-    pub(super) fn new(self, target: &Path, number: usize) -> PathBuf {
+    pub(super) fn waiting(self, target: &Path, number: usize) -> PathBuf {
         target.with_file_name(format!("{}{number}{}", self.prefix(), Self::NEW))
     }
 
     /// A second name for the old contents.
-    pub(super) fn old(self, target: &Path, number: usize) -> PathBuf {
+    pub(super) fn kept(self, target: &Path, number: usize) -> PathBuf {
         target.with_file_name(format!("{}{number}{}", self.prefix(), Self::OLD))
     }
 
@@ -199,7 +199,7 @@ mod tests {
     fn names_of_one_kind_are_not_those_of_the_other() {
         let target = Path::new("a/b");
         for (names, other) in [(Names::OfSet, Names::Alone), (Names::Alone, Names::OfSet)] {
-            for path in [names.new(target, 10), names.old(target, 0)] {
+            for path in [names.waiting(target, 10), names.kept(target, 0)] {
                 let name = path.file_name().unwrap().to_str().unwrap();
                 assert!(names.has(name) && !other.has(name), "{name}");
             }
