@@ -3,7 +3,8 @@
 
     run.py DOCS...
 
-DOCS are directories with HTML pages, `dump.json` and `context.json`, or with `manual.adoc`. What npm brings is installed
+DOCS are directories with HTML pages, `dump.json` and `context.json`, or with `manual.adoc`, or with `hostile.json` and pages
+that hold its texts. What npm brings is installed
 below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
 0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
 """
@@ -20,7 +21,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
-SCRIPTS = ["check.mjs", "asciidoc.mjs"]
+SCRIPTS = ["check.mjs", "hostile.mjs", "asciidoc.mjs"]
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
 
 
@@ -68,6 +69,8 @@ def main() -> int:
         print(f"== {docs.name}", flush=True)
         if (docs / "manual.adoc").exists():
             command = [node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")]
+        elif (docs / "hostile.json").exists():
+            command = [node, str(folder / "hostile.mjs"), str(docs), browser]
         else:
             command = [node, str(folder / "check.mjs"), str(docs), str(docs / "dump.json"), str(docs / "context.json")]
             command += [str(CACHE / "seen" / docs.name), browser]

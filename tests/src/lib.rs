@@ -5,6 +5,7 @@ pub mod foreign;
 pub mod fuzz;
 pub mod generate;
 pub mod patterns;
+pub mod plant;
 
 #[path = "../shared/shipped.rs"]
 pub mod shipped;

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::disk::Disk;
-use super::journal::{self, Journal, Phase, Step, fingerprint, new_name, old_name, target};
+use super::journal::{self, Journal, Names, Phase, Step, fingerprint, target};
 use super::{WriteError, parent};
 
 /// A file that is to have other contents.
@@ -82,6 +82,7 @@ pub(super) fn exchange(
     if changes.is_empty() {
         return Ok(());
     }
+    let names = if directory.is_some() { Names::OfSet } else { Names::Alone };
     let steps: Vec<Step> = changes.iter().map(Change::step).collect();
     let note = |phase: Phase| match directory {
         Some(directory) => {
@@ -94,43 +95,43 @@ pub(super) fn exchange(
         None => Ok(()),
     };
     let prepared = note(Phase::Prepare)
-        .and_then(|()| prepare(changes, disk))
+        .and_then(|()| prepare(changes, names, disk))
         .and_then(|()| settle(changes, disk))
         .and_then(|()| note(Phase::Replace));
     if let Err(error) = prepared {
         // A journal that could not be written may still be the one before.
-        if discard(changes, disk).is_ok() {
+        if discard(changes, names, disk).is_ok() {
             let _ = close();
         }
         return Err(error);
     }
     let replaced = (0..).zip(changes).try_for_each(|(number, change)| {
-        disk.rename(&new_name(&change.target, number), &change.target)
+        disk.rename(&names.waiting(&change.target, number), &change.target)
             .map_err(|error| WriteError::io(&change.target, error))
     });
     if let Err(error) = replaced {
         let _ = note(Phase::Undo);
         let undone = (0..)
             .zip(changes.iter().zip(&steps))
-            .try_for_each(|(number, (change, step))| undo(step, &change.target, number, disk));
+            .try_for_each(|(number, (change, step))| undo(step, &change.target, number, names, disk));
         if undone.is_ok() {
             let _ = close();
         }
         return Err(error);
     }
     settle(changes, disk)?;
-    discard(changes, disk).map_err(|(path, error)| WriteError::io(path, error))?;
+    discard(changes, names, disk).map_err(|(path, error)| WriteError::io(path, error))?;
     close()
 }
 
 /// Brings all new files to the disk, and second names for the old ones.
-fn prepare(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), WriteError> {
+fn prepare(changes: &[Change<'_>], names: Names, disk: &impl Disk) -> Result<(), WriteError> {
     (0..).zip(changes).try_for_each(|(number, change)| {
         let target = &change.target;
         let old = change.old.as_ref();
-        let kept = disk.write(&new_name(target, number), change.bytes, old.map(|old| &old.metadata));
+        let kept = disk.write(&names.waiting(target, number), change.bytes, old.map(|old| &old.metadata));
         let kept = kept.and_then(|()| match old {
-            Some(_) => disk.keep(target, &old_name(target, number)),
+            Some(_) => disk.keep(target, &names.kept(target, number)),
             None => Ok(()),
         });
         kept.map_err(|error| WriteError::io(target, error))
@@ -145,9 +146,9 @@ fn settle(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), WriteError> {
 }
 
 /// Removes what is left of other names.
-fn discard(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), (PathBuf, io::Error)> {
+fn discard(changes: &[Change<'_>], names: Names, disk: &impl Disk) -> Result<(), (PathBuf, io::Error)> {
     (0..).zip(changes).try_for_each(|(number, change)| {
-        [new_name(&change.target, number), old_name(&change.target, number)]
+        [names.waiting(&change.target, number), names.kept(&change.target, number)]
             .into_iter()
             .try_for_each(|path| disk.remove(&path).map_err(|error| (path, error)))
     })
@@ -167,9 +168,9 @@ pub(super) fn recover(directory: &Path, disk: &impl Disk) -> Result<Option<Recov
         let failed = |error| WriteError::io(directory.join(&step.path), error);
         let target = target(directory, Path::new(&step.path)).map_err(failed)?;
         match journal.phase {
-            Phase::Prepare => discard_one(&target, number, disk),
+            Phase::Prepare => discard_one(&target, number, Names::OfSet, disk),
             Phase::Replace => complete(step, &target, number, disk),
-            Phase::Undo => undo(step, &target, number, disk),
+            Phase::Undo => undo(step, &target, number, Names::OfSet, disk),
         }
         .map_err(failed)?;
         directories.extend(Some(parent(&target)).filter(|directory| directory.is_dir()));
@@ -184,31 +185,44 @@ pub(super) fn recover(directory: &Path, disk: &impl Disk) -> Result<Option<Recov
     }))
 }
 
-fn discard_one(target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
-    disk.remove(&new_name(target, number))?;
-    disk.remove(&old_name(target, number))
+/// Removes what a process left that was killed while it exchanged files that stand for themselves. Nobody else writes here now.
+pub(super) fn sweep(directory: &Path, disk: &impl Disk) -> Result<(), WriteError> {
+    // Who may write into a directory need not be allowed to list it.
+    let Ok(entries) = fs::read_dir(directory) else { return Ok(()) };
+    for name in entries.flatten().map(|entry| entry.file_name()) {
+        if name.to_str().is_some_and(|name| Names::Alone.has(name)) {
+            let path = directory.join(name);
+            disk.remove(&path).map_err(|error| WriteError::io(path, error))?;
+        }
+    }
+    Ok(())
+}
+
+fn discard_one(target: &Path, number: usize, names: Names, disk: &impl Disk) -> io::Result<()> {
+    disk.remove(&names.waiting(target, number))?;
+    disk.remove(&names.kept(target, number))
 }
 
 /// Gives a new file its name, unless somebody has changed the old one since.
 fn complete(step: &Step, target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
-    let new = new_name(target, number);
+    let new = Names::OfSet.waiting(target, number);
     if new.exists() && contents(target)? == step.old {
         disk.rename(&new, target)?;
     }
-    discard_one(target, number, disk)
+    discard_one(target, number, Names::OfSet, disk)
 }
 
 /// Brings an old file back, unless somebody has changed the new one since.
-fn undo(step: &Step, target: &Path, number: usize, disk: &impl Disk) -> io::Result<()> {
+fn undo(step: &Step, target: &Path, number: usize, names: Names, disk: &impl Disk) -> io::Result<()> {
     if contents(target)? == Some(step.new) {
-        let old = old_name(target, number);
+        let old = names.kept(target, number);
         if old.exists() {
             disk.rename(&old, target)?;
         } else if step.old.is_none() {
             disk.remove(target)?;
         }
     }
-    discard_one(target, number, disk)
+    discard_one(target, number, names, disk)
 }
 
 fn contents(path: &Path) -> io::Result<Option<u64>> {

@@ -153,19 +153,61 @@ pub(super) fn target(directory: &Path, path: &Path) -> io::Result<PathBuf> {
     Ok(target)
 }
 
-/// Where the new contents of the file with this number wait.
-pub(super) fn new_name(target: &Path, number: usize) -> PathBuf {
-    target.with_file_name(format!(".odgen-{number}.new"))
+/// The other names that files have while they are exchanged. Those of a set belong to its journal, which may lie in another
+/// directory; what stands for itself has names of its own, so that one can be cleared without harm to the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Names {
+    OfSet,
+    Alone,
 }
 
-/// A second name for the old contents.
-pub(super) fn old_name(target: &Path, number: usize) -> PathBuf {
-    target.with_file_name(format!(".odgen-{number}.old"))
+impl Names {
+    const NEW: &'static str = ".new";
+    const OLD: &'static str = ".old";
+
+    const fn prefix(self) -> &'static str {
+        match self {
+            Self::OfSet => ".odgen-",
+            Self::Alone => ".odgen-alone-",
+        }
+    }
+
+    /// Where the new contents of the file with this number wait.
+    pub(super) fn waiting(self, target: &Path, number: usize) -> PathBuf {
+        target.with_file_name(format!("{}{number}{}", self.prefix(), Self::NEW))
+    }
+
+    /// A second name for the old contents.
+    pub(super) fn kept(self, target: &Path, number: usize) -> PathBuf {
+        target.with_file_name(format!("{}{number}{}", self.prefix(), Self::OLD))
+    }
+
+    /// Whether this is the name of a file of this kind.
+    pub(super) fn has(self, name: &str) -> bool {
+        let number = name
+            .strip_prefix(self.prefix())
+            .and_then(|rest| rest.strip_suffix(Self::NEW).or_else(|| rest.strip_suffix(Self::OLD)));
+        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_of_one_kind_are_not_those_of_the_other() {
+        let target = Path::new("a/b");
+        for (names, other) in [(Names::OfSet, Names::Alone), (Names::Alone, Names::OfSet)] {
+            for path in [names.waiting(target, 10), names.kept(target, 0)] {
+                let name = path.file_name().unwrap().to_str().unwrap();
+                assert!(names.has(name) && !other.has(name), "{name}");
+            }
+        }
+        for name in [JOURNAL, ".odgen-files", ".odgen-alone-.new", ".odgen-alone-1.rs", "odgen-alone-1.new"] {
+            assert!(!Names::OfSet.has(name) && !Names::Alone.has(name), "{name}");
+        }
+    }
 
     #[test]
     fn contents_that_differ_have_numbers_that_differ() {

@@ -140,11 +140,16 @@ pub fn write_set(
     write_with(directory, artifacts, existing, &Real)
 }
 
-/// Replaces files by name, wherever they are. On an error all are as they were; a process that is killed leaves each file whole.
+/// Replaces files by name, wherever they are. On an error all are as they were; a process that is killed leaves each file whole, and
+/// what else it leaves is removed by the next that writes there.
 ///
 /// # Errors
 /// The first file that cannot be written.
 pub fn replace(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
+    replace_with(files, &Real)
+}
+
+fn replace_with(files: &[(PathBuf, Vec<u8>)], disk: &impl Disk) -> Result<(), WriteError> {
     let mut directories = BTreeSet::new();
     let mut targets = Vec::new();
     for (path, bytes) in files {
@@ -153,13 +158,16 @@ pub fn replace(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
         targets.push((file, bytes));
     }
     let _lock = Lock::take(&directories).map_err(|(path, error)| WriteError::io(path, error))?;
+    for directory in &directories {
+        exchange::sweep(directory, disk)?;
+    }
     let mut changes = Vec::new();
     for (file, bytes) in targets {
         changes.extend(
             Change::of(String::new(), file.clone(), bytes).map_err(|error| WriteError::io(file, error))?,
         );
     }
-    exchange(None, &changes, &Real)
+    exchange(None, &changes, disk)
 }
 
 /// Completes or undoes what a process that was killed began in a directory, if there is such a thing.
@@ -197,6 +205,7 @@ fn write_with(
     }
     let _lock = Lock::take(&directories).map_err(|(path, error)| WriteError::io(path, error))?;
     for directory in &directories {
+        exchange::sweep(directory, disk)?;
         exchange::recover(directory, disk)?;
     }
     let listed = mark::listed(directory);

@@ -331,6 +331,129 @@ fn files_by_name_are_all_replaced_or_none() {
     assert_eq!(tree(&scratch.0), trees(&[("a", "2"), ("b", "2")]));
 }
 
+/// Files in two directories, and what becomes of them.
+const BY_NAME: [&str; 4] = ["a", "x/b", "x/same", "y/c"];
+
+/// The files with the old text, of which some are to have a new one; the replacing was stopped at a step. Whether it was.
+fn stopped_by_name(at: usize, after: After) -> (Scratch, Vec<(PathBuf, Vec<u8>)>, bool) {
+    let scratch = Scratch::new("by-name");
+    for directory in ["x", "y"] {
+        fs::create_dir(scratch.0.join(directory)).unwrap();
+    }
+    let files = BY_NAME.map(|name| {
+        let path = scratch.0.join(name);
+        fs::write(&path, "old").unwrap();
+        (path, if name == "x/same" { b"old".to_vec() } else { b"new".to_vec() })
+    });
+    let disk = Faulty { left: Cell::new(at), after };
+    let stopped = replace_with(&files, &disk).is_err();
+    (scratch, files.to_vec(), stopped)
+}
+
+#[test]
+fn files_by_name_are_whole_wherever_the_process_is_killed() {
+    let (mut left, mut mixed) = (0, 0);
+    for at in 0.. {
+        let (scratch, files, killed) = stopped_by_name(at, After::Killed);
+        let texts: Vec<String> = files.iter().map(|(path, _)| fs::read_to_string(path).unwrap()).collect();
+        assert!(texts.iter().all(|text| text == "old" || text == "new"), "{at}: {texts:?}");
+        mixed += usize::from(texts[0] != texts[3]);
+        left += usize::from(tree(&scratch.0).len() > BY_NAME.len());
+        if !killed {
+            assert!(at > 15, "replacing has more steps than {at}");
+            break;
+        }
+        // The next run has other files, or nothing to do: in its directories nothing is left.
+        replace(&files[1..2]).unwrap();
+        let names = tree(&scratch.0.join("x")).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+        assert_eq!(names, ["b", "same"], "{at}");
+        // So does a set.
+        write_all(&scratch.0, &set(&[("y/d", "1")])).unwrap();
+        assert!(tree(&scratch.0).iter().all(|(path, _)| !path.contains(".odgen")), "{at}");
+    }
+    assert!(left > 10 && mixed > 0, "{left} {mixed}");
+}
+
+#[test]
+fn a_step_that_fails_brings_files_by_name_back() {
+    let (mut old, mut new) = (0, 0);
+    for at in 0.. {
+        let (_scratch, files, failed) = stopped_by_name(at, After::Alive);
+        let texts: Vec<String> = files.iter().map(|(path, _)| fs::read_to_string(path).unwrap()).collect();
+        match [texts[0].as_str(), &texts[1], &texts[2], &texts[3]] {
+            ["old", "old", "old", "old"] => old += 1,
+            // Once all have their names, what fails is only the tidying up.
+            ["new", "new", "old", "new"] => new += 1,
+            _ => panic!("{at}: {texts:?}"),
+        }
+        if !failed {
+            break;
+        }
+    }
+    assert!(old > 10 && new > 1, "{old} {new}");
+}
+
+/// What a set waits with belongs to its journal, and not to who replaces a file beside it.
+#[test]
+fn files_by_name_leave_a_set_that_was_stopped_to_its_journal() {
+    let mut sorted = trees(&NEW);
+    sorted.sort();
+    let mut completed = 0;
+    for at in 0.. {
+        let (scratch, killed) = stopped("beside", at, After::Killed);
+        if !killed {
+            break;
+        }
+        // As many files as the set has, so that their numbers are the same.
+        let others = ["sub/k", "sub/l", "sub/m"].map(|name| scratch.0.join(name));
+        replace(&others.clone().map(|path| (path, b"2".to_vec()))).unwrap();
+        for other in others {
+            assert_eq!(fs::read_to_string(&other).unwrap(), "2");
+            fs::remove_file(&other).unwrap();
+        }
+        recover(&scratch.0).unwrap();
+        let found = tree(&scratch.0);
+        assert!(found == trees(&OLD) || found == sorted, "{at}: {found:?}");
+        completed += usize::from(found == sorted);
+    }
+    assert!(completed > 5, "{completed}");
+}
+
+/// What belongs to its user from then on, as the specification of `odgen new`.
+#[test]
+fn a_first_file_is_whole_or_not_there_and_replaces_nothing() {
+    let plain = |text: &str| Artifact { bytes: text.as_bytes().to_vec(), ..artifact("valve.od.yaml", "") };
+    let (mut absent, mut present) = (0, 0);
+    for at in 0.. {
+        let scratch = Scratch::new("first");
+        let file = scratch.0.join("valve.od.yaml");
+        let disk = Faulty { left: Cell::new(at), after: After::Killed };
+        let killed = write_with(&scratch.0, &[plain("first text")], Existing::None, &disk).is_err();
+        if file.exists() {
+            assert_eq!(fs::read_to_string(&file).unwrap(), "first text", "{at}");
+        }
+        // The next one finishes what was as good as done, and then it is there.
+        let next = write_set(&scratch.0, &[plain("second text")], Existing::None);
+        let text = fs::read_to_string(&file).unwrap();
+        match next {
+            Ok(outcomes) => {
+                assert_eq!((text.as_str(), outcomes), ("second text", vec![Outcome::Changed]), "{at}");
+                absent += 1;
+            }
+            Err(error) => {
+                assert!(matches!(error.reason, Reason::Exists(_)), "{at}: {error}");
+                assert_eq!(text, "first text", "{at}");
+                present += 1;
+            }
+        }
+        assert_eq!(tree(&scratch.0).len(), 1, "{at}");
+        if !killed {
+            break;
+        }
+    }
+    assert!(absent > 3 && present > 3, "{absent} {present}");
+}
+
 #[test]
 fn writers_of_one_directory_take_turns() {
     let scratch = Scratch::new("turns");

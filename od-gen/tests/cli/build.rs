@@ -127,7 +127,9 @@ fn what_would_not_compile_is_refused_by_check_as_by_build() {
     scratch.file("large.od.yaml", format!("{head}{large}"));
     scratch
         .file("none.od.yaml", "od-spec: 1\ntitle: Lamp\ndevices:\n  lamp: {name: Lamp, bit-rates: [125]}\n");
-    for name in ["large.od.yaml", "none.od.yaml"] {
+    let many = "objects:\n  0x2000..0x2103: {name: \"bank {n}\", array: {count: 254, name: \"cell {n}\", type: unsigned8, access: ro}}\n";
+    scratch.file("many.od.yaml", format!("{head}{many}"));
+    for name in ["large.od.yaml", "none.od.yaml", "many.od.yaml"] {
         for arguments in [&["check", "--rust", name][..], &["build", "--rust", name]] {
             let output = odgen(&scratch.0, arguments);
             assert_eq!(code(&output), 1, "{}", stderr(&output));

@@ -12,17 +12,18 @@ use crate::source::{Span, Spanned};
 #[derive(Debug, Default)]
 pub(crate) struct PdosDecl {
     pub stored: Option<Spanned<Storage>>,
-    pub receive: Option<PdoParametersDecl>,
-    pub transmit: Option<PdoParametersDecl>,
+    /// Boxed: it is large, and most devices have none.
+    pub receive: Option<Box<PdoParametersDecl>>,
+    pub transmit: Option<Box<PdoParametersDecl>>,
     pub list: Vec<PdoDecl>,
 }
 
 impl PdosDecl {
     /// What is said about the parameters of all PDOs of a direction.
-    pub(crate) const fn parameters(&self, direction: Direction) -> Option<&PdoParametersDecl> {
+    pub(crate) fn parameters(&self, direction: Direction) -> Option<&PdoParametersDecl> {
         match direction {
-            Direction::Receive => self.receive.as_ref(),
-            Direction::Transmit => self.transmit.as_ref(),
+            Direction::Receive => self.receive.as_deref(),
+            Direction::Transmit => self.transmit.as_deref(),
         }
     }
 }

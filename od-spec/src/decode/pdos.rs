@@ -32,10 +32,15 @@ macro_rules! maps {
 }
 
 maps! {
-    PdoParametersDecl = parameters,
     PdoCommunicationDecl = communication,
     PdoMappingDecl = mapping,
     PdoParameterDecl = parameter,
+}
+
+impl Field for Option<Box<PdoParametersDecl>> {
+    fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
+        reader.child(key).map(|child| Box::new(parameters(child, diagnostics)))
+    }
 }
 
 /// A name, or a map with what is said about a parameter.

@@ -125,7 +125,7 @@ macro_rules! pdo_keys {
             "mapping": Shape::Choice(&["variable", "fixed"]) => mapping: Option<Spanned<MappingKind>>, "whether the mapping can be changed over the bus; variable unless given";
             "capacity": Shape::Integer(0, 64) => capacity: Option<Spanned<i128>>, "mapping entries the device offers; 64 / granularity unless given (granularity 0 counts as 1); only where the mapping is variable";
             "map" required: Shape::List(&Shape::Entry) => map: Vec<Name>, "mapped entries in order, by index or name, or data types as placeholders", "[statusword, 0x6064, drive data.error mask]";
-            "parameters": Shape::Map(&PDO_PARAMETERS) => parameters: Option<PdoParametersDecl>, "what its parameter objects have otherwise than those of the other PDOs";
+            "parameters": Shape::Map(&PDO_PARAMETERS) => parameters: Option<Box<PdoParametersDecl>>, "what its parameter objects have otherwise than those of the other PDOs";
             "about": Shape::Words => about: Words, "meaning";
         } }
     };

@@ -43,7 +43,7 @@ pub(super) struct Said {
 impl<'a> Described<'a> {
     pub(super) fn new(all: &'a PdosDecl, decl: &'a PdoDecl, usual: Storage) -> Self {
         Self {
-            layers: [decl.parameters.as_ref(), all.parameters(decl.direction)],
+            layers: [decl.parameters.as_deref(), all.parameters(decl.direction)],
             kept: Kept { said: all.stored, usual },
             direction: decl.direction,
             number: decl.number.value,

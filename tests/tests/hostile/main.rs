@@ -10,16 +10,13 @@ use od_spec::diag::render::{Findings, Format, render, sarif};
 use od_spec::source::SourceMap;
 use od_spec::visible::is_hidden;
 use od_spec::{Compiled, NoFiles, compile};
+use od_tests::plant::{Accepted, KeyName, TEXTS, accepted, compiled, planted, sites, text_keys};
 
 mod outputs;
-mod plant;
 
 use outputs::skeleton;
-use plant::{KeyName, planted, sites, text_keys};
 
-const TEXTS: &str = include_str!("../../shared/texts.od.yaml");
-
-/// Keys whose text is one of a fixed set or names a file, or that only libraries have.
+/// Keys whose text is one of a fixed set or the name of a file, or that only libraries have.
 const LIBRARIES: [KeyName; 7] = [
     ("a specification", "parts"),
     ("a state machine", "from"),
@@ -29,13 +26,6 @@ const LIBRARIES: [KeyName; 7] = [
     ("a feature", "needs"),
     ("an error code", "from"),
 ];
-
-fn compiled(text: &str) -> (SourceMap, Compiled) {
-    let mut sources = SourceMap::new();
-    let root = sources.add("texts\u{1b}[31m\n::error::.od.yaml", text);
-    let compiled = compile(&mut sources, root, &mut NoFiles);
-    (sources, compiled)
-}
 
 /// What a message shows, in every form.
 fn check_messages(sources: &SourceMap, compiled: &Compiled, complaints: &mut Vec<String>) {
@@ -87,62 +77,18 @@ fn a_text_stays_a_text_in_every_output() {
         ("\u{1b}[31m\u{1b}]0;x\u{7}\u{9b}2J\u{7f}\u{b}\r::error::x", 25),
         ("\u{202e}cba\u{2066}", 0),
     ] {
-        let mut chosen: Vec<usize> = (0..sites.len()).collect();
-        // What is refused is left out until the rest is accepted.
-        let (sources, accepted) = loop {
-            let (text, places) = planted(TEXTS, &sites, &chosen, payload);
-            let (sources, result) = compiled(&text);
-            check_messages(&sources, &result, &mut complaints);
-            if result.system.is_some() {
-                break (sources, result);
-            }
-            let refused: BTreeSet<usize> = result
-                .diagnostics
-                .iter()
-                .filter(|one| one.severity() == od_spec::diag::Severity::Error)
-                .flat_map(|one| &one.labels)
-                .flat_map(|label| {
-                    let (start, end) = (label.span.start as usize, label.span.end as usize);
-                    // Of a message about a key, everything below it.
-                    let line = block(&text, start);
-                    let exact: Vec<usize> = places
-                        .iter()
-                        .filter(|(place, _)| place.start < end.max(start + 1) && start < place.end)
-                        .map(|(_, at)| *at)
-                        .collect();
-                    if exact.is_empty() {
-                        places
-                            .iter()
-                            .filter(|(place, _)| line.contains(&place.start))
-                            .map(|(_, at)| *at)
-                            .collect()
-                    } else {
-                        exact
-                    }
-                })
-                .collect();
-            let refused = if refused.is_empty() {
-                // The message is about something else that has the text: each is tried alone.
-                let is_taken = |at: usize| {
-                    let (_, alone) = compiled(&planted(TEXTS, &sites, &[at], payload).0);
-                    alone.system.is_some()
-                };
-                chosen.iter().copied().filter(|at| !is_taken(*at)).collect()
-            } else {
-                refused
-            };
-            let before = chosen.len();
-            chosen.retain(|at| !refused.contains(at));
-            let messages = render(&result.diagnostics, &sources, Format::Short, false);
-            assert!(chosen.len() < before, "{payload:?}: {messages}");
+        let mut look = |sources: &SourceMap, compiled: &Compiled| {
+            check_messages(sources, compiled, &mut complaints);
         };
+        let Accepted { chosen, sources, compiled: result } =
+            accepted(TEXTS, &sites, payload, &mut look).unwrap();
         assert!(
             chosen.len() >= least,
             "{payload:?}: only {} of {} texts are taken",
             chosen.len(),
             sites.len()
         );
-        let found = skeleton(accepted.system.as_ref().unwrap(), &sources, &mut complaints);
+        let found = skeleton(result.system.as_ref().unwrap(), &sources, &mut complaints);
         // Harmless texts in the same places, with as many dots: these make a section one of a section.
         let harmless = format!("plain{}", ".".repeat(payload.matches('.').count()));
         let (sources, plain) = compiled(&planted(TEXTS, &sites, &chosen, &harmless).0);
@@ -155,16 +101,6 @@ fn a_text_stays_a_text_in_every_output() {
         }
     }
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
-}
-
-/// The line of a place, and those below it that are indented further.
-fn block(text: &str, at: usize) -> std::ops::Range<usize> {
-    let indent = |line: &str| line.len() - line.trim_start().len();
-    let start = text[..at].rfind('\n').map_or(0, |at| at + 1);
-    let mut lines = text[start..].split_inclusive('\n');
-    let first = lines.next().unwrap_or_default();
-    let below = lines.take_while(|line| indent(line) > indent(first)).map(str::len).sum::<usize>();
-    start..start + first.len() + below
 }
 
 #[test]

@@ -29,12 +29,22 @@ pub(crate) fn skeleton(system: &System, sources: &SourceMap, complaints: &mut Ve
         .map(|format| docs::Templates::new(Some(format), &[]).unwrap())
         .into_iter()
         .collect();
-    for file in docs::artifacts(system, "", "texts", &docs::options(system, &[], None), &templates).unwrap() {
+    let options = docs::options(system, &[], None);
+    for file in docs::artifacts(system, "", "texts", &options, &templates).unwrap() {
         let text = String::from_utf8(file.bytes.clone()).unwrap();
         let kind = file.path.rsplit('.').next().unwrap_or_default();
         match kind {
             "md" => markdown(&text, &mut count, complaints),
-            "html" => html(&text, &mut count),
+            "html" => {
+                html(&text, &mut count);
+                let shown = text.matches("data-copy=\".").count();
+                let device =
+                    system.devices.iter().find(|one| file.path.ends_with(&format!("/{}.html", one.key)));
+                let expected = device.map_or(0, |device| options.accessors[&device.key].len());
+                if shown != expected {
+                    complaints.push(format!("{}: {shown} accessors instead of {expected}", file.path));
+                }
+            }
             _ => (),
         }
         // JSON escapes what it has to; nobody shows that file.
@@ -145,8 +155,9 @@ fn html(text: &str, count: &mut impl FnMut(String)) {
             let end = rest.find(&format!("</{name}>")).unwrap();
             rest = &rest[end..];
         }
-        // Breaks and marks of a language belong to the text, and buttons to the names that code has; no text here holds one.
-        if !matches!(name.as_str(), "" | "br" | "span" | "/span" | "button" | "/button") {
+        // Breaks belong to the text. An accessor has a button of its own, where code can have the name at all.
+        let is_accessor = name == "button" && rest.starts_with("button type=\"button\" data-copy=\".");
+        if !matches!(name.as_str(), "" | "br" | "/button") && !is_accessor {
             count(format!("html {name}"));
         }
     }

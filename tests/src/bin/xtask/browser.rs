@@ -5,6 +5,7 @@ use od_gen::{Artifact, docs, json};
 use od_tests::generate::SPECS;
 use od_tests::{Failure, compile_clean, root};
 
+use crate::hostile;
 use crate::runner::Runner;
 
 /// The documents as their readers see them.
@@ -34,6 +35,7 @@ pub(crate) fn read_documents(runner: &mut Runner) -> Result<(), Failure> {
         write_all(&root().join(DOCS), &set)?;
         directories.extend([format!("{DOCS}/{stem}"), format!("{DOCS}/{stem}-asciidoc")]);
     }
+    directories.extend(hostile::documents(DOCS)?);
     let directories: Vec<&str> = directories.iter().map(String::as_str).collect();
     runner.python("tests/browser/run.py", &directories)
 }

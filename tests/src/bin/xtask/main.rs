@@ -6,6 +6,7 @@ mod arguments;
 mod browser;
 mod configured;
 mod corpus;
+mod hostile;
 mod package;
 mod parts;
 mod readers;

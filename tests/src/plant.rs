@@ -3,29 +3,118 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use od_spec::diag::Diagnostics;
+use od_spec::diag::{Diagnostics, Severity};
 use od_spec::keys::{KeyKind, Keys, SPEC, Shape};
 use od_spec::source::SourceMap;
 use od_spec::visible::visible_json;
 use od_spec::yaml::{Node, NodeKind, parse};
+use od_spec::{Compiled, NoFiles, compile};
+
+/// A specification in which every key that takes a text has one.
+pub const TEXTS: &str = include_str!("../shared/texts.od.yaml");
 
 /// A key of the language: what it is a key of, and its name.
-pub(crate) type KeyName = (&'static str, &'static str);
+pub type KeyName = (&'static str, &'static str);
 
 /// A text of the specification, wherever it stands: a name stands where it is given and where it is used.
 #[derive(Debug, Clone)]
-pub(crate) struct Site {
-    pub(crate) text: String,
-    pub(crate) keys: BTreeSet<KeyName>,
-    pub(crate) places: Vec<Range<usize>>,
+pub struct Site {
+    /// The text that stands there.
+    pub text: String,
+    /// The keys that it is given for.
+    pub keys: BTreeSet<KeyName>,
+    /// Where it stands.
+    pub places: Vec<Range<usize>>,
+}
+
+/// A specification with a payload in all places that take it.
+#[derive(Debug)]
+pub struct Accepted {
+    /// The numbers of these sites.
+    pub chosen: Vec<usize>,
+    /// What was compiled.
+    pub sources: SourceMap,
+    /// What came out; there is a model.
+    pub compiled: Compiled,
+}
+
+/// Compiles a specification whose name would command a terminal.
+#[must_use]
+pub fn compiled(text: &str) -> (SourceMap, Compiled) {
+    let mut sources = SourceMap::new();
+    let root = sources.add("texts\u{1b}[31m\n::error::.od.yaml", text);
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    (sources, compiled)
+}
+
+/// Plants a payload: what is refused is left out until the rest is accepted. Nothing, if that does not come to an end. What comes
+/// out on the way is shown to `look`.
+pub fn accepted(
+    text: &str,
+    sites: &[Site],
+    payload: &str,
+    look: &mut dyn FnMut(&SourceMap, &Compiled),
+) -> Option<Accepted> {
+    let mut chosen: Vec<usize> = (0..sites.len()).collect();
+    loop {
+        let (now, places) = planted(text, sites, &chosen, payload);
+        let (sources, result) = compiled(&now);
+        look(&sources, &result);
+        if result.system.is_some() {
+            return Some(Accepted { chosen, sources, compiled: result });
+        }
+        let mut refused = refused(&now, &places, &result.diagnostics);
+        if refused.is_empty() {
+            // The message is about something else that has the text: each is tried alone.
+            let is_taken = |at: usize| compiled(&planted(text, sites, &[at], payload).0).1.system.is_some();
+            refused = chosen.iter().copied().filter(|at| !is_taken(*at)).collect();
+        }
+        let before = chosen.len();
+        chosen.retain(|at| !refused.contains(at));
+        if chosen.len() == before {
+            return None;
+        }
+    }
+}
+
+/// The sites that errors are about.
+fn refused(text: &str, places: &[(Range<usize>, usize)], diagnostics: &Diagnostics) -> BTreeSet<usize> {
+    let errors = diagnostics.iter().filter(|one| one.severity() == Severity::Error);
+    let spans = errors.flat_map(|one| &one.labels).map(|label| label.span);
+    spans
+        .flat_map(|span| {
+            let (start, end) = (span.start as usize, span.end as usize);
+            let within = |wanted: &dyn Fn(&Range<usize>) -> bool| -> Vec<usize> {
+                places.iter().filter(|(place, _)| wanted(place)).map(|(_, at)| *at).collect()
+            };
+            let exact = within(&|place| place.start < end.max(start + 1) && start < place.end);
+            if !exact.is_empty() {
+                return exact;
+            }
+            // Of a message about a key, everything below it.
+            let block = block(text, start);
+            within(&|place| block.contains(&place.start))
+        })
+        .collect()
+}
+
+/// The line of a place, and those below it that are indented further.
+fn block(text: &str, at: usize) -> Range<usize> {
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let start = text[..at].rfind('\n').map_or(0, |at| at + 1);
+    let mut lines = text[start..].split_inclusive('\n');
+    let first = lines.next().unwrap_or_default();
+    let below = lines.take_while(|line| indent(line) > indent(first)).map(str::len).sum::<usize>();
+    start..start + first.len() + below
 }
 
 /// Every text of a specification, by the tables of keys.
-pub(crate) fn sites(text: &str) -> Vec<Site> {
+#[must_use]
+pub fn sites(text: &str) -> Vec<Site> {
     let mut sources = SourceMap::new();
     let id = sources.add("texts.od.yaml", text);
-    let root = parse(id, sources.file(id), &mut Diagnostics::new()).unwrap();
     let mut sites = Vec::new();
+    let Some(root) = parse(id, sources.file(id), &mut Diagnostics::new()) else { return sites };
     walk_map(&root, &SPEC, &mut sites);
     let mut scalars = Vec::new();
     all(&root, &mut scalars);
@@ -37,7 +126,8 @@ pub(crate) fn sites(text: &str) -> Vec<Site> {
 }
 
 /// The keys that take a text.
-pub(crate) fn text_keys() -> BTreeSet<KeyName> {
+#[must_use]
+pub fn text_keys() -> BTreeSet<KeyName> {
     fn keys(table: &'static Keys, seen: &mut BTreeSet<&'static str>, found: &mut BTreeSet<KeyName>) {
         if seen.insert(table.name) {
             for key in table.keys {
@@ -70,8 +160,17 @@ pub(crate) fn text_keys() -> BTreeSet<KeyName> {
     found
 }
 
+/// What stands at a site instead of its text: the payload with the number of the site, and the placeholders that the text has.
+#[must_use]
+pub fn text_at(sites: &[Site], at: usize, payload: &str) -> String {
+    let text = &sites[at].text;
+    let placeholders: String = ["{n}", "{pdo}"].into_iter().filter(|one| text.contains(one)).collect();
+    format!("{payload} {at} {placeholders}").trim_end().to_owned()
+}
+
 /// The text with a payload at some sites, each with its number, and where the payloads stand.
-pub(crate) fn planted(
+#[must_use]
+pub fn planted(
     text: &str,
     sites: &[Site],
     chosen: &[usize],
@@ -86,9 +185,7 @@ pub(crate) fn planted(
     for (place, at) in places {
         out.push_str(&text[end..place.start]);
         let start = out.len();
-        let placeholders: String =
-            ["{n}", "{pdo}"].into_iter().filter(|one| sites[at].text.contains(one)).collect();
-        let quoted = serde_json::to_string(&format!("{payload} {at} {placeholders}").trim_end()).unwrap();
+        let quoted = serde_json::Value::from(text_at(sites, at, payload)).to_string();
         out.push_str(&visible_json(&quoted));
         now.push((start..out.len(), at));
         end = place.end;

@@ -1,0 +1,121 @@
+// Opens documents whose texts try to command the browser, beside the same ones with plain texts, and uses them: they have the
+// same elements and attributes, no script of a text runs, and each text is shown letter by letter where the plain one is.
+//
+//   node hostile.mjs DOCS CHROMIUM
+import { readFileSync, readdirSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const [docs, executablePath] = process.argv.slice(2).map((path) => resolve(path));
+const texts = Object.entries(JSON.parse(readFileSync(join(docs, "hostile.json"))));
+
+let passed = 0;
+const failures = [];
+const check = (holds, text) => { if (holds) passed += 1; else failures.push(text); };
+const same = (found, expected, text) => {
+  const [a, b] = [JSON.stringify(found), JSON.stringify(expected)];
+  check(a === b, `${text}: ${a?.slice(0, 300)} instead of ${b?.slice(0, 300)}`);
+};
+
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 } });
+const open = async (path) => {
+  const page = await browserContext.newPage();
+  page.on("console", (message) => failures.push(`${path}: console: ${message.text()}`));
+  page.on("pageerror", (error) => failures.push(`${path}: ${error.message}`));
+  page.on("dialog", (dialog) => { failures.push(`${path}: dialog: ${dialog.message()}`); dialog.dismiss(); });
+  page.on("request", (request) => {
+    if (!request.url().endsWith(path)) failures.push(`${path} asks for ${request.url()}`);
+  });
+  await page.goto(pathToFileURL(join(docs, path)).href);
+  return page;
+};
+
+// What a page is made of: how often each element stands there with which attributes, what handlers and targets these name,
+// what its own scripts and styles say, and the texts.
+const parts = (page) => page.evaluate(() => {
+  const elements = {}, handlers = [], targets = [];
+  for (const one of document.querySelectorAll("*")) {
+    // Where code cannot have the name of an entry, there is no accessor to copy.
+    if (one.matches("button[data-copy^='.']")) continue;
+    if (one.localName !== "br") {
+      const name = `${one.localName} ${one.getAttributeNames().sort().join(" ")}`;
+      elements[name] = (elements[name] ?? 0) + 1;
+    }
+    for (const { name, value } of one.attributes) {
+      if (name.startsWith("on")) handlers.push(`${one.localName} ${name}=${value}`);
+      if (["href", "src", "action", "formaction", "xlink:href"].includes(name)) targets.push(value);
+    }
+  }
+  const shown = [document.title];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const blocks = "address,article,body,caption,dd,div,dt,figcaption,figure,footer,h1,h2,h3,h4,header,li,main,nav,ol,option,p,section,table,td,text,th,title,tr,ul";
+  let last;
+  while (walker.nextNode()) {
+    const { parentElement, data } = walker.currentNode;
+    if (parentElement.closest("script, style")) continue;
+    // Parts of a sentence are joined, those of different blocks are not.
+    const block = parentElement.closest(blocks);
+    if (block === last) shown[shown.length - 1] += data; else shown.push(data);
+    last = block;
+  }
+  return {
+    elements: Object.entries(elements).sort(([a], [b]) => (a < b ? -1 : 1)), handlers, targets,
+    scripts: [...document.scripts].map((one) => one.textContent),
+    text: shown.join("\n").replace(/[ \t]+/g, " "),
+  };
+});
+const times = (text, part) => text.split(part).length - 1;
+// `plain 1` is not the beginning of `plain 12`.
+const shows = (text, plain) => new RegExp(`${plain.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(?!\\d)`).test(text);
+
+const seen = new Set();
+for (const name of readdirSync(join(docs, "hostile")).filter((file) => file.endsWith(".html")).sort()) {
+  const clean = await open(`plain/${name}`);
+  const expected = await parts(clean);
+  await clean.close();
+  const page = await open(`hostile/${name}`);
+  const found = await parts(page);
+  same(found.elements.filter(([element, count]) => !expected.elements.some(([one, times]) => one === element && times === count)),
+    [], `${name}: other elements than with plain texts`);
+  same(found.elements.length, expected.elements.length, `${name}: kinds of elements`);
+  same(found.handlers, expected.handlers, `${name}: handlers`);
+  same(found.scripts, expected.scripts, `${name}: scripts`);
+  const odd = found.targets.filter((target) => !/^([\w.-]+\.html)?(#|$)/.test(target));
+  same(odd, [], `${name}: links`);
+  for (const [plain, text] of texts.filter(([plain]) => shows(expected.text, plain))) {
+    seen.add(plain);
+    check(times(found.text, text) > 0, `${name}: does not show ${text}`);
+  }
+
+  // The pointer over everything, the focus on everything, and what is copied, searched for and filtered by.
+  await page.evaluate(() => {
+    for (const one of document.querySelectorAll("*")) {
+      for (const kind of ["mouseover", "mouseenter", "focus", "pointerover"]) one.dispatchEvent(new Event(kind));
+    }
+    for (const one of document.querySelectorAll("a, button, input, select, [tabindex]")) one.focus();
+    for (const one of document.querySelectorAll("button")) one.click();
+    for (const link of document.querySelectorAll("a[href^='#']")) link.click();
+  });
+  for (const [, text] of texts.slice(0, 5)) {
+    await page.fill("#ui_search", text);
+    await page.press("#ui_search", "Enter");
+  }
+  for (const [select, value] of await page.$$eval("select[data-filter] option", (all) => all.map((one) => [one.parentElement.dataset.filter, one.value]))) {
+    await page.selectOption(`select[data-filter=${select}]`, value);
+  }
+  await page.waitForTimeout(200);
+  same(await page.evaluate(() => window.__hostile), undefined, `${name}: a text ran`);
+  same((await parts(page)).handlers, expected.handlers, `${name}: handlers after its use`);
+  same((await parts(page)).elements.map(([element]) => element.split(" ")[0]).filter((one) => !expected.elements.some(([element]) => element.split(" ")[0] === one)),
+    [], `${name}: new kinds of elements after its use`);
+  await page.close();
+}
+check(seen.size >= 40, `only ${seen.size} of ${texts.length} texts are shown`);
+await browser.close();
+
+for (const failure of failures.slice(0, 40)) console.error(`FAILED ${failure}`);
+console.log(`${seen.size} of ${texts.length} texts are shown`);
+console.log(`${passed} passed, ${failures.length} failed`);
+process.exit(failures.length ? 1 : 0);
