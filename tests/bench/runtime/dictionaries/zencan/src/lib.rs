@@ -25,11 +25,6 @@ pub mod gappy2000 {
     include!(concat!(env!("OUT_DIR"), "/gappy2000/dictionary.rs"));
 }
 
-#[cfg(feature = "gappy10000")]
-pub mod gappy10000 {
-    include!(concat!(env!("OUT_DIR"), "/gappy10000/dictionary.rs"));
-}
-
 #[cfg(feature = "pmc")]
 pub mod pmc {
     include!(concat!(env!("OUT_DIR"), "/pmc/dictionary.rs"));
