@@ -7,7 +7,9 @@ use super::texts::{PITCH, in_one_file};
 use super::{model, written};
 
 /// A device, the specification that it is in, and where a library says more than that.
-const DEVICES: [(&str, fn() -> String, &[&str]); 4] = [
+type Shipped = (&'static str, fn() -> String, &'static [&'static str]);
+
+const DEVICES: [Shipped; 4] = [
     ("pmm", || PITCH.clone(), &["1003h.1: meaning"]),
     ("pmc", || PITCH.clone(), &["1003h.1: meaning", "6067h: special", "6865h: special"]),
     ("fullmo", || in_one_file("fullmo-drive"), &[]),
