@@ -204,6 +204,10 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub docs: Vec<DocsFormat>,
 
+    /// Remove what odgen made there before and this command does not make
+    #[arg(long, conflicts_with = "device")]
+    pub prune: bool,
+
     /// Replace files of these names that odgen did not make
     #[arg(long)]
     pub force: bool,
