@@ -143,6 +143,16 @@ macro_rules! unit {
         #[repr(transparent)]
         pub struct $name<__T>(pub __T);
 
+        $crate::quantity! { $name = $symbol, scale $n / $d, step $sn / $sd of $base }
+    };
+}
+
+/// Makes a newtype around any raw integer a unit.
+#[macro_export]
+macro_rules! quantity {
+    (
+        $name:ident = $symbol:literal, scale $n:literal / $d:literal, step $sn:literal / $sd:literal of $base:ident
+    ) => {
         impl<__T: $crate::quantity::Raw> $crate::Quantity for $name<__T> {
             const SYMBOL: &'static str = $symbol;
             const SCALE: $crate::quantity::Fraction =

@@ -57,6 +57,7 @@ use crate::source::{FileLoader, compile_file};
 ///
 /// Cargo runs the script again when the specification, or a library file that it uses, has changed, and for no other reason.
 #[derive(Debug, Clone)]
+#[must_use = "it makes nothing before `generate` or `try_generate` is called"]
 pub struct Builder {
     specification: PathBuf,
     devices: Vec<String>,
@@ -97,14 +98,12 @@ impl Builder {
     }
 
     /// Only this device, by its key; may be called for several. Without it, all.
-    #[must_use]
     pub fn device(mut self, key: impl Into<String>) -> Self {
         self.devices.push(key.into());
         self
     }
 
     /// The directory for the modules; cargo's `OUT_DIR` unless given.
-    #[must_use]
     pub fn out_dir(mut self, directory: impl Into<PathBuf>) -> Self {
         self.out = Some(directory.into());
         self
@@ -112,7 +111,6 @@ impl Builder {
 
     /// Leaves the modules as one long line each. Formatting takes most of the time of a build script, which cargo compiles
     /// without optimisation: three fifths of it, whatever the size. It is well spent where people read the code.
-    #[must_use]
     pub fn unformatted(mut self) -> Self {
         self.unformatted = true;
         self

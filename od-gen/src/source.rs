@@ -40,7 +40,11 @@ pub fn compile_file_as(
     sources: &mut SourceMap,
     loader: &mut FileLoader,
 ) -> Compiled {
-    match open(path, sources) {
+    match open(
+        path,
+        "check the path; what is read are specifications (`*.od.yaml`), EDS and DCF files",
+        sources,
+    ) {
         Ok(root) => {
             loader.read.push(path.to_owned());
             compile_as(strictness, sources, root, loader)
@@ -116,12 +120,15 @@ pub fn specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-fn open(path: &Path, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>> {
+/// Adds a file to what messages have their places in.
+///
+/// # Errors
+/// It cannot be read, which has the `help`, or is no text.
+pub fn open(path: &Path, help: &str, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>> {
     let name = path.display().to_string();
     let bytes = read_bytes(path).map_err(|reason| {
         Box::new(
-            Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}"))
-                .help("check the path; what is read are specifications (`*.od.yaml`), EDS and DCF files"),
+            Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}")).help(help),
         )
     })?;
     add_source(sources, &name, bytes)

@@ -12,8 +12,10 @@
 //! The macro compiles the specification every time the crate is compiled. It needs no `syn` and no formatter, so that it
 //! builds quickly.
 
+use std::collections::BTreeSet;
 use std::env;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use od_gen::{Expansion, expand};
 use proc_macro::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
@@ -99,7 +101,7 @@ impl Arguments {
                 if read.is_empty() { "\nnote: the path starts at the directory of Cargo.toml" } else { "" };
             out.extend(compile_error(&format!("{error}{hint}"), self.span));
         }
-        for warning in warnings {
+        for warning in warnings.into_iter().filter(|warning| is_new(warning)) {
             out.extend(self.warning(&warning));
         }
         // `include_bytes!` makes the compiler watch a file.
@@ -125,6 +127,13 @@ impl Arguments {
         };
         respan(tokens.into(), self.span)
     }
+}
+
+/// Whether a warning was not given yet in this crate, for another device of the same specification: the compiler is a process for
+/// each crate. Errors are always given, as what the macro stands for is missing without them.
+fn is_new(warning: &str) -> bool {
+    static GIVEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    GIVEN.lock().unwrap_or_else(PoisonError::into_inner).insert(warning.to_owned())
 }
 
 fn is_punct(token: &TokenTree, sign: char) -> bool {

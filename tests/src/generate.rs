@@ -5,6 +5,7 @@ use std::fs;
 
 use od_gen::diff::{Question, Scope, compare, human};
 use od_gen::docs::{self, Templates};
+use od_gen::files::{left_over, remove};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::Diagnostics;
@@ -92,6 +93,28 @@ pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
         report.push((path, changed));
     }
     Ok(report)
+}
+
+/// Generated files that nothing makes any more.
+///
+/// # Errors
+/// As [`all`], or a file cannot be read.
+pub fn left() -> Result<Vec<String>, Failure> {
+    let files = shipped()?.into_iter().map(|(path, bytes)| {
+        let path = path.trim_start_matches("generated/").to_owned();
+        Artifact { path, bytes, purpose: String::new() }
+    });
+    Ok(left_over(&root().join("generated"), &files.collect::<Vec<_>>())?)
+}
+
+/// Removes what was generated before and is not any more; tells which files.
+///
+/// # Errors
+/// As [`left`], or a file cannot be removed.
+pub fn prune() -> Result<Vec<String>, Failure> {
+    let left = left()?;
+    remove(&root().join("generated"), &left)?;
+    Ok(left)
 }
 
 /// The first of these files that is not current, with its first differing line.

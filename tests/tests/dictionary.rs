@@ -474,8 +474,13 @@ fn every_data_type_is_read_and_written() {
     assert_eq!(format!("{:?}", od.a_mode()), "mode: reverse (-1)");
     let flags = od.some_flags();
     assert!(flags.run() && flags.alarm() && flags.speed() == everything::types::Flags::SPEED_SLOW);
-    assert_eq!(flags.with_speed(everything::types::Flags::SPEED_FAST).with_alarm(false).0, 0x000F);
-    assert_eq!(format!("{:?}", flags.with_speed(7)), "flags: 0x800f (run, speed = 7, alarm)");
+    let fast = flags.with_speed(everything::types::Flags::SPEED_FAST).unwrap();
+    assert_eq!(fast.with_alarm(false).0, 0x000F);
+    const { assert!(everything::types::Flags(0).with_speed(7).unwrap().0 == 0x000E) };
+    assert_eq!(format!("{:?}", flags.with_speed(7).unwrap()), "flags: 0x800f (run, speed = 7, alarm)");
+    // Three bits hold no 8, and none of its bits are lost in silence.
+    assert_eq!(flags.with_speed(8), None);
+    assert_eq!(flags.with_speed(u8::MAX), None);
     assert_eq!(od.waermetauscher_groesse(), Special::Value(everything::units::Decicelsius(-125)));
     assert_eq!(format!("{:?}", od.waermetauscher_groesse()), "-12.5 °C");
     assert_eq!(

@@ -303,10 +303,11 @@ fn table_1_controlwords_of_profile_position() {
 fn sensors_of_homing_and_relative_positioning() {
     let sensors = HomingSensors(0)
         .with_home_switch(HomingSensors::HOME_SWITCH_INPUT_1)
-        .with_left_limit_switch(HomingSensors::LEFT_LIMIT_SWITCH_INPUT_2)
-        .with_right_limit_switch(HomingSensors::RIGHT_LIMIT_SWITCH_INPUT_3);
+        .and_then(|sensors| sensors.with_left_limit_switch(HomingSensors::LEFT_LIMIT_SWITCH_INPUT_2))
+        .and_then(|sensors| sensors.with_right_limit_switch(HomingSensors::RIGHT_LIMIT_SWITCH_INPUT_3))
+        .unwrap();
     assert_eq!(raw(|od| od.set_touch_probe_function(sensors), 0x60B8, 0), 0x0321_u16.to_le_bytes());
-    let actual = RelativePositioningOption(0).with_relative_to(2);
+    let actual = RelativePositioningOption(0).with_relative_to(2).unwrap();
     assert_eq!(raw(|od| od.set_positioning_option_code(actual), 0x60F2, 0), 2_u16.to_le_bytes());
     assert_eq!(raw(|od| od.set_modes_of_operation(DriveMode::HOMING_MODE), 0x6060, 0), [6]);
 }

@@ -8,6 +8,7 @@
 mod disk;
 mod exchange;
 mod journal;
+mod left;
 mod lock;
 mod mark;
 mod names;
@@ -18,6 +19,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 pub use self::exchange::Recovered;
+pub use self::left::{left_over, remove};
 pub use self::names::{clash, name_problem};
 
 use self::disk::{Disk, Real};

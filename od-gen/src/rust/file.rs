@@ -62,7 +62,9 @@ pub fn file(
         }
     };
     let code = space_out(&prettyplease::unparse(&parsed));
-    // The compiler shows the line when the file was made for another layout of `firmware-glue`.
+    // The compiler shows these lines: when there is no `firmware-glue`, and when the file was made for another layout of it.
+    let code =
+        code.replacen("as firmware;", "as firmware; // An error here? Add `firmware-glue` to the dependencies.", 1);
     let code = code.replacen("as glue;", "as glue; // An error here? Generate this file again.", 1);
     Some(header(device, provenance) + &code)
 }
@@ -89,8 +91,8 @@ fn header(device: &Dictionary, provenance: &Provenance) -> String {
 fn space_out(code: &str) -> String {
     let indent = |line: &str| line.len() - line.trim_start().len();
     let starts_item = |line: &str| {
-        const STARTS: [&str; 10] =
-            ["///", "#[", "pub ", "impl", "static ", "const ", "fn ", "mod ", "::firmware_glue::", "use "];
+        // A macro completes the item before it.
+        const STARTS: [&str; 9] = ["///", "#[", "pub ", "impl", "static ", "const ", "fn ", "mod ", "use "];
         STARTS.iter().any(|start| line.trim_start().starts_with(start))
     };
     let ends_item = |line: &str| line.ends_with('}') || line.ends_with(';');

@@ -138,3 +138,45 @@ fn what_would_not_compile_is_refused_by_check_as_by_build() {
         assert_eq!(code(&odgen(&scratch.0, &["check", name])), 0);
     }
 }
+
+#[test]
+fn what_is_no_longer_made_is_named_and_removed_when_that_is_wanted() {
+    let scratch = Scratch::new("prune");
+    let second = LAMP
+        .replace("objects:\n", "objects:\n  0x2001: {name: hue, type: unsigned8, access: ro, on: [spot]}\n")
+        .replace(
+            "units:\n",
+            "  spot: {name: Spot, bit-rates: [125], features: [heartbeat producer]}\nunits:\n",
+        );
+    scratch.file("lamp.od.yaml", &second);
+    let build = |more: &[&str]| {
+        let output =
+            odgen(&scratch.0, &[&["build", "lamp.od.yaml", "--out", "out", "--node", "5"], more].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stdout(&output).lines().skip_while(|line| !line.contains("unchanged")).skip(1).collect::<String>()
+    };
+    assert_eq!(build(&["--rust", "--docs", "md"]), "");
+    // Not made by a build: a node's DCF, a file of the user's, and what the mark is missing in.
+    let dcf = ["dcf", "lamp.od.yaml", "--device", "lamp", "--node", "7", "--out", "out/eds/lamp-7.dcf"];
+    assert_eq!(code(&odgen(&scratch.0, &dcf)), 0);
+    for (path, text) in [("out/src/lib.rs", "pub mod lamp;\n"), ("out/eds/own.eds", "[FileInfo]\n")] {
+        fs::write(scratch.0.join(path), text).unwrap();
+    }
+    scratch.file("lamp.od.yaml", LAMP);
+    let before = files(&scratch.0.join("out"));
+    // What was not asked for this time, is not spoken of.
+    assert_eq!(build(&["--device", "lamp"]), "");
+    assert_eq!(
+        build(&[]),
+        "  made before, and not by this command: out/eds/spot.dcf, out/eds/spot.eds; `--prune` removes it"
+    );
+    assert_eq!(files(&scratch.0.join("out")), before);
+    let removed = build(&["--rust", "--docs", "md", "--prune"]);
+    assert!(
+        removed.contains("out/docs/lamp/spot.md, out/eds/spot.dcf, out/eds/spot.eds, out/src/spot.rs"),
+        "{removed}"
+    );
+    let kept = before.iter().filter(|path| !path.contains("spot."));
+    assert_eq!(files(&scratch.0.join("out")), kept.cloned().collect::<Vec<_>>());
+    assert_eq!(build(&["--rust", "--docs", "md"]), "");
+}

@@ -63,6 +63,62 @@ fn dcf_refuses_what_the_device_would_refuse() {
 }
 
 #[test]
+fn a_sub_index_is_written_as_in_the_language_as_in_an_eds_or_behind_a_colon() {
+    let scratch = Scratch::new("sub-index");
+    let run = |setting: &str| {
+        let start = ["--format", "short", "dcf", PITCH, "--device", "pmc", "--node", "5", "--set"];
+        let output = odgen(&scratch.0, &[&start[..], &[setting]].concat());
+        (code(&output), stderr(&output))
+    };
+    let written = || fs::read(scratch.0.join("pmc-5.dcf")).unwrap();
+    assert_eq!(run("607D.2=9500").0, 0);
+    let expected = written();
+    for same in [
+        "607Dsub2=9500",
+        "607dSub02=9500",
+        "0x607D:2=9500",
+        "607Dh:02=9500",
+        "607Dh:0x2=9500",
+        "607D:2h=9500",
+    ] {
+        assert_eq!(run(same), (0, String::new()), "{same}");
+        assert_eq!(written(), expected, "{same}");
+    }
+    // In an EDS sub-indices are hexadecimal; behind a colon they are either.
+    for (text, sub) in [("6510sub0A=1", "6510h.10"), ("6510.10=1", "6510h.10"), ("6510:0A=1", "6510h.10")] {
+        assert!(run(text).1.contains(sub), "{:?}", run(text));
+    }
+    let (code, said) = run("6510:10=1");
+    assert_eq!(code, 1);
+    assert_snapshot!(said);
+}
+
+#[test]
+fn settings_come_from_files_with_their_places() {
+    let scratch = Scratch::new("set-file");
+    scratch.file("lamp.od.yaml", LAMP);
+    scratch.file("lamps.txt", "# The lamp in the hall.\r\n\r\n  brightness = 60 %\r\n");
+    let run = |more: &[&str]| {
+        let start = ["--format", "short", "dcf", "lamp.od.yaml", "--node", "5", "--set-file", "lamps.txt"];
+        let output = odgen(&scratch.0, &[&start[..], more].concat());
+        (code(&output), stderr(&output))
+    };
+    assert_eq!(run(&[]), (0, String::new()));
+    let dcf = fs::read_to_string(scratch.0.join("lamp-5.dcf")).unwrap();
+    assert!(dcf.contains("ParameterValue=60\r\n"), "{dcf}");
+    // A setting of the command line does not silently win over one of a file.
+    assert_snapshot!("set_in_a_file_and_on_the_command_line", run(&["--set", "2000=70"]).1);
+    scratch.file("more.txt", "# Too bright.\n1017 = 1000\n  2000=120 %");
+    scratch.file("lamps.txt", "");
+    assert_snapshot!("set_in_a_file", run(&["--set-file", "more.txt"]).1);
+    let (code, said) = run(&["--set-file", "none.txt"]);
+    assert_eq!(code, 1);
+    assert!(said.starts_with("error[OD0101]: cannot read none.txt: no such file"), "{said}");
+    let (code, said) = run(&["--out", "lamps.txt"]);
+    assert_eq!((code, said.contains("cannot write `lamps.txt`: the DCF is made from this file")), (1, true));
+}
+
+#[test]
 fn dcf_refuses_names_that_a_line_cannot_hold() {
     let scratch = Scratch::new("names");
     let run = |option: &str, name: &str| {

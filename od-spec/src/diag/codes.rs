@@ -145,7 +145,7 @@ codes! {
     BAD_NODE_ID Error "OD0701" "not a node-ID":
         "Node-IDs are 1 to 127."
     BAD_ASSIGNMENT Error "OD0702" "a parameter setting that cannot be understood":
-        "A setting is `ENTRY=VALUE`: the entry by index (`607D.2`, hexadecimal) or by name, the value as the specification writes it."
+        "A setting is `ENTRY=VALUE`: the entry by index (`607D.2`, or as in an EDS `607Dsub2`; the index is hexadecimal) or by name, the value as the specification writes it. Behind a colon (`607D:2`) some tools count in decimal and others in hexadecimal: a sub-index that is not the same in both is refused there."
     BIT_RATE_UNSUPPORTED Error "OD0706" "a bit rate that the device does not support":
         "The device's `bit-rates:` do not list the requested one."
     SET_TWICE Error "OD0708" "a parameter that is set twice":

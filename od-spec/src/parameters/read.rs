@@ -112,16 +112,28 @@ impl<'a> Entries<'a> {
         suggestions: &mut Suggestions,
     ) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {
         let device = self.device;
-        let id = self.lookup.find(name, suggestions).map_err(|nearest| {
-            let diagnostic = Diagnostic::new(
-                codes::UNKNOWN_ENTRY,
-                span,
-                format!("`{}` has no entry `{name}`", device.key),
-            );
-            Box::new(match nearest {
-                Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-                None => diagnostic
-                    .help("write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"),
+        let id = self.lookup.find(name, suggestions).map_err(|why| {
+            Box::new(match why {
+                resolve::NotFound::Unknown { nearest } => {
+                    let message = format!("`{}` has no entry `{name}`", device.key);
+                    let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, span, message);
+                    match nearest {
+                        Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+                        None => diagnostic.help(
+                            "write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`",
+                        ),
+                    }
+                }
+                resolve::NotFound::Ambiguous { decimal, hexadecimal } => Diagnostic::new(
+                    codes::BAD_ASSIGNMENT,
+                    span,
+                    format!(
+                        "sub-index {0} is {0} in decimal and {1} in hexadecimal, and behind a colon both are usual",
+                        decimal.sub, hexadecimal.sub
+                    ),
+                )
+                .help(format!("write `{0}.{1}` for sub-index {1}, or `{0}.{2}` for sub-index {2}",
+                    format_args!("{:04X}", decimal.index.0), decimal.sub, hexadecimal.sub)),
             })
         })?;
         device.entry(id).map(|entry| (id, entry)).ok_or_else(|| {

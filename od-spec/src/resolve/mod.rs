@@ -31,8 +31,8 @@ use crate::source::Span;
 
 use libraries::Libraries;
 use numbers::to_u32;
-pub(crate) use refs::Lookup;
 use refs::NamesOf;
+pub(crate) use refs::{Lookup, NotFound};
 use scope::Scope;
 
 /// What a specification gives.

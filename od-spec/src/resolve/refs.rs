@@ -289,8 +289,8 @@ impl<'a> NamesOf<'a> {
     }
 }
 
-/// Finds entries of a complete dictionary by the text of a reference: `607A`, `0x607Ah`, `30FA.3` (index in hexadecimal)
-/// or a name.
+/// Finds entries of a complete dictionary by the text of a reference: `607A`, `0x607Ah`, `30FA.3` (index in hexadecimal),
+/// `30FAsub3`, `30FA:3` or a name.
 pub(crate) struct Lookup<'a> {
     dictionary: &'a Dictionary,
     names: OnceCell<Names<'a>>,
@@ -303,19 +303,27 @@ impl<'a> Lookup<'a> {
         Self { dictionary, names: OnceCell::new(), alike: OnceCell::new() }
     }
 
-    /// The entry; `Err` holds the nearest name, if there is one.
-    pub(crate) fn find(&self, text: &str, suggestions: &mut Suggestions) -> Result<EntryId, Option<String>> {
-        if let Some(id) = hex_reference(text).filter(|id| self.dictionary.entry(*id).is_some()) {
+    /// The entry.
+    pub(crate) fn find(&self, text: &str, suggestions: &mut Suggestions) -> Result<EntryId, NotFound> {
+        let by_index = hex_reference(text);
+        if let Some(HexReference::Entry(id)) = by_index
+            && self.dictionary.entry(id).is_some()
+        {
             return Ok(id);
         }
         let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
         if let Some(id) = names.get(text) {
             return Ok(id);
         }
+        if let Some(HexReference::Ambiguous { decimal, hexadecimal }) = by_index {
+            return Err(NotFound::Ambiguous { decimal, hexadecimal });
+        }
         // A person at a command line does not care for capitals, as long as it is clear what is meant.
         match self.alike(names).get(&text.to_lowercase()) {
             Some(Some(id)) => Ok(*id),
-            _ => Err(suggestions.nearest(text, names.all()).map(ToOwned::to_owned)),
+            _ => Err(NotFound::Unknown {
+                nearest: suggestions.nearest(text, names.all()).map(ToOwned::to_owned),
+            }),
         }
     }
 
@@ -334,15 +342,60 @@ impl<'a> Lookup<'a> {
     }
 }
 
-/// `607A`, `0x607A`, `607Ah`, with `.3`; the index is always hexadecimal.
-fn hex_reference(text: &str) -> Option<EntryId> {
-    let (object, sub) = match text.split_once('.') {
-        Some((object, sub)) => (object, crate::scalar::integer(sub).ok()?),
-        None => (text, 0),
+/// Why [`Lookup`] finds no entry.
+pub(crate) enum NotFound {
+    /// Nothing has that index or name; the nearest name, if there is one.
+    Unknown { nearest: Option<String> },
+    /// The sub-index is another number to those who count in hexadecimal.
+    Ambiguous { decimal: EntryId, hexadecimal: EntryId },
+}
+
+/// What a reference by index says.
+#[derive(Clone, Copy)]
+enum HexReference {
+    Entry(EntryId),
+    Ambiguous { decimal: EntryId, hexadecimal: EntryId },
+}
+
+/// `607A`, `0x607A`, `607Ah`; the index is always hexadecimal. A sub-index follows as `.3`, a number as the language writes it; as
+/// `sub3`, in hexadecimal as in an EDS; or as `:3`, which some tools count in decimal and others in hexadecimal.
+fn hex_reference(text: &str) -> Option<HexReference> {
+    let text = text.to_ascii_lowercase();
+    let entry = |object: &str, sub: u8| {
+        let digits = object.strip_prefix("0x").unwrap_or(object);
+        let digits = digits.strip_suffix('h').unwrap_or(digits);
+        let index = u16::try_from(hexadecimal(digits, 4)?).ok()?;
+        Some(EntryId { index: Index(index), sub: SubIndex(sub) })
     };
-    let digits = object.strip_prefix("0x").or_else(|| object.strip_prefix("0X")).unwrap_or(object);
-    let digits = digits.strip_suffix(['h', 'H']).unwrap_or(digits);
-    let hex = (1..=4).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let index = u16::from_str_radix(digits, 16).ok().filter(|_| hex)?;
-    Some(EntryId { index: Index(index), sub: SubIndex(u8::try_from(sub).ok()?) })
+    let number = |sub: &str| u8::try_from(crate::scalar::integer(sub).ok()?).ok();
+    let in_hexadecimal = |sub: &str| u8::try_from(hexadecimal(sub, 2)?).ok();
+    if let Some((object, sub)) = text.split_once("sub") {
+        return entry(object, in_hexadecimal(sub)?).map(HexReference::Entry);
+    }
+    if let Some((object, sub)) = text.split_once(':') {
+        let digits = sub.strip_prefix("0x").or_else(|| sub.strip_suffix('h'));
+        if let Some(digits) = digits {
+            return entry(object, in_hexadecimal(digits)?).map(HexReference::Entry);
+        }
+        let plain = sub.bytes().all(|byte| byte.is_ascii_digit());
+        let decimal = plain.then(|| sub.parse().ok()).flatten().and_then(|sub| entry(object, sub));
+        let hexadecimal = in_hexadecimal(sub).and_then(|sub| entry(object, sub));
+        return match (decimal, hexadecimal) {
+            (Some(decimal), Some(hexadecimal)) if decimal != hexadecimal => {
+                Some(HexReference::Ambiguous { decimal, hexadecimal })
+            }
+            (decimal, hexadecimal) => decimal.or(hexadecimal).map(HexReference::Entry),
+        };
+    }
+    let (object, sub) = match text.split_once('.') {
+        Some((object, sub)) => (object, number(sub)?),
+        None => (text.as_str(), 0),
+    };
+    entry(object, sub).map(HexReference::Entry)
+}
+
+/// Hexadecimal digits and nothing else, so many at most.
+fn hexadecimal(digits: &str, most: usize) -> Option<u32> {
+    let plain = (1..=most).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    plain.then(|| u32::from_str_radix(digits, 16).ok()).flatten()
 }

@@ -204,6 +204,10 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub docs: Vec<DocsFormat>,
 
+    /// Remove what odgen made there before and this command does not make
+    #[arg(long, conflicts_with = "device")]
+    pub prune: bool,
+
     /// Replace files of these names that odgen did not make
     #[arg(long)]
     pub force: bool,
@@ -317,9 +321,13 @@ pub(crate) struct DcfArgs {
     #[arg(long, value_name = "NAME")]
     pub net_name: Option<String>,
 
-    /// Value of an entry: `607D.2=9000`, `"EFC target position=90.00 °"`, `"sensor selection code=-1"`
+    /// Value of an entry: `607D.2=9000`, `607Dsub2=9000`, `"EFC target position=90.00 °"`, `"sensor selection code=-1"`
     #[arg(long = "set", value_name = "ENTRY=VALUE")]
     pub settings: Vec<String>,
+
+    /// File with one such setting on each line; lines that begin with `#` are comments
+    #[arg(long, value_name = "FILE")]
+    pub set_file: Vec<PathBuf>,
 
     /// File to write [default: the key and node-ID, such as pmc-5.dcf]
     #[arg(long, short, value_name = "FILE")]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use od_gen::files::Existing;
+use od_gen::files::{Existing, WriteError, left_over, remove};
 use od_gen::rust::{self, Provenance};
 use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -12,8 +12,8 @@ use od_spec::source::SourceMap;
 
 use super::ERRORS;
 use super::args::BuildArgs;
-use super::output::{clash, forced, overwritten, tidy, write};
-use super::report::{Report, Used, node_id, shown};
+use super::output::{clash, forced, not_written, overwritten, tidy, write};
+use super::report::{Report, Used, node_id, print, shown};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
 
@@ -86,7 +86,40 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
     }
     // The process ends next: taking the models apart piece by piece would only cost the user time.
     std::mem::forget(systems);
-    write(&args.out, &set, forced(args.force, Existing::Generated), &summary, report)
+    let code = write(&args.out, &set, forced(args.force, Existing::Generated), &summary, report);
+    // What is made of some devices says nothing about the others.
+    if code != 0 || !args.device.is_empty() {
+        return code;
+    }
+    match left_from_before(args, &set) {
+        Ok(text) => print(&text),
+        Err(error) => report.refuse(not_written(&error)),
+    }
+}
+
+/// Names what an earlier build made and this one does not, and removes it if that is wanted.
+fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteError> {
+    /// So many files are named.
+    const NAMED: usize = 5;
+    let mut left = left_over(&args.out, set)?;
+    // A build makes a DCF beside the EDS of its device; any other is one of `odgen dcf`.
+    left.retain(|path| {
+        let path = args.out.join(path);
+        path.extension().is_none_or(|ending| ending != "dcf") || path.with_extension("eds").exists()
+    });
+    if left.is_empty() {
+        return Ok(String::new());
+    }
+    let mut names: Vec<String> = left.iter().take(NAMED).map(|path| shown(&args.out.join(path))).collect();
+    if left.len() > NAMED {
+        names.push(format!("{} more", left.len() - NAMED));
+    }
+    let names = names.join(", ");
+    if args.prune {
+        remove(&args.out, &left)?;
+        return Ok(format!("  removed, as nothing makes it any more: {names}\n"));
+    }
+    Ok(format!("  made before, and not by this command: {names}; `--prune` removes it\n"))
 }
 
 /// A specification that was compiled.

@@ -10,13 +10,14 @@ use od_gen::files::Existing;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
-use od_spec::source::{SourceMap, Spanned};
+use od_spec::source::SourceMap;
 use od_spec::{Commissioning, assign, eds_text_problem, rule_codes};
 
 use super::ERRORS;
 use super::args::DcfArgs;
 use super::output::{forced, save};
 use super::report::{Report, node_id, print, shown};
+use super::settings::settings;
 use super::specs;
 
 /// Longest `NodeName` and `NetworkName`: a line has 255 characters.
@@ -47,15 +48,9 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
         commissioning(args, device, node.or(compiled.stated_node_id), compiled.node).map_err(refuse)?;
     let node = commissioning.node;
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
-    let name = file_name(&path, &loader.read).map_err(refuse)?;
-    let settings: Vec<Spanned<String>> = args
-        .settings
-        .iter()
-        .map(|setting| {
-            let id = sources.add("--set", setting.as_str());
-            Spanned::new(setting.clone(), sources.whole(id))
-        })
-        .collect();
+    let read: Vec<PathBuf> = loader.read.iter().chain(&args.set_file).cloned().collect();
+    let name = file_name(&path, &read).map_err(refuse)?;
+    let settings = settings(args, &mut sources).map_err(|diagnostic| refuse(*diagnostic))?;
     let mut diagnostics = Diagnostics::new();
     let settings = assign(&system, &commissioning.configured(device), node, &settings, &mut diagnostics);
     diagnostics.sort();

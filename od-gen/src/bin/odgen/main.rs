@@ -15,6 +15,7 @@ mod listing;
 mod new;
 mod output;
 mod report;
+mod settings;
 mod specs;
 mod templates;
 

@@ -206,18 +206,11 @@ impl Plan<'_> {
         let Some(first) = elements.first() else { return quote!(#sub0) };
         let highest = Literal::usize_unsuffixed(elements.len());
         let name = &object.name;
-        let facts_of = |entry: &PlannedEntry<'_>| {
-            let text = self.entry_doc(entry, "");
-            text.split_once("\n\n").map_or_else(String::new, |(_, facts)| facts.to_owned())
-        };
-        let facts = facts_of(first);
-        let shared = elements.iter().all(|element| facts_of(element) == facts);
-        let facts =
-            if shared { facts } else { "The elements differ in their limits or defaults.".to_owned() };
         let about = doc(&format!(
-            "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{facts}",
+            "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{}",
             self.object_doc(object.object),
-            elements.len()
+            elements.len(),
+            self.elements_doc(&elements, "")
         ));
         let (get, set) = (format_ident!("{name}"), format_ident!("{}", setter(name)));
         let value_type = values.value_type(&first.kind, &at.root);
@@ -264,9 +257,10 @@ impl Plan<'_> {
         let at = At::top();
         let Some(first) = elements.first() else { return quote!(#sub0) };
         let about = doc(&format!(
-            "{} `sub` is the sub-index, 1 to {}; `None` for any other.",
+            "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{}",
             self.object_doc(object.object),
-            elements.len()
+            elements.len(),
+            self.elements_doc(elements, "")
         ));
         let (get, value_type) = (format_ident!("{}", object.name), values.value_type(&first.kind, &at.root));
         let arms = elements.iter().filter_map(|element| {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Entry, Object, Outside, Text};
+use od_spec::model::{Entry, Object, Outside, SubIndex, Text};
 use od_spec::wording::{Notation, Wording};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -16,12 +16,6 @@ pub(super) const WORDING: Wording = Wording::english(Notation::Rust);
 pub(super) fn doc(text: &str) -> TokenStream {
     let lines = text.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
     let lines = lines.map(|line| raw(&line).unwrap_or_else(|| Literal::string(&line)));
-    quote!(#(#[doc = #lines])*)
-}
-
-/// The same inside a macro, where it is printed as it stands: without the prefix of raw literals.
-pub(super) fn doc_in_macro(text: &str) -> TokenStream {
-    let lines = text.lines().map(|line| Literal::string(&format!(" {line}")));
     quote!(#(#[doc = #lines])*)
 }
 
@@ -63,14 +57,45 @@ impl Plan<'_> {
 
     /// Facts of an entry, and its relations to others.
     fn facts_doc(&self, planned: &PlannedEntry<'_>, root: &str) -> String {
-        let mut text = facts(planned).join(", ");
-        text.push('.');
+        sentences(&facts(planned), &self.relations(planned, root))
+    }
+
+    /// Relations of an entry to others, a sentence each.
+    fn relations(&self, planned: &PlannedEntry<'_>, root: &str) -> Vec<String> {
         let relations = [self.related(planned, root), self.pdos_of(planned, root), condition(planned.entry)];
-        for line in relations.into_iter().flatten() {
-            text.push(' ');
-            text.push_str(&line);
+        relations.into_iter().flatten().collect()
+    }
+
+    /// What is the same for all elements of an array, and then what is not, for each run of equal elements.
+    pub(super) fn elements_doc(&self, elements: &[&PlannedEntry<'_>], root: &str) -> String {
+        /// More of them hide the accessor; the documents have a row for each element.
+        const MOST_RUNS: usize = 8;
+        let common = common(elements.iter().copied());
+        let mut runs: Vec<(SubIndex, SubIndex, String)> = Vec::new();
+        for element in elements {
+            let mut own = facts(element);
+            own.retain(|fact| !common.contains(fact));
+            let (text, sub) = (sentences(&own, &self.relations(element, root)), element.id.sub);
+            match runs.last_mut() {
+                Some((_, last, same)) if *same == text => *last = sub,
+                _ => runs.push((sub, sub, text)),
+            }
         }
-        text
+        let text = sentences(&common, &[]);
+        match runs.as_slice() {
+            [] => text,
+            [(_, _, own)] => [text.as_str(), own].join(" ").trim_end().to_owned(),
+            runs if runs.len() > MOST_RUNS => {
+                format!("{text} Each element differs in what else is said of it.")
+            }
+            runs => {
+                let lines = runs.iter().filter(|(_, _, own)| !own.is_empty()).map(|(first, last, own)| {
+                    let to = if first == last { String::new() } else { format!(" to {last}") };
+                    format!("- Sub-index {first}{to}: {own}")
+                });
+                format!("{text}\n\n{}", lines.collect::<Vec<_>>().join("\n"))
+            }
+        }
     }
 
     /// What is said of a member that several objects have: what is the same for all of them.
@@ -79,11 +104,7 @@ impl Plan<'_> {
         first: &PlannedEntry<'_>,
         others: impl Iterator<Item = &'p PlannedEntry<'p>>,
     ) -> String {
-        let mut common = facts(first);
-        for other in others {
-            let its = facts(other);
-            common.retain(|fact| its.contains(fact));
-        }
+        let common = common(others);
         let mut text = format!("Sub-index {}: {}", first.id.sub, escape(&first.entry.name));
         let about = self.words(&first.entry.about);
         if !about.is_empty() {
@@ -175,6 +196,30 @@ impl Plan<'_> {
 fn condition(entry: &Entry) -> Option<String> {
     let condition = entry.writable_when.as_ref()?;
     Some(format!("Writable while `{}`.", condition.text))
+}
+
+/// The facts that are the same for all of some entries, in the order of the first.
+fn common<'p>(entries: impl Iterator<Item = &'p PlannedEntry<'p>>) -> Vec<String> {
+    let common = entries.map(facts).reduce(|mut common, its| {
+        common.retain(|fact| its.contains(fact));
+        common
+    });
+    common.unwrap_or_default()
+}
+
+/// Facts in one sentence, and others behind it.
+fn sentences(facts: &[String], more: &[String]) -> String {
+    let mut text = facts.join(", ");
+    if !text.is_empty() {
+        text.push('.');
+    }
+    for sentence in more {
+        if !text.is_empty() {
+            text.push(' ');
+        }
+        text.push_str(sentence);
+    }
+    text
 }
 
 /// Type, access, mapping, unit, range, special values, default, storage.

@@ -55,6 +55,7 @@ impl Plan<'_> {
             names.push(quote!(Self::#variant => #text,));
         }
         let (word_type, word) = self.word(status);
+        let converted = converted(&word);
         quote! {
             #about
             #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -65,7 +66,7 @@ impl Plan<'_> {
             impl #name {
                 /// The state that the word shows; `None` for a pattern that no state has.
                 pub const fn of(word: #word_type) -> Option<Self> {
-                    let word = #word;
+                    #converted
                     #(#arms)*
                     None
                 }
@@ -78,7 +79,7 @@ impl Plan<'_> {
                 }
             }
 
-            ::firmware_glue::defmt_text!(#name);
+            super::firmware::defmt_text!(#name);
         }
     }
 
@@ -118,7 +119,7 @@ impl Plan<'_> {
                 }
             }
 
-            ::firmware_glue::defmt_text!(#name);
+            super::firmware::defmt_text!(#name);
         }
     }
 
@@ -138,6 +139,7 @@ impl Plan<'_> {
         } else {
             Values { plan: self }.raw_type(&kind, &quote!(super::))
         };
+        let converted = converted(&word);
         quote! {
             /// The bits of the word that make the command, and their values; an edge counts as the level after it.
             pub const fn bits(self) -> (#raw, #raw) {
@@ -149,7 +151,7 @@ impl Plan<'_> {
             /// The word with the command in it; other bits stay.
             pub const fn apply(self, word: #word_type) -> #word_type {
                 let (mask, value) = self.bits();
-                let word = #word;
+                #converted
                 #made
             }
 
@@ -233,4 +235,9 @@ fn is_signed(kind: &ValueKind) -> bool {
 /// What a word is in code: a bit field or a plain number; a unit or special values say nothing about its bits.
 fn word_kind(entry: &PlannedEntry<'_>) -> ValueKind {
     ValueKind { unit: None, special: None, ..entry.kind.clone() }
+}
+
+/// What makes a number of the word, if it is none yet.
+fn converted(word: &TokenStream) -> Option<TokenStream> {
+    (word.to_string() != "word").then(|| quote!(let word = #word;))
 }

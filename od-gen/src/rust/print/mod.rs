@@ -20,7 +20,8 @@ use crate::plan::Plan;
 /// The layout of `firmware-glue` that is printed for: `firmware_glue::table::Table::generated` tells when it changes.
 const LAYOUT: u32 = 2;
 
-/// The items of a dictionary's module.
+/// The items of a dictionary's module. One import reaches out of it, and its types do not come from macros: where the crate has no
+/// `firmware-glue`, that import is the one error.
 pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
     let parts = [
         plan.dictionary(),
@@ -42,9 +43,10 @@ pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
     let glue = format_ident!("generated_for_layout_{LAYOUT}");
     let (layout, dictionary) = (Literal::u32_unsuffixed(LAYOUT), format_ident!("{}", plan.name));
     quote! {
-        use ::firmware_glue::#glue as glue;
+        use ::firmware_glue as firmware;
+        use self::firmware::#glue as glue;
 
-        ::firmware_glue::stand_in!(#layout, #dictionary, Entry);
+        firmware::stand_in!(#layout, #dictionary, Entry);
 
         #(#parts)*
     }

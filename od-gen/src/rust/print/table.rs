@@ -55,7 +55,7 @@ impl Plan<'_> {
                 }
             }
 
-            ::firmware_glue::defmt_text!(Entry);
+            firmware::defmt_text!(Entry);
         }
     }
 

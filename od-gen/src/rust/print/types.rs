@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 
 use od_spec::model::{Edge, Entry};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, TokenStreamExt as _, format_ident, quote};
 
 use super::super::language;
-use super::docs::{WORDING, doc, doc_in_macro, escape};
+use super::docs::{WORDING, doc, escape};
 use super::literal::{decimal, hex};
 use crate::plan::{
     Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
@@ -46,15 +46,19 @@ impl Plan<'_> {
         let about = self.words(&unit.about);
         let text =
             format!("{}: one raw step is {}.", escape(&unit.name), escape(&WORDING.counted_step(unit)));
-        let about = doc_in_macro(format!("{text} {about}").trim());
+        let about = doc(format!("{text} {about}").trim());
         let (name, base, symbol) =
             (format_ident!("{name}"), format_ident!("{}", base_name(planned)), &unit.symbol);
         let [n, d, sn, sd] = [scale.numerator, scale.denominator, step.numerator, step.denominator]
             .map(|number| decimal(number.into()));
         quote! {
-            ::firmware_glue::unit! {
-                #about
-                pub struct #name = #symbol, scale #n / #d, step #sn / #sd of #base;
+            #about
+            #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+            #[repr(transparent)]
+            pub struct #name<__T>(pub __T);
+
+            super::firmware::quantity! {
+                #name = #symbol, scale #n / #d, step #sn / #sd of #base
             }
         }
     }
@@ -80,7 +84,7 @@ impl Plan<'_> {
         let text =
             format!("{}{}{about}", escape(&planned.named.name), if about.is_empty() { "." } else { ": " });
         let about = doc(&text);
-        let raw = carrier(planned);
+        let raw = Carrier::of(planned);
         let derives = quote!(#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)] #[repr(transparent)]);
         let label = &planned.named.name;
         match &planned.members {
@@ -100,14 +104,13 @@ impl Plan<'_> {
                         #(#constants)*
                     }
 
-                    ::firmware_glue::enumeration! {
+                    super::firmware::enumeration! {
                         #name(#raw) = #label { #(#names)* }
                     }
                 }
             }
             Members::Bits(bits) => {
-                let width = planned.named.base.bits().unwrap_or(64);
-                let accessors = bits.iter().map(|bits| self.bits(bits, &raw, width));
+                let accessors = bits.iter().map(|bits| self.bits(bits, raw));
                 let fields = bits.iter().map(|bits| {
                     let [first, last] = [bits.first, bits.last].map(Literal::u8_unsuffixed);
                     let label = &bits.label;
@@ -122,7 +125,7 @@ impl Plan<'_> {
                         #(#accessors)*
                     }
 
-                    ::firmware_glue::bit_field! {
+                    super::firmware::bit_field! {
                         #name = #label { #(#fields)* }
                     }
                 }
@@ -146,8 +149,9 @@ impl Plan<'_> {
     }
 
     /// The accessors of a bit or of a run of bits.
-    fn bits(&self, bits: &PlannedBits<'_>, raw: &TokenStream, width: u16) -> TokenStream {
-        let accessors = if bits.first == bits.last { one_bit(bits, raw) } else { run(bits, raw, width) };
+    fn bits(&self, bits: &PlannedBits<'_>, raw: Carrier) -> TokenStream {
+        let accessors = if bits.first == bits.last { one_bit(bits, raw) } else { run(bits, raw) };
+        let own = Carrier::of_run(bits);
         let constants = bits.values.iter().map(|PlannedValue { name, value }| {
             let (name, number) = (format_ident!("{name}"), decimal(value.value));
             let about = self.words(&value.about);
@@ -159,7 +163,7 @@ impl Plan<'_> {
                 bits.name,
                 escape(&value.name)
             ));
-            quote!(#about pub const #name: #raw = #number;)
+            quote!(#about pub const #name: #own = #number;)
         });
         // A single bit is a `bool`, which needs no constants.
         let constants = constants.filter(|_| bits.first != bits.last);
@@ -228,7 +232,7 @@ fn with_doc(bits: &PlannedBits<'_>) -> TokenStream {
     doc(&format!("With another [`{}`](Self::{}).", bits.name, bits.name))
 }
 
-fn one_bit(bits: &PlannedBits<'_>, raw: &TokenStream) -> TokenStream {
+fn one_bit(bits: &PlannedBits<'_>, raw: Carrier) -> TokenStream {
     let (get, with, with_about) = (format_ident!("{}", bits.name), with(bits), with_doc(bits));
     let read = shifted(bits, quote!(self.0), &quote!(>>));
     let mask = shifted(bits, quote!(1), &quote!(<<));
@@ -248,31 +252,65 @@ fn one_bit(bits: &PlannedBits<'_>, raw: &TokenStream) -> TokenStream {
     }
 }
 
-fn run(bits: &PlannedBits<'_>, raw: &TokenStream, width: u16) -> TokenStream {
-    let (get, with, with_about) = (format_ident!("{}", bits.name), with(bits), with_doc(bits));
-    let count = u16::from(bits.last - bits.first) + 1;
-    let mask = hex(u64::MAX >> (64 - count), usize::from(count.div_ceil(4)));
-    let (read, write) = if count == width {
+/// A run of bits has the smallest integer that holds it. What that integer holds and the run does not, is refused.
+fn run(bits: &PlannedBits<'_>, raw: Carrier) -> TokenStream {
+    let (get, with) = (format_ident!("{}", bits.name), with(bits));
+    let (count, own) = (count(bits), Carrier::of_run(bits));
+    let max = u64::MAX >> (64 - count);
+    let mask = hex(max, usize::from(count.div_ceil(4)));
+    let cast = |value: TokenStream, to: Carrier| if own == raw { value } else { quote!(#value as #to) };
+    let (read, set) = if count == raw.bits {
         (quote!(self.0), quote!(Self(value)))
     } else {
         let read = shifted(bits, quote!(self.0), &quote!(>>));
+        let read = if own == raw { quote!(#read & #mask) } else { quote!((#read & #mask)) };
         let place = shifted(bits, quote!(#mask), &quote!(<<));
-        let set = shifted(bits, quote!((value & #mask)), &quote!(<<));
-        (quote!(#read & #mask), quote!(Self(self.0 & !(#place) | #set)))
+        let value = cast(quote!(value), raw);
+        let value = if own == raw || bits.first == 0 { value } else { quote!((#value)) };
+        let set = shifted(bits, value, &quote!(<<));
+        (cast(read, own), quote!(Self(self.0 & !(#place) | #set)))
     };
-    quote! {
+    let getter = quote! {
         #[inline]
-        pub const fn #get(self) -> #raw {
+        pub const fn #get(self) -> #own {
             #read
         }
+    };
+    if count == own.bits {
+        let about = with_doc(bits);
+        return quote! {
+            #getter
 
-        #with_about
+            #about
+            #[inline]
+            #[must_use]
+            pub const fn #with(self, value: #own) -> Self {
+                #set
+            }
+        };
+    }
+    let about = doc(&format!(
+        "With another [`{}`](Self::{}); `None` for a value above {max}, which its bits cannot hold.",
+        bits.name, bits.name
+    ));
+    quote! {
+        #getter
+
+        #about
         #[inline]
         #[must_use]
-        pub const fn #with(self, value: #raw) -> Self {
-            #write
+        pub const fn #with(self, value: #own) -> Option<Self> {
+            if value > #mask {
+                return None;
+            }
+            Some(#set)
         }
     }
+}
+
+/// How many bits a run has.
+fn count(bits: &PlannedBits<'_>) -> u16 {
+    u16::from(bits.last - bits.first) + 1
 }
 
 fn with(bits: &PlannedBits<'_>) -> Ident {
@@ -320,7 +358,7 @@ fn special(planned: &PlannedSpecial, entry: &Entry) -> TokenStream {
             }
         }
 
-        ::firmware_glue::defmt_text!(#name);
+        super::firmware::defmt_text!(#name);
     }
 }
 
@@ -340,10 +378,28 @@ fn base_name(planned: &PlannedUnit<'_>) -> String {
     })
 }
 
-/// The integer of a named type: a bit field is unsigned, whatever its base.
-fn carrier(planned: &PlannedType<'_>) -> TokenStream {
-    let bits = planned.named.base.bits().filter(|bits| matches!(bits, 8 | 16 | 32)).unwrap_or(64);
-    let signed = planned.named.base.is_signed() && matches!(planned.members, Members::Values(_));
-    let name = format_ident!("{}{bits}", if signed { 'i' } else { 'u' });
-    quote!(#name)
+/// An integer of Rust.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Carrier {
+    bits: u16,
+    signed: bool,
+}
+
+impl Carrier {
+    /// That of a named type: a bit field is unsigned, whatever its base.
+    fn of(planned: &PlannedType<'_>) -> Self {
+        let bits = planned.named.base.bits().filter(|bits| matches!(bits, 8 | 16 | 32)).unwrap_or(64);
+        Self { bits, signed: planned.named.base.is_signed() && matches!(planned.members, Members::Values(_)) }
+    }
+
+    /// The smallest that holds a run of bits.
+    fn of_run(bits: &PlannedBits<'_>) -> Self {
+        Self { bits: count(bits).next_power_of_two().max(8), signed: false }
+    }
+}
+
+impl ToTokens for Carrier {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        tokens.append(format_ident!("{}{}", if self.signed { 'i' } else { 'u' }, self.bits));
+    }
 }

@@ -128,12 +128,20 @@ fn write() -> Result<(), Failure> {
     for (path, changed) in generate::write_all()? {
         println!("{} {path}", if changed { "wrote" } else { "     " });
     }
+    for path in generate::prune()? {
+        println!("removed generated/{path}");
+    }
     Ok(())
 }
 
 fn check() -> Result<(), Failure> {
-    match generate::first_difference(generate::all()?) {
+    if let Some(difference) = generate::first_difference(generate::all()?) {
+        return Err(difference.into());
+    }
+    match generate::left()?.first() {
         None => Ok(()),
-        Some(difference) => Err(difference.into()),
+        Some(path) => {
+            Err(format!("nothing makes generated/{path} any more\nrun `cargo xtask generate`").into())
+        }
     }
 }

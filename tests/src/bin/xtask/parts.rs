@@ -25,6 +25,8 @@ pub(crate) enum Part {
     Drives,
     /// What is foretold of the foreign readers, compared with what they do.
     Foretold,
+    /// What a tool of others makes of the shipped EDS for firmware in C.
+    FirmwareInC,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -53,7 +55,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 12] = [
+    pub(crate) const ALL: [Part; 13] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -62,6 +64,7 @@ impl Part {
         Part::Shipped,
         Part::Drives,
         Part::Foretold,
+        Part::FirmwareInC,
         Part::SdoClient,
         Part::Browser,
         Part::FirmwareSizes,
@@ -78,6 +81,7 @@ impl Part {
             Part::Shipped => "EDS readers: shipped devices",
             Part::Drives => "EDS readers: drives of odgen new",
             Part::Foretold => "EDS readers: what is foretold",
+            Part::FirmwareInC => "EDS readers: firmware in C",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::FirmwareSizes => "sizes of firmware",
@@ -94,6 +98,7 @@ impl Part {
             | Part::Shipped
             | Part::Drives
             | Part::Foretold
+            | Part::FirmwareInC
             | Part::SdoClient => Area::Readers,
             Part::Browser => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -110,6 +115,7 @@ impl Part {
             | Part::Shipped
             | Part::Drives
             | Part::Foretold
+            | Part::FirmwareInC
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::FirmwareSizes => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker],
@@ -128,6 +134,7 @@ impl Part {
             | Part::Foretold => &[Tool::Node],
             Part::Rust
             | Part::Mutants
+            | Part::FirmwareInC
             | Part::SdoClient
             | Part::Browser
             | Part::FirmwareSizes
@@ -160,6 +167,7 @@ impl Part {
             Part::Shipped => runner.python("tests/readers/run.py", &[]),
             Part::Drives => readers::drives(runner),
             Part::Foretold => readers::foretold(runner),
+            Part::FirmwareInC => readers::firmware_in_c(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),

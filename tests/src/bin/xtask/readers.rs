@@ -1,6 +1,6 @@
 //! EDS and DCF files, read by tools that others wrote.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use od_gen::files::write_all;
@@ -72,13 +72,27 @@ pub(crate) fn foretold(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new("python3").arg(script).arg("--odgen").arg(odgen))
 }
 
+/// What eds2c makes of the EDS files of the shipped devices.
+pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let dumps = SPECS.map(|stem| format!("generated/{stem}.json"));
+    let arguments = ["tests/readers/eds2c.py", "--eds-dir", "generated/eds", "--dump"];
+    runner.run(Command::new(&python).args(arguments).args(dumps))
+}
+
+/// The Python that the readers are installed for, if that could be done.
+fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
+    let environment = root().join(VENV);
+    if environment.join("stamp").exists() {
+        return Some(environment.join("bin/python"));
+    }
+    runner.gap = Some("the readers in Python could not be installed, see above".to_owned());
+    None
+}
+
 /// A client that others wrote, against the generated Rust.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
-    let python = root().join(VENV).join("bin/python");
-    if !root().join(VENV).join("stamp").exists() {
-        runner.gap = Some("python-canopen could not be installed, see above".to_owned());
-        return Ok(());
-    }
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let server = std::env::current_exe()?.with_file_name("sdo-server");
     for stem in SPECS {
         let dump = format!("generated/{stem}.json");
