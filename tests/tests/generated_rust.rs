@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::expect_used, reason = "a test fails by panicking")]
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -59,7 +60,7 @@ impl Scratch {
         let mut program = String::new();
         for (name, module) in modules {
             fs::write(self.0.join(format!("{name}.rs")), module).unwrap();
-            program.push_str(&format!("pub mod {name};\n"));
+            let _ = writeln!(program, "pub mod {name};");
         }
         let path = self.0.join("program.rs");
         fs::write(&path, program + text).unwrap();
@@ -150,7 +151,7 @@ pdos:
         documentation(&module, "voltages"),
         [
             "`2000h` voltages: What the cells have. `sub` is the sub-index, 1 to 6; `None` for any other.",
-            "UNSIGNED16, ro, TPDO, in 1 mV.",
+            "UNSIGNED16, ro, TPDO, in mV.",
             "- Sub-index 1 to 4: In TPDO 1 ([`Tpdo1`](pdos::Tpdo1)).",
             "- Sub-index 5: In TPDO 2 ([`Tpdo2`](pdos::Tpdo2)).",
         ]
@@ -160,7 +161,7 @@ pdos:
         [
             "`2001h` limits. `sub` is the sub-index, 1 to 3; `None` for any other.",
             "UNSIGNED8, rw, default 7.",
-            "- Sub-index 2: up to 9.",
+            "- Sub-index 2: ≤ 9.",
         ]
     );
 }
