@@ -63,8 +63,11 @@ pub fn file(
     };
     let code = space_out(&prettyplease::unparse(&parsed));
     // The compiler shows these lines: when there is no `firmware-glue`, and when the file was made for another layout of it.
-    let code =
-        code.replacen("as firmware;", "as firmware; // An error here? Add `firmware-glue` to the dependencies.", 1);
+    let code = code.replacen(
+        "as firmware;",
+        "as firmware; // An error here? Add `firmware-glue` to the dependencies.",
+        1,
+    );
     let code = code.replacen("as glue;", "as glue; // An error here? Generate this file again.", 1);
     Some(header(device, provenance) + &code)
 }
