@@ -36,7 +36,7 @@ pub(crate) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     spec::read(root, diagnostics)
 }
 
-/// [`check`], then [`read`]: a file without parts.
+/// [`check`], then [`read()`]: a file without parts.
 pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     check(root, &keys::SPEC, diagnostics);
     read(root, diagnostics)
