@@ -76,8 +76,7 @@ fn refused(diagnostic: Diagnostic) -> Compiled {
 /// The file that a part of a specification belongs to, where it is there; of any other file, the file itself.
 pub fn whole(path: &Path) -> PathBuf {
     let is_specification = |name: &OsStr| name.as_encoded_bytes().ends_with(b".yaml");
-    let text =
-        path.file_name().filter(|name| is_specification(name)).and_then(|_| fs::read_to_string(path).ok());
+    let text = path.file_name().filter(|name| is_specification(name)).and_then(|_| fs::read(path).ok());
     let named = text.as_deref().and_then(part_of);
     let whole = named.map(|name| plain(&path.parent().unwrap_or(Path::new("")).join(name)));
     whole.filter(|whole| whole.is_file()).unwrap_or_else(|| path.to_owned())

@@ -5,10 +5,13 @@ use crate::source::{FileId, Span};
 
 /// The comment behind a value that stands for the author's.
 const MARK: &str = "# <--";
+/// Its first sign, which is quickly found.
+const SIGN: char = '#';
 
 /// Says which gaps there are.
 pub(crate) fn check(file: FileId, text: &str, diagnostics: &mut Diagnostics) {
-    for (at, _) in text.match_indices(MARK).filter(|(at, _)| is_comment(&text[..*at])) {
+    let marks = text.match_indices(SIGN).map(|(at, _)| at).filter(|at| text[*at..].starts_with(MARK));
+    for at in marks.filter(|at| is_comment(&text[..*at])) {
         let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         let span = Span { file, start: place(at), end: place(at + MARK.len()) };
         diagnostics.push(

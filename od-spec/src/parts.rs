@@ -40,9 +40,12 @@ pub(crate) fn join(
     complete.then_some(())
 }
 
-/// The file that a text says it is a part of, from its lines alone.
-pub fn part_of(text: &str) -> Option<&str> {
-    let value = text.lines().find_map(|line| line.strip_prefix(PART_OF)?.trim_start().strip_prefix(':'))?;
+/// The file that a text says it is a part of, from its lines alone: whoever looks at many files does not want to read them all.
+pub fn part_of(text: &[u8]) -> Option<&str> {
+    let begins_a_line = |at: &usize| at.checked_sub(1).is_none_or(|before| text[before] == b'\n');
+    let at = memchr::memmem::find_iter(text, PART_OF).find(begins_a_line)?;
+    let line = text[at + PART_OF.len()..].split(|byte| *byte == b'\n').next()?;
+    let value = std::str::from_utf8(line).ok()?.trim_start().strip_prefix(':')?;
     let plain = value.split(" #").next().unwrap_or(value).trim();
     let quoted = |quote| plain.strip_prefix(quote).and_then(|rest: &str| rest.strip_suffix(quote));
     let name = quoted('"').or_else(|| quoted('\'')).unwrap_or(plain);
@@ -140,5 +143,27 @@ fn extend(section: &mut Node, more: Node, diagnostics: &mut Diagnostics) {
         (NodeKind::Null, more) => *section = Node { span: section.span, kind: more },
         // An empty section adds nothing, and what is of the wrong kind was said to be.
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::part_of;
+
+    #[test]
+    fn a_part_is_known_by_its_line() {
+        assert_eq!(part_of(b"od-spec: 1\npart-of: ../lamp.od.yaml # the lamp\n"), Some("../lamp.od.yaml"));
+        assert_eq!(part_of(b"part-of : 'a lamp.od.yaml'"), Some("a lamp.od.yaml"));
+        assert_eq!(part_of(b"part-of:\t\"x\"\r\nunits:"), Some("x"));
+        for nothing in [
+            &b"title: part-of: x\n"[..],
+            b"  part-of: x",
+            b"part-of:\n",
+            b"part-of-it: x",
+            b"part-of: \xff",
+            b"",
+        ] {
+            assert_eq!(part_of(nothing), None);
+        }
     }
 }
