@@ -11,7 +11,9 @@ use od_gen::rust::{self, Layout, Provenance};
 use od_spec::diag::Diagnostics;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
+use od_tests::generate::SPECS;
 use od_tests::root;
+use od_tests::shipped::in_one_file;
 
 /// The modules of a specification, by the keys of its devices.
 fn modules(name: &str, text: &str, layout: Layout) -> Vec<(String, String)> {
@@ -28,7 +30,7 @@ fn modules(name: &str, text: &str, layout: Layout) -> Vec<(String, String)> {
 
 /// Modules of all kinds of devices: the shipped ones, and what the tests are made of.
 fn all_modules(layout: Layout) -> Vec<(String, String)> {
-    let mut paths: Vec<PathBuf> = ["od-spec/devices", "tests/readers", "tests/shared", "tests/readme"]
+    let mut paths: Vec<PathBuf> = ["tests/readers", "tests/shared", "tests/readme"]
         .into_iter()
         .flat_map(|directory| fs::read_dir(root().join(directory)).unwrap())
         .map(|entry| entry.unwrap().path())
@@ -36,10 +38,14 @@ fn all_modules(layout: Layout) -> Vec<(String, String)> {
         .collect();
     let cases = ["everything", "minimal", "notations", "pdo_parameters", "run_of_objects"];
     paths.extend(cases.map(|case| root().join(format!("tests/ui/ok_{case}.od.yaml"))));
-    let modules = paths.iter().flat_map(|path| {
+    let texts = paths.iter().map(|path| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (name, fs::read_to_string(path).unwrap())
+    });
+    let shipped = SPECS.iter().map(|stem| (format!("{stem}.od.yaml"), in_one_file(stem)));
+    let modules = shipped.chain(texts).flat_map(|(name, text)| {
         let stem = name.replace(".od.yaml", "").replace('-', "_");
-        let modules = modules(&name, &fs::read_to_string(path).unwrap(), layout);
+        let modules = modules(&name, &text, layout);
         modules.into_iter().map(move |(key, module)| (format!("{stem}_{key}"), module))
     });
     modules.collect()

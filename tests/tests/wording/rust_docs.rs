@@ -18,7 +18,7 @@ pub(crate) fn read(module: &str, output: &mut Output<'_>) {
     for line in &lines {
         read_member(line, output);
     }
-    for window in lines.windows(3) {
+    for (at, window) in lines.windows(3).enumerate() {
         let [heading, "///", facts] = window else { continue };
         let Some(id) = heading.strip_prefix("/// `").and_then(|rest| rest.split_once('`')) else { continue };
         let (index, sub) = id.0.split_once("h.").unwrap_or((id.0.trim_end_matches('h'), "0"));
@@ -26,18 +26,38 @@ pub(crate) fn read(module: &str, output: &mut Output<'_>) {
         let facts = facts.strip_prefix("/// ").unwrap();
         // An object is no entry; the facts of its members stand there.
         let is_object = facts.starts_with("The group of ") || facts.starts_with("- `");
-        if facts == "The elements differ in their limits or defaults." || is_object {
+        if is_object {
             continue;
         }
-        // An accessor by sub-index is about all elements.
+        // An accessor by sub-index is about all elements; what only some have in common, stands below.
         match heading.split_once("`sub` is the sub-index, 1 to ") {
             Some((_, rest)) => {
                 let last: u8 = rest.split(';').next().unwrap().parse().unwrap();
-                (1..=last).for_each(|sub| output.tell(index, sub, |entry| read_facts(entry, facts)));
+                let own = of_elements(lines.get(at + 3..).unwrap_or_default());
+                for sub in 1..=last {
+                    let facts = match own.get(&sub).filter(|own| own.starts_with(char::is_lowercase)) {
+                        Some(own) => format!("{}, {own}", facts.strip_suffix('.').unwrap()),
+                        None => (*facts).to_owned(),
+                    };
+                    output.tell(index, sub, |entry| read_facts(entry, &facts));
+                }
             }
             None => output.tell(index, sub.parse().unwrap(), |entry| read_facts(entry, facts)),
         }
     }
+}
+
+/// What is said of single elements: `- Sub-index 2 to 8: facts.`
+fn of_elements<'a>(lines: &[&'a str]) -> BTreeMap<u8, &'a str> {
+    let ["///", list @ ..] = lines else { return BTreeMap::new() };
+    let mut own = BTreeMap::new();
+    for (subs, facts) in list.iter().map_while(|line| line.strip_prefix("/// - Sub-index ")?.split_once(": "))
+    {
+        let (first, last) = subs.split_once(" to ").unwrap_or((subs, subs));
+        let subs = first.parse::<u8>().unwrap()..=last.parse().unwrap();
+        own.extend(subs.map(|sub| (sub, facts)));
+    }
+    own
 }
 
 /// A member of an object whose group of accessors others have as well: `` - `1400h.1` name: facts. ``
