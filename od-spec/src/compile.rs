@@ -10,11 +10,10 @@ use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
 use crate::eds;
 use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
-use crate::encoding;
+use crate::files::{self, Loader};
 use crate::gaps;
 use crate::keys;
 use crate::model::System;
-use crate::named_file;
 use crate::parameters::of_node;
 use crate::parts;
 use crate::resolve::{self, Resolved};
@@ -22,9 +21,6 @@ use crate::source::{FileId, SourceMap, Spanned};
 use crate::standard::{self, LIBRARIES};
 use crate::visible::straight;
 use crate::yaml;
-
-/// Largest file that is read, in bytes.
-const LARGEST_FILE: usize = 64 << 20;
 
 /// What [`compile`] gives.
 #[derive(Debug)]
@@ -45,25 +41,6 @@ impl Compiled {
     /// Nothing but messages.
     pub const fn refused(diagnostics: Diagnostics) -> Self {
         Self { system: None, node: None, stated_node_id: None, diagnostics }
-    }
-}
-
-/// Gives the compiler the library files that a specification names by path.
-pub trait Loader {
-    /// The bytes of `path`, which stands in the file named `from`.
-    ///
-    /// # Errors
-    /// Why there are none, in a few words such as "no such file".
-    fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
-}
-
-/// A loader without files: only the built-in libraries can be used.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoFiles;
-
-impl Loader for NoFiles {
-    fn load(&mut self, _path: &str, _from: &str) -> Result<Vec<u8>, String> {
-        Err("files cannot be read here".to_owned())
     }
 }
 
@@ -199,14 +176,14 @@ fn libraries(
     let from = sources.file(root.file).name().to_owned();
     for (at, name) in root.uses.iter().enumerate() {
         if let Some(first) = root.uses[..at].iter().find(|before| before.value == name.value) {
-            diagnostics.push(named_file::twice("library", first.span, name));
+            diagnostics.push(files::twice("library", first.span, name));
             continue;
         }
         let built_in = LIBRARIES.iter().find(|(library, _)| *library == name.value);
         let id = match built_in {
             Some((library, text)) => sources.add(format!("<{library}>"), *text),
-            None => match named_file::read(name, &from, loader, missing_library) {
-                Ok(text) => sources.add(named_file::beside(&from, &name.value), text),
+            None => match files::read(name, &from, loader, missing_library) {
+                Ok(text) => sources.add(files::beside(&from, &name.value), text),
                 Err(diagnostic) => {
                     diagnostics.push(*diagnostic);
                     complete = false;
@@ -247,59 +224,4 @@ fn missing_library(name: &Spanned<String>, reason: &str) -> Diagnostic {
     };
     let message = format!("cannot read library `{}`: {reason}", shorten(path));
     Diagnostic::new(codes::MISSING_LIBRARY, name.span, message).help(help)
-}
-
-/// Adds the bytes of a file: a specification in UTF-8, or an EDS or DCF in whatever it is.
-///
-/// # Errors
-/// As [`read_text`], but for the encoding of an EDS.
-pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
-    if bytes.len() <= LARGEST_FILE {
-        if eds::has_eds_name(name) {
-            let (text, encoding) = encoding::decode(bytes);
-            return Ok(sources.add_decoded(name, text, encoding));
-        }
-        // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
-        if std::str::from_utf8(&bytes).is_err() {
-            let (text, encoding) = encoding::decode(bytes.clone());
-            if eds::is_eds(name, &text) {
-                return Ok(sources.add_decoded(name, text, encoding));
-            }
-        }
-    }
-    Ok(sources.add(name, read_text(name, bytes)?))
-}
-
-/// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.
-///
-/// # Errors
-/// A message without a place: the file is larger than 64 MiB (OD0103), or is not UTF-8 (OD0102).
-pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> {
-    if bytes.len() > LARGEST_FILE {
-        return Err(Box::new(
-            Diagnostic::without_place(
-                codes::TOO_LARGE,
-                format!("`{name}` has {} MiB; the limit is {} MiB", bytes.len() >> 20, LARGEST_FILE >> 20),
-            )
-            .help("is this the right file?"),
-        ));
-    }
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(&error.as_bytes()[..valid]);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count()) + 1;
-        let byte = error.as_bytes().get(valid).copied().unwrap_or_default();
-        Box::new(
-            Diagnostic::without_place(
-                codes::NOT_UTF8,
-                format!("`{name}:{line}:{column}` holds the byte {byte:#04X}, expected UTF-8 text"),
-            )
-            .help("convert the file, for example with `iconv -f latin1 -t utf-8`"),
-        )
-    })?;
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_owned(),
-        None => text,
-    })
 }

@@ -34,6 +34,7 @@ pub mod eds;
 pub mod encoding;
 mod explain;
 pub mod expr;
+mod files;
 mod fix;
 mod gaps;
 #[cfg(feature = "reference")]
@@ -43,7 +44,6 @@ mod library;
 mod limits;
 pub mod model;
 pub mod name_pattern;
-mod named_file;
 mod parameters;
 mod parts;
 #[cfg(feature = "reference")]
@@ -67,11 +67,12 @@ pub use check::codes as rule_codes;
 pub use check::start_values_are_allowed::start_of_code;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues};
-pub use compile::{Compiled, Loader, NoFiles, Strictness, add_source, compile, compile_as, read_text};
+pub use compile::{Compiled, Strictness, compile, compile_as};
 pub use decode::is_device_key;
 pub use departures::departures;
 pub use diag::nearest;
 pub use explain::{all_codes, code, explanation};
+pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;

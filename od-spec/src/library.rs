@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::ast::{ObjectDecl, Spec};
-use crate::compile::{NoFiles, compile_with};
+use crate::compile::compile_with;
 use crate::decode::decode;
 use crate::diag::Diagnostics;
+use crate::files::NoFiles;
 use crate::model::{Entry, Index, NamedType, Object, SubIndex, Unit};
 use crate::source::SourceMap;
 use crate::standard::{self, LIBRARIES};

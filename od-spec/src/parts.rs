@@ -5,11 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::Loader;
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
+use crate::files::{self, Loader};
 use crate::keys::{PART, PART_OF, PARTS};
-use crate::named_file;
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
 
@@ -29,7 +28,7 @@ pub(crate) fn join(
     let (mut seen, mut complete) = (BTreeMap::new(), true);
     for name in &names {
         if let Some(first) = seen.insert(name.value.as_str(), name.span) {
-            diagnostics.push(named_file::twice("part", first, name));
+            diagnostics.push(files::twice("part", first, name));
             continue;
         }
         match part(sources, name, (whole, &from), loader, diagnostics) {
@@ -70,14 +69,14 @@ fn part(
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<Node> {
-    let text = match named_file::read(name, from, loader, missing) {
+    let text = match files::read(name, from, loader, missing) {
         Ok(text) => text,
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
             return None;
         }
     };
-    let file = sources.add_part(named_file::beside(from, &name.value), text, whole);
+    let file = sources.add_part(files::beside(from, &name.value), text, whole);
     let part = yaml::parse(file, sources.file(file), diagnostics)?;
     let Some(stated) = part.get(PART_OF) else {
         let message = format!("`{}` does not say that it is a part", shorten(&name.value));

@@ -3,8 +3,9 @@
 
 use crate::check::RULES;
 use crate::check::allowed::Allowed;
-use crate::compile::{NoFiles, compile};
+use crate::compile::compile;
 use crate::diag::{Diagnostics, Example};
+use crate::files::NoFiles;
 use crate::model::{Access, DataType, Entry, Index, SubIndex, System};
 use crate::parameters::assign;
 use crate::source::{SourceMap, Spanned};

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::check::{RULES, Rule};
 
-use crate::compile::{NoFiles, compile_with};
+use crate::compile::compile_with;
 use crate::diag::{Diagnostics, Example};
+use crate::files::NoFiles;
 use crate::parameters::assign_with;
 use crate::source::{SourceMap, Spanned};
 use crate::standard;

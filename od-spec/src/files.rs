@@ -1,0 +1,113 @@
+//! Texts from files: who gives them, how large they may be and how they are written; and the files that a specification names.
+
+use std::path::Path;
+
+use crate::check::codes as rule_codes;
+use crate::diag::{Diagnostic, Label, codes, shorten};
+use crate::source::{FileId, SourceMap, Span, Spanned};
+use crate::{eds, encoding};
+
+/// Largest file that is read, in bytes.
+const LARGEST_FILE: usize = 64 << 20;
+
+/// Gives the compiler the files that a specification names by path: libraries and parts.
+pub trait Loader {
+    /// The bytes of `path`, which stands in the file named `from`.
+    ///
+    /// # Errors
+    /// Why there are none, in a few words such as "no such file".
+    fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
+}
+
+/// A loader without files: only the built-in libraries can be used.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Loader for NoFiles {
+    fn load(&mut self, _path: &str, _from: &str) -> Result<Vec<u8>, String> {
+        Err("files cannot be read here".to_owned())
+    }
+}
+
+/// The text of the file of a name that stands in the file `from`. `missing` says that there is none, with a reason.
+pub(crate) fn read(
+    name: &Spanned<String>,
+    from: &str,
+    loader: &mut dyn Loader,
+    missing: impl FnOnce(&Spanned<String>, &str) -> Diagnostic,
+) -> Result<String, Box<Diagnostic>> {
+    let bytes = loader.load(&name.value, from).map_err(|reason| Box::new(missing(name, &reason)))?;
+    read_text(&name.value, bytes).map_err(|mut diagnostic| {
+        diagnostic.labels.push(Label { span: name.span, text: "used here".to_owned() });
+        diagnostic
+    })
+}
+
+/// The path of a file that is named relative to another, as messages show it.
+pub(crate) fn beside(from: &str, name: &str) -> String {
+    Path::new(from).parent().unwrap_or(Path::new("")).join(name).display().to_string()
+}
+
+/// A file is named a second time.
+pub(crate) fn twice(what: &str, first: Span, again: &Spanned<String>) -> Diagnostic {
+    let message = format!("{what} `{}` is used twice", shorten(&again.value));
+    Diagnostic::new(rule_codes::DUPLICATE_NAME, again.span, message)
+        .label("again here")
+        .with(first, "first here")
+        .help("remove one of the two")
+}
+
+/// Adds the bytes of a file: a specification in UTF-8, or an EDS or DCF in whatever it is.
+///
+/// # Errors
+/// As [`read_text`], but for the encoding of an EDS.
+pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
+    if bytes.len() <= LARGEST_FILE {
+        if eds::has_eds_name(name) {
+            let (text, encoding) = encoding::decode(bytes);
+            return Ok(sources.add_decoded(name, text, encoding));
+        }
+        // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
+        if std::str::from_utf8(&bytes).is_err() {
+            let (text, encoding) = encoding::decode(bytes.clone());
+            if eds::is_eds(name, &text) {
+                return Ok(sources.add_decoded(name, text, encoding));
+            }
+        }
+    }
+    Ok(sources.add(name, read_text(name, bytes)?))
+}
+
+/// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.
+///
+/// # Errors
+/// A message without a place: the file is larger than 64 MiB (OD0103), or is not UTF-8 (OD0102).
+pub fn read_text(name: &str, bytes: Vec<u8>) -> Result<String, Box<Diagnostic>> {
+    if bytes.len() > LARGEST_FILE {
+        return Err(Box::new(
+            Diagnostic::without_place(
+                codes::TOO_LARGE,
+                format!("`{name}` has {} MiB; the limit is {} MiB", bytes.len() >> 20, LARGEST_FILE >> 20),
+            )
+            .help("is this the right file?"),
+        ));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..valid]);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |line| line.chars().count()) + 1;
+        let byte = error.as_bytes().get(valid).copied().unwrap_or_default();
+        Box::new(
+            Diagnostic::without_place(
+                codes::NOT_UTF8,
+                format!("`{name}:{line}:{column}` holds the byte {byte:#04X}, expected UTF-8 text"),
+            )
+            .help("convert the file, for example with `iconv -f latin1 -t utf-8`"),
+        )
+    })?;
+    Ok(match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    })
+}
