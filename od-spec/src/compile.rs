@@ -33,6 +33,8 @@ pub struct Compiled {
     pub node: Option<Commissioning>,
     /// The node-ID that a DCF states.
     pub stated_node_id: Option<u8>,
+    /// Entries of all devices together, also where an error keeps the model back: memory and time grow with them.
+    pub entries: usize,
     /// Errors and warnings, sorted by place.
     pub diagnostics: Diagnostics,
 }
@@ -40,7 +42,7 @@ pub struct Compiled {
 impl Compiled {
     /// Nothing but messages.
     pub const fn refused(diagnostics: Diagnostics) -> Self {
-        Self { system: None, node: None, stated_node_id: None, diagnostics }
+        Self { system: None, node: None, stated_node_id: None, entries: 0, diagnostics }
     }
 }
 
@@ -113,6 +115,7 @@ fn compile_eds(
     diagnostics.sort();
     let refused = strictness == Strictness::Standard && diagnostics.has_errors();
     Compiled {
+        entries: entries(&system),
         system: (!refused).then_some(system),
         node: node.filter(|_| !refused),
         stated_node_id: id.filter(|_| !refused),
@@ -130,8 +133,13 @@ pub(crate) fn compile_with(
     let mut diagnostics = Diagnostics::new();
     let system = build(rules, sources, root, loader, &mut diagnostics);
     diagnostics.sort();
+    let entries = system.as_ref().map_or(0, entries);
     let system = system.filter(|_| !diagnostics.has_errors());
-    Compiled { system, node: None, stated_node_id: None, diagnostics }
+    Compiled { system, node: None, stated_node_id: None, entries, diagnostics }
+}
+
+fn entries(system: &System) -> usize {
+    system.devices.iter().map(|device| device.entries().count()).sum()
 }
 
 fn build(

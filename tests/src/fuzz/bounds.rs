@@ -26,22 +26,44 @@ pub(super) struct Bounds {
     pub(super) total: Bound,
 }
 
-/// A number of bytes that grows with the size of a text, and not faster.
+/// A number of bytes that grows with the size of a text and of what it describes, and not faster.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bound {
     /// For an empty text.
     base: u64,
     /// For each byte more.
     per_byte: u64,
+    /// For each entry that the text describes. A line of a specification may stand for many: an object that each of
+    /// its devices has.
+    per_entry: u64,
+}
+
+/// How much a text is, and describes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Size {
+    pub(super) bytes: usize,
+    /// Entries that the bytes do not bound; 0 where they do.
+    pub(super) entries: usize,
+}
+
+impl Size {
+    /// A text that cannot describe more than stands in it.
+    pub(super) const fn bytes(bytes: usize) -> Self {
+        Self { bytes, entries: 0 }
+    }
 }
 
 impl Bound {
     pub(super) const fn new(base: u64, per_byte: u64) -> Self {
-        Self { base, per_byte }
+        Self { base, per_byte, per_entry: 0 }
     }
 
-    const fn of(self, size: u64) -> u64 {
-        self.base + self.per_byte * size
+    pub(super) const fn and_per_entry(self, per_entry: u64) -> Self {
+        Self { per_entry, ..self }
+    }
+
+    const fn of(self, size: Size) -> u64 {
+        self.base + self.per_byte * size.bytes as u64 + self.per_entry * size.entries as u64
     }
 }
 
@@ -52,27 +74,28 @@ pub(super) fn caught<T>(step: impl FnOnce() -> T) -> Result<T, String> {
 }
 
 impl Bounds {
-    /// Takes a step with a text of some size; complains if it panics, or takes too much.
-    pub(super) fn of_step(&self, meter: Meter, size: usize, step: impl Fn()) -> Option<Complaint> {
-        let mut outcome = Ok(());
+    /// Takes a step that gives the size of its text; complains if it panics, or takes too much.
+    pub(super) fn of_step(&self, meter: Meter, step: impl Fn() -> Size) -> Option<Complaint> {
+        let mut outcome = Ok(Size::bytes(0));
         // A panic must not leave the meter running.
         let used = meter(&mut || outcome = caught(&step));
         match outcome {
-            Ok(()) => self.complaint(size, used),
+            Ok(size) => self.complaint(size, used),
             Err(what) => Some(Complaint { step: self.step.to_owned(), what }),
         }
     }
 
     /// What is too much, if anything is.
-    fn complaint(&self, size: usize, used: Used) -> Option<Complaint> {
-        let size = u64::try_from(size).unwrap_or(u64::MAX);
+    fn complaint(&self, size: Size, used: Used) -> Option<Complaint> {
         let amounts = [("at one time", self.peak, used.peak), ("in all", self.total, used.total)];
         let (which, bound, bytes) = amounts.into_iter().find(|(_, bound, bytes)| *bytes > bound.of(size))?;
-        let Bound { base, per_byte } = bound;
-        Some(Complaint {
-            step: format!("{} memory", self.step),
-            what: format!("{bytes} bytes {which}, more than {base} and {per_byte} for each of {size}"),
-        })
+        let Bound { base, per_byte, per_entry } = bound;
+        let mut what =
+            format!("{bytes} bytes {which}, more than {base} and {per_byte} for each of {}", size.bytes);
+        if per_entry > 0 {
+            what += &format!(", and {per_entry} for each of {} entries", size.entries);
+        }
+        Some(Complaint { step: format!("{} memory", self.step), what })
     }
 }
 
@@ -83,7 +106,7 @@ mod tests {
     #[test]
     fn what_is_above_a_bound_is_told() {
         let bounds = Bounds { step: "model", peak: Bound::new(100, 2), total: Bound::new(100, 9) };
-        let said = |peak, total| bounds.complaint(50, Used { peak, total }).map(|one| one.what);
+        let said = |peak, total| bounds.complaint(Size::bytes(50), Used { peak, total }).map(|one| one.what);
         assert_eq!(said(200, 550), None);
         assert_eq!(
             said(201, 551).as_deref(),
@@ -93,14 +116,28 @@ mod tests {
     }
 
     #[test]
+    fn entries_have_room_of_their_own() {
+        let peak = Bound::new(100, 2).and_per_entry(30);
+        let bounds = Bounds { step: "model", peak, total: Bound::new(1000, 0) };
+        let size = Size { bytes: 50, entries: 3 };
+        let said = |peak| bounds.complaint(size, Used { peak, total: 0 }).map(|one| one.what);
+        assert_eq!(said(290), None);
+        let told = "291 bytes at one time, more than 100 and 2 for each of 50, and 30 for each of 3 entries";
+        assert_eq!(said(291).as_deref(), Some(told));
+    }
+
+    #[test]
     fn a_panic_is_told() {
         let bounds = Bounds { step: "model", peak: Bound::new(0, 0), total: Bound::new(0, 0) };
         let meter: Meter = |step| {
             step();
             Used { peak: 1, total: 1 }
         };
-        let said = |step: fn()| bounds.of_step(meter, 5, step).map(|one| one.what);
+        let said = |step: fn() -> Size| bounds.of_step(meter, step).map(|one| one.what);
         assert_eq!(said(|| panic!("out of {}", "range")).as_deref(), Some("panicked: out of range"));
-        assert_eq!(said(|| ()).as_deref(), Some("1 bytes at one time, more than 0 and 0 for each of 5"));
+        assert_eq!(
+            said(|| Size::bytes(5)).as_deref(),
+            Some("1 bytes at one time, more than 0 and 0 for each of 5")
+        );
     }
 }

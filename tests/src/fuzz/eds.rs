@@ -5,7 +5,7 @@ use od_spec::eds::Document;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Compiled, NoFiles, Strictness, add_source, compile_as, fix};
 
-use super::bounds::{Bound, Bounds, Meter, caught};
+use super::bounds::{Bound, Bounds, Meter, Size, caught};
 use super::findings;
 use super::notation::{EDS, Notation};
 use super::{Complaint, Subject};
@@ -43,7 +43,10 @@ impl Subject for EdsFiles {
         let size = size_in_full(name, bytes);
         let is_small = size <= LARGEST;
         for (bounds, step) in STEPS.into_iter().filter(|(bounds, _)| is_small || bounds.step != TURN) {
-            complaints.extend(bounds.of_step(self.meter, size, || step(name, bytes)));
+            complaints.extend(bounds.of_step(self.meter, || {
+                step(name, bytes);
+                Size::bytes(size)
+            }));
         }
         if complaints.is_empty() && is_small {
             let wrong = caught(|| formats(name, bytes));

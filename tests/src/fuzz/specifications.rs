@@ -9,7 +9,7 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Commissioning, Compiled, Loader, NoFiles, Strictness, compile, compile_as, read_text};
 
-use super::bounds::{Bound, Bounds, Meter, caught};
+use super::bounds::{Bound, Bounds, Meter, Size, caught};
 use super::findings;
 use super::notation::{Notation, YAML};
 use super::{Complaint, Subject};
@@ -32,8 +32,11 @@ const MOST_ENTRIES: usize = 4000;
 const NODE: u8 = 5;
 
 /// Reading a text and judging it. Most of what one needs is for its libraries; the standard ones are read for each.
-const COMPILE: Bounds =
-    Bounds { step: "compile", peak: Bound::new(16_000_000, 400), total: Bound::new(120_000_000, 4000) };
+const COMPILE: Bounds = Bounds {
+    step: "compile",
+    peak: Bound::new(4_000_000, 400).and_per_entry(1000),
+    total: Bound::new(120_000_000, 4000).and_per_entry(10_000),
+};
 
 /// The library of the device that uses one.
 struct Library<'b>(&'b [u8]);
@@ -62,8 +65,11 @@ impl Subject for Specifications {
     }
 
     fn complaints(&self, name: &str, bytes: &[u8]) -> Vec<Complaint> {
-        let mut complaints: Vec<Complaint> =
-            COMPILE.of_step(self.meter, bytes.len(), || drop(compiled(name, bytes))).into_iter().collect();
+        let read = || Size {
+            bytes: bytes.len(),
+            entries: compiled(name, bytes).map_or(0, |(.., compiled)| compiled.entries),
+        };
+        let mut complaints: Vec<Complaint> = COMPILE.of_step(self.meter, read).into_iter().collect();
         if complaints.is_empty() {
             let steps: [(&str, &dyn Fn() -> Vec<String>); 2] =
                 [("specification", &|| self.specification(name, bytes)), ("library", &|| library(bytes))];
