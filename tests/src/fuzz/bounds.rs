@@ -90,11 +90,14 @@ impl Bounds {
         let amounts = [("at one time", self.peak, used.peak), ("in all", self.total, used.total)];
         let (which, bound, bytes) = amounts.into_iter().find(|(_, bound, bytes)| *bytes > bound.of(size))?;
         let Bound { base, per_byte, per_entry } = bound;
-        let mut what =
-            format!("{bytes} bytes {which}, more than {base} and {per_byte} for each of {}", size.bytes);
-        if per_entry > 0 {
-            what += &format!(", and {per_entry} for each of {} entries", size.entries);
-        }
+        let of_entries = match per_entry {
+            0 => String::new(),
+            _ => format!(", and {per_entry} for each of {} entries", size.entries),
+        };
+        let what = format!(
+            "{bytes} bytes {which}, more than {base} and {per_byte} for each of {}{of_entries}",
+            size.bytes
+        );
         Some(Complaint { step: format!("{} memory", self.step), what })
     }
 }
