@@ -33,8 +33,9 @@ pub struct Compiled {
     pub node: Option<Commissioning>,
     /// The node-ID that a DCF states.
     pub stated_node_id: Option<u8>,
-    /// Entries of all devices together, also where an error keeps the model back: memory and time grow with them.
-    pub entries: usize,
+    /// How much the text describes: objects as they are written, each of a run, and the entries of every device; also
+    /// where an error keeps the model back. Memory and time grow with it.
+    pub described: usize,
     /// Errors and warnings, sorted by place.
     pub diagnostics: Diagnostics,
 }
@@ -42,7 +43,7 @@ pub struct Compiled {
 impl Compiled {
     /// Nothing but messages.
     pub const fn refused(diagnostics: Diagnostics) -> Self {
-        Self { system: None, node: None, stated_node_id: None, entries: 0, diagnostics }
+        Self { system: None, node: None, stated_node_id: None, described: 0, diagnostics }
     }
 }
 
@@ -115,7 +116,7 @@ fn compile_eds(
     diagnostics.sort();
     let refused = strictness == Strictness::Standard && diagnostics.has_errors();
     Compiled {
-        entries: entries(&system),
+        described: described(&spec, &system),
         system: (!refused).then_some(system),
         node: node.filter(|_| !refused),
         stated_node_id: id.filter(|_| !refused),
@@ -131,24 +132,26 @@ pub(crate) fn compile_with(
     loader: &mut dyn Loader,
 ) -> Compiled {
     let mut diagnostics = Diagnostics::new();
-    let system = build(rules, sources, root, loader, &mut diagnostics);
+    let built = build(rules, sources, root, loader, &mut diagnostics);
     diagnostics.sort();
-    let entries = system.as_ref().map_or(0, entries);
+    let (system, described) = built.map_or((None, 0), |(system, described)| (Some(system), described));
     let system = system.filter(|_| !diagnostics.has_errors());
-    Compiled { system, node: None, stated_node_id: None, entries, diagnostics }
+    Compiled { system, node: None, stated_node_id: None, described, diagnostics }
 }
 
-fn entries(system: &System) -> usize {
-    system.devices.iter().map(|device| device.entries().count()).sum()
+fn described(spec: &Spec, system: &System) -> usize {
+    let entries: usize = system.devices.iter().map(|device| device.entries().count()).sum();
+    spec.objects.len() + entries
 }
 
+/// The model, right or not, and how much the text describes.
 fn build(
     rules: check::Rules<'_>,
     sources: &mut SourceMap,
     root: FileId,
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
-) -> Option<System> {
+) -> Option<(System, usize)> {
     let spec = file(sources, root, loader, diagnostics)?;
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
@@ -156,7 +159,8 @@ fn build(
     standard::keep(sources, libraries);
     let mut allowed = Allowed::of(&spec, diagnostics);
     check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
-    Some(system)
+    let described = described(&spec, &system);
+    Some((system, described))
 }
 
 /// Reads a file and its parts. The tree, which is several times as large as the text, is gone afterwards.
@@ -169,7 +173,7 @@ fn file(
     let mut tree = yaml::parse(file, sources.file(file), diagnostics)?;
     parts::refuse_alone(&tree, diagnostics)?;
     gaps::check(file, sources.file(file).text(), diagnostics);
-    decode::check(&tree, &keys::SPEC, diagnostics);
+    decode::check(&mut tree, &keys::SPEC, diagnostics);
     parts::join(sources, &mut tree, loader, diagnostics)?;
     Some(decode::read(&tree, diagnostics))
 }

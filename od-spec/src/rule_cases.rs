@@ -133,8 +133,8 @@ const THREE: &str = "devices:
   jo: {name: Two, bit-rates: [125], features: [heartbeat producer], product: 1}
   zo: {name: Three, bit-rates: [125], features: [heartbeat producer], product: 1}
 objects:
-  0x2000: {on: [io, jo], name: aa, type: unsigned8, access: rw, default: 5}
-  0x2001: {on: [zo], name: bb, type: unsigned8, access: rw, default: 1}
+  0x2000: {devices: [io, jo], name: aa, type: unsigned8, access: rw, default: 5}
+  0x2001: {devices: [zo], name: bb, type: unsigned8, access: rw, default: 1}
 constraints:\n";
 
 #[test]
@@ -142,7 +142,7 @@ fn a_condition_is_tried_where_it_belongs() {
     let said = |constraint: &str| said(&format!("{THREE}  order: {constraint}"), 1, &[]);
     // Seen from the device that has what is named without one.
     assert_eq!(said("{require: \"io:0x2000 < jo:0x2000\", when: \"0x2001 == 1\"}"), ["OD0606"]);
-    assert_eq!(said("{on: [jo], require: \"0x1018.2 < 3\", when: \"io:0x2000 == 5\"}"), NONE);
+    assert_eq!(said("{devices: [jo], require: \"0x1018.2 < 3\", when: \"io:0x2000 == 5\"}"), NONE);
     // Two devices share the entry: one message.
     assert_eq!(said("{require: \"0x2000 < 3\"}"), ["OD0606"]);
     assert_eq!(said("{require: \"io:0x2000 < jo:0x2000\"}"), ["OD0606"]);
@@ -150,7 +150,8 @@ fn a_condition_is_tried_where_it_belongs() {
 
 #[test]
 fn a_condition_across_devices_sees_the_settings_of_one() {
-    let text = format!("{THREE}  order: {{on: [jo], require: \"0x1018.2 < 3\", when: \"io:0x2000 == 7\"}}");
+    let text =
+        format!("{THREE}  order: {{devices: [jo], require: \"0x1018.2 < 3\", when: \"io:0x2000 == 7\"}}");
     assert_eq!(said(&text, 1, &[]), NONE);
     assert_eq!(said(&text, 1, &["2000=7"]), NONE, "product 1 of `jo` is below 3");
     let text = format!(

@@ -85,6 +85,9 @@ fn specifications(directory: &str, starts: &[&str]) -> Vec<(String, String)> {
     found
 }
 
+/// The case whose keys have names of an earlier release, which the compiler still reads and an editor marks.
+const FORMER_NAMES: &str = "od0842";
+
 /// Puts something under `objects:` of a small specification.
 fn with_object(object: &str) -> String {
     format!(
@@ -99,9 +102,18 @@ fn every_valid_specification_is_accepted() {
     all.extend(specifications("od-spec/profiles", &[""]));
     assert!(all.len() >= 2);
     all.extend(specifications("tests/ui", &["ok", "warn"]));
-    for (name, text) in all {
+    for (name, text) in all.into_iter().filter(|(name, _)| !name.contains(FORMER_NAMES)) {
         assert_eq!(problems(&validator, &text), Vec::<String>::new(), "{name}");
     }
+}
+
+#[test]
+fn keys_have_their_names_of_today() {
+    let validator = validator();
+    let former =
+        specifications("tests/ui", &["warn"]).into_iter().find(|(name, _)| name.contains(FORMER_NAMES));
+    let (_, text) = former.unwrap();
+    assert!(!problems(&validator, &text).is_empty());
 }
 
 #[test]
@@ -113,7 +125,7 @@ fn every_notation_of_a_valid_value_is_accepted() {
         "{name: a, type: 402, access: ro, special: {-1: none, 0x7F: {name: all}, \"1_0\": ten}}",
         "{name: a, type: unsigned8, access: rw, default: $NODEID + 1, writable-when: \"0x6060 == 6\"}",
         "{name: a, type: unsigned8, access: ro, bit-errors: {0: 0x4420, 1..3: [1, \"0b10\"]}}",
-        "{alias: 0x6064.0x0A, on: [d], type: integer16, rounding: nearest, outside: wrap}",
+        "{alias: 0x6064.0x0A, devices: [d], type: integer16, rounding: nearest, outside: wrap}",
         "{from: cia301, omit: [4], sub0: {access: rw, default: 0}}",
         "{name: a, array: {count: \"0x0_2\", name: \"b {n}\", type: real32, access: ro, elements: {0x02: {default: 1e3}}}}",
         "{name: a, record: {1: {name: b, type: unsigned8, access: ro}, \"0o2\": {name: c, type: t, access: wo}}}",

@@ -143,7 +143,10 @@ fn what_would_not_compile_is_refused_by_check_as_by_build() {
 fn what_is_no_longer_made_is_named_and_removed_when_that_is_wanted() {
     let scratch = Scratch::new("prune");
     let second = LAMP
-        .replace("objects:\n", "objects:\n  0x2001: {name: hue, type: unsigned8, access: ro, on: [spot]}\n")
+        .replace(
+            "objects:\n",
+            "objects:\n  0x2001: {name: hue, type: unsigned8, access: ro, devices: [spot]}\n",
+        )
         .replace(
             "units:\n",
             "  spot: {name: Spot, bit-rates: [125], features: [heartbeat producer]}\nunits:\n",

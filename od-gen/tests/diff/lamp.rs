@@ -138,8 +138,9 @@ fn another_key_is_another_name_in_firmware() {
 #[test]
 fn devices_come_and_go() {
     let second = "  torch: {name: Torch, bit-rates: [125], features: [heartbeat producer]}\n";
-    let two = LAMP.replace("units:\n", &format!("{second}units:\n")).replace("{name: ", "{on: lamp, name: ");
-    let two = two.replace("torch: {on: lamp, name: Torch", "torch: {name: Torch");
+    let two =
+        LAMP.replace("units:\n", &format!("{second}units:\n")).replace("{name: ", "{devices: lamp, name: ");
+    let two = two.replace("torch: {devices: lamp, name: Torch", "torch: {name: Torch");
     let (one, two) = (system(LAMP), system(&two));
     let lines = short(&difference(&one, &two, Scope::Everything));
     assert_eq!(lines, "*: + device torch: Torch [addition]\n");

@@ -247,7 +247,7 @@ pub(crate) struct ObjectDecl {
     pub index: Spanned<Index>,
     /// Bytes that its entries take, about: what is written once for all elements counts for each.
     pub weight: usize,
-    pub on: Option<Vec<Name>>,
+    pub devices: Option<Vec<Name>>,
     pub from: Option<Name>,
     pub alias: Option<Name>,
     pub outside: Option<Spanned<Outside>>,

@@ -25,9 +25,10 @@ use crate::diag::Diagnostics;
 use crate::keys::{self, Keys};
 use crate::yaml::Node;
 
-/// Says what in a file is not as its keys want it.
-pub(crate) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
-    shape::check_map(root, keys, shape::start(root), diagnostics);
+/// Says what in a file is not as its keys want it, and gives keys their name of today.
+pub(crate) fn check(root: &mut Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+    let owner = shape::start(root);
+    shape::check_map(root, keys, owner, diagnostics);
 }
 
 /// Reads a specification or library whose files were checked.
@@ -37,7 +38,7 @@ pub(crate) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
 }
 
 /// [`check`], then [`read()`]: a file without parts.
-pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
+pub(crate) fn decode(root: &mut Node, diagnostics: &mut Diagnostics) -> Spec {
     check(root, &keys::SPEC, diagnostics);
     read(root, diagnostics)
 }

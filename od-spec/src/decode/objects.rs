@@ -93,7 +93,7 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
     let decl = ObjectDecl {
         index,
         weight: written,
-        on: r.optional_texts("on"),
+        devices: r.optional_texts("devices"),
         from: r.text("from"),
         alias: r.text("alias"),
         outside: r.value("outside", Outside::from_word),

@@ -57,7 +57,7 @@ codes! {
     TURNED_TEXT Error "OD0115" "a character that hides what a text says":
         "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape. A setting of a node has no escapes, and holds no control character either."
     TOO_MUCH Error "OD0116" "a file describes too much":
-        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or an `on:` wrong? A family of devices that is really larger goes into several files."
+        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or a list of devices wrong? A family of devices that is really larger goes into several files."
     MISSING_PART Error "OD0117" "a part cannot be read":
         "`parts:` names files that hold more of the specification, each relative to the file that names it. There is no such file, or it may not be read."
     NOT_A_PART Error "OD0118" "a file that is no part of the specification":
@@ -89,7 +89,7 @@ codes! {
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
-        "`on:`, `pdos:` and conditions name devices by their key under `devices:`."
+        "Objects, errors, errata, PDOs and conditions name devices by their key under the `devices:` of the file."
     UNKNOWN_LIBRARY Error "OD0307" "an unknown library":
         "`from:` names a library by its `profile:` name; the library must stand in `uses:`."
     UNKNOWN_FEATURE Error "OD0308" "an unknown feature":
@@ -158,6 +158,8 @@ codes! {
         "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
     OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
         "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
+    FORMER_NAME Warning "OD0842" "a key under its former name":
+        "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":

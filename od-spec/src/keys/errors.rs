@@ -8,7 +8,7 @@ macro_rules! error_keys {
         $then! { $($head)* {
             "name": Shape::Text => name: Option<Name>, "name; `{n}` counts through a range from 1; needed without `from`", "\"Voltage at battery block {n} too low\"";
             "from": Shape::Text => from: Option<Name>, "library that defines the code; the other keys go before it", "cia402";
-            "on": NAMES => on: Option<Vec<Name>>, "devices that report it; all unless given";
+            "devices": NAMES => devices: Option<Vec<Name>>, "devices that report it; all unless given";
             "priority": Shape::Text => priority: Option<Name>, "priority, as the manual classes it";
             "reaction": Shape::Words => reaction: Words, "what the device does";
             "about": Shape::Words => about: Words, "more about it";

@@ -7,7 +7,7 @@ macro_rules! machine_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "from": Shape::Text => from: Option<Name>, "library that defines a machine of this name; states, transitions and commands of one name or number go before the library's", "cia402";
-            "on": NAMES => on: Option<Vec<Name>>, "devices that have it; all unless given";
+            "devices": NAMES => devices: Option<Vec<Name>>, "devices that have it; all unless given";
             "status": Shape::Entry => status: Option<Name>, "entry that shows the state; needed without `from`", "0x6041";
             "command": Shape::Entry => command: Option<Name>, "entry that takes the commands; needed without `from`", "controlword";
             "states": Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)) => states: Vec<StateDecl>, "states by name";

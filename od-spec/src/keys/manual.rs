@@ -8,7 +8,7 @@ macro_rules! erratum_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "at": Shape::OneOrMore(&Shape::Entry) => at: Vec<Name>, "objects or entries it is about", "[0x3004, 0x30FA.3]";
-            "on": NAMES => on: Option<Vec<Name>>, "devices it is about; all unless given";
+            "devices": NAMES => devices: Option<Vec<Name>>, "devices it is about; unless given, those that have something of `at`; all without `at`";
             "kind" required: Shape::Choice(ErratumKind::WORDS) => kind: Option<Spanned<ErratumKind>>, "what kind of fact";
             "place" required: Shape::Words => place: Words, "where the manual prints it", "\"4.1.1.5, detail table\"";
             "prints" required: Shape::Words => prints: Words, "what it prints", "3003h";

@@ -7,7 +7,7 @@ use crate::model::{Outside, Rounding};
 
 /// Keys that only objects have.
 const OBJECT_KEYS: &[Key] = key_list! {
-    "on": NAMES, "devices that have the object; all unless given", "[pmm, pmc]";
+    "devices": NAMES, "devices that have the object; all unless given", "[pmm, pmc]";
     "from": Shape::Text, "library that defines the object; the other keys say what differs", "cia301";
     "alias": Shape::Entry, "makes it a view of another entry, in a narrower type or another unit, without storage of its own", "0x6064";
     "outside": Shape::Choice(Outside::WORDS), "what an alias gives outside its range; saturate unless given";

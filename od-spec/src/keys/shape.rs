@@ -113,6 +113,15 @@ pub enum KeyKind {
     Number,
 }
 
+/// Names that keys had in the release before, with those of today.
+const FORMER_NAMES: [(&str, &str); 1] = [("on", "devices")];
+
+/// The name that a key of this map has today, if this is a former one.
+pub fn name_today(name: &str, keys: &Keys) -> Option<&'static str> {
+    let (_, today) = FORMER_NAMES.iter().find(|(former, _)| *former == name)?;
+    keys.keys.iter().any(|key| key.name == *today).then_some(*today)
+}
+
 /// The version of the language that the compiler reads.
 pub const VERSION: i128 = 1;
 

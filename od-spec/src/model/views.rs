@@ -21,7 +21,7 @@ pub enum Devices {
 }
 
 impl Devices {
-    /// The devices of a list that means all devices when it is empty, as `on:` and `--device` do.
+    /// The devices of a list that means all devices when it is empty, as `devices:` and `--device` do.
     pub fn listed<K: Into<String>>(keys: impl IntoIterator<Item = K>) -> Self {
         let keys: Vec<String> = keys.into_iter().map(Into::into).collect();
         if keys.is_empty() { Self::All } else { Self::Only(keys) }

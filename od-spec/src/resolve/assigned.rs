@@ -8,7 +8,7 @@ use crate::ast::{ObjectDecl, Spec};
 
 /// The objects that a specification declares, by device.
 pub(super) struct Assigned<'a> {
-    /// Those without `on:`, with their positions.
+    /// Those without `devices:`, with their positions.
     common: Vec<(usize, &'a ObjectDecl)>,
     /// Those that name a device, by its key.
     own: BTreeMap<&'a str, Vec<(usize, &'a ObjectDecl)>>,
@@ -21,7 +21,7 @@ impl<'a> Assigned<'a> {
         let known: BTreeSet<&str> = spec.devices.iter().map(|device| device.key.value.as_str()).collect();
         let (mut common, mut own, mut for_nobody) = (Vec::new(), BTreeMap::new(), Broken::default());
         for (at, decl) in spec.objects.iter().enumerate() {
-            let Some(on) = &decl.on else {
+            let Some(on) = &decl.devices else {
                 common.push((at, decl));
                 continue;
             };

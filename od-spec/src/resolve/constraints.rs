@@ -238,7 +238,7 @@ fn constraint(
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();
     let unprefixed = || entries.iter().filter(|entry| entry.device.is_none());
     // Entries without a device are those of each device that has all of them.
-    let on = decl.on.as_ref();
+    let on = decl.devices.as_ref();
     let on: Option<BTreeSet<&str>> = on.map(|on| on.iter().map(|key| key.value.as_str()).collect());
     let may_have_all: Vec<&Dictionary> = match unprefixed().next() {
         Some(first) => devices.with(first.id.index).to_vec(),
@@ -251,7 +251,7 @@ fn constraint(
         .collect();
     if with_all_entries.is_empty() && unprefixed().next().is_some() {
         let known = |key: &Name| devices.by_key.contains_key(key.value.as_str());
-        let unknown_device = decl.on.as_ref().is_some_and(|on| !on.iter().all(known));
+        let unknown_device = decl.devices.as_ref().is_some_and(|on| !on.iter().all(known));
         if unknown_device || unprefixed().any(|entry| broken.has(entry.id.index)) {
             return None;
         }

@@ -322,7 +322,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
     let merged = ObjectDecl {
         index: over.index,
         weight: over.weight,
-        on: over.on.clone(),
+        devices: over.devices.clone(),
         from: over.from.clone(),
         alias: over.alias.clone(),
         outside: over.outside,

@@ -119,11 +119,11 @@ pub(super) fn of_library<'a>(
 fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
     let known: BTreeSet<&str> = root.devices.iter().map(|device| device.key.value.as_str()).collect();
     let lists = [
-        root.objects.iter().filter_map(|decl| decl.on.as_ref()).collect::<Vec<_>>(),
-        root.errors.iter().filter_map(|decl| decl.on.as_ref()).collect(),
-        root.machines.iter().filter_map(|decl| decl.on.as_ref()).collect(),
-        root.constraints.iter().filter_map(|decl| decl.on.as_ref()).collect(),
-        root.errata.iter().filter_map(|decl| decl.on.as_ref()).collect(),
+        root.objects.iter().filter_map(|decl| decl.devices.as_ref()).collect::<Vec<_>>(),
+        root.errors.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
+        root.machines.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
+        root.constraints.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
+        root.errata.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
     ];
     let used = lists.into_iter().flatten().flatten().chain(root.pdos.iter().map(|(key, _)| key));
     for key in used.filter(|key| !known.contains(key.value.as_str())) {
@@ -150,7 +150,7 @@ fn take_room(
         }
     };
     Err(Box::new(Diagnostic::new(codes::TOO_MUCH, *span, message).help(
-        "correct runs and counts, name the devices of an object in `on:`, or describe the devices in several files",
+        "correct runs and counts, name the devices of an object in its `devices:`, or describe the devices in several files",
     )))
 }
 

@@ -12,7 +12,8 @@ use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits;
 use crate::model::{
-    Devices, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table, TableContent,
+    Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
+    TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -93,7 +94,7 @@ pub(super) fn errata(
     let is_described = system.document.tables().next().is_some();
     let mut room = limits::TABLES_OF_ERRATA;
     for decl in &root.errata {
-        let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
+        let on = Devices::listed(decl.devices.iter().flatten().map(|key| key.value.as_str()));
         let mut at = Vec::new();
         for reference in &decl.at {
             if let Some(place) = place(reference, &on, names, broken, diagnostics) {
@@ -123,9 +124,10 @@ pub(super) fn errata(
             );
         }
         let Some(kind) = decl.kind else { continue };
+        let devices = if decl.devices.is_some() { on } else { owners(&at, system) };
         errata.push(Erratum {
             at,
-            devices: on,
+            devices,
             kind: kind.value,
             place,
             prints: words(&decl.prints),
@@ -135,6 +137,21 @@ pub(super) fn errata(
         });
     }
     errata
+}
+
+/// The devices that have one of the places; all, if none is named.
+fn owners(at: &[ErratumPlace], system: &System) -> Devices {
+    let has = |device: &Dictionary| {
+        at.iter().any(|place| match place {
+            ErratumPlace::Object(index) => device.objects.contains_key(index),
+            ErratumPlace::Entry(id) => device.entry(*id).is_some(),
+        })
+    };
+    let owners: Vec<&Dictionary> = system.devices.iter().filter(|device| has(device)).collect();
+    if owners.len() == system.devices.len() {
+        return Devices::All;
+    }
+    Devices::listed(owners.iter().map(|device| device.key.as_str()))
 }
 
 fn place(

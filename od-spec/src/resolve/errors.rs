@@ -79,7 +79,7 @@ fn error(
     Some(ErrorCode {
         code,
         name,
-        devices: Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str())),
+        devices: Devices::listed(decl.devices.iter().flatten().map(|key| key.value.as_str())),
         priority: decl
             .priority
             .as_ref()

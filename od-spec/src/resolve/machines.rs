@@ -118,7 +118,7 @@ fn machine(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<StateMachine> {
-    let on = Devices::listed(decl.on.iter().flatten().map(|key| key.value.as_str()));
+    let on = Devices::listed(decl.devices.iter().flatten().map(|key| key.value.as_str()));
     let mut found: Option<(&Dictionary, EntryId, EntryId)> = None;
     for (device, names) in names.each(&on) {
         let mut find = |name: &Option<Name>| {
@@ -139,7 +139,7 @@ fn machine(
                             first.key
                         ),
                     )
-                    .help("describe a machine per device, each with its `on:`"),
+                    .help("describe a machine per device, each with its `devices:`"),
                 );
                 return None;
             }

@@ -38,7 +38,7 @@ impl Owners {
         let devices: Vec<String> = self.devices.iter().map(|key| format!("`{key}`")).collect();
         let object = shorten(&self.object);
         format!(
-            "`{object}` is an object of {} only; name the other device under its `on:`, too",
+            "`{object}` is an object of {} only; name the other device under its `devices:`, too",
             devices.join(", ")
         )
     }

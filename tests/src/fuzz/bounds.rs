@@ -33,37 +33,37 @@ pub(super) struct Bound {
     base: u64,
     /// For each byte more.
     per_byte: u64,
-    /// For each entry that the text describes. A line of a specification may stand for many: an object that each of
-    /// its devices has.
-    per_entry: u64,
+    /// For each object or entry that the text describes. A line of a specification may stand for many: a run, or an
+    /// object that each of its devices has.
+    per_described: u64,
 }
 
 /// How much a text is, and describes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Size {
     pub(super) bytes: usize,
-    /// Entries that the bytes do not bound; 0 where they do.
-    pub(super) entries: usize,
+    /// Objects and entries that the bytes do not bound; 0 where they do.
+    pub(super) described: usize,
 }
 
 impl Size {
     /// A text that cannot describe more than stands in it.
     pub(super) const fn bytes(bytes: usize) -> Self {
-        Self { bytes, entries: 0 }
+        Self { bytes, described: 0 }
     }
 }
 
 impl Bound {
     pub(super) const fn new(base: u64, per_byte: u64) -> Self {
-        Self { base, per_byte, per_entry: 0 }
+        Self { base, per_byte, per_described: 0 }
     }
 
-    pub(super) const fn and_per_entry(self, per_entry: u64) -> Self {
-        Self { per_entry, ..self }
+    pub(super) const fn and_for_each_described(self, per_described: u64) -> Self {
+        Self { per_described, ..self }
     }
 
     const fn of(self, size: Size) -> u64 {
-        self.base + self.per_byte * size.bytes as u64 + self.per_entry * size.entries as u64
+        self.base + self.per_byte * size.bytes as u64 + self.per_described * size.described as u64
     }
 }
 
@@ -89,13 +89,13 @@ impl Bounds {
     fn complaint(&self, size: Size, used: Used) -> Option<Complaint> {
         let amounts = [("at one time", self.peak, used.peak), ("in all", self.total, used.total)];
         let (which, bound, bytes) = amounts.into_iter().find(|(_, bound, bytes)| *bytes > bound.of(size))?;
-        let Bound { base, per_byte, per_entry } = bound;
-        let of_entries = match per_entry {
+        let Bound { base, per_byte, per_described } = bound;
+        let of_described = match per_described {
             0 => String::new(),
-            _ => format!(", and {per_entry} for each of {} entries", size.entries),
+            _ => format!(", and {per_described} for each of {} objects and entries", size.described),
         };
         let what = format!(
-            "{bytes} bytes {which}, more than {base} and {per_byte} for each of {}{of_entries}",
+            "{bytes} bytes {which}, more than {base} and {per_byte} for each of {}{of_described}",
             size.bytes
         );
         Some(Complaint { step: format!("{} memory", self.step), what })
@@ -119,13 +119,13 @@ mod tests {
     }
 
     #[test]
-    fn entries_have_room_of_their_own() {
-        let peak = Bound::new(100, 2).and_per_entry(30);
+    fn what_is_described_has_room_of_its_own() {
+        let peak = Bound::new(100, 2).and_for_each_described(30);
         let bounds = Bounds { step: "model", peak, total: Bound::new(1000, 0) };
-        let size = Size { bytes: 50, entries: 3 };
+        let size = Size { bytes: 50, described: 3 };
         let said = |peak| bounds.complaint(size, Used { peak, total: 0 }).map(|one| one.what);
         assert_eq!(said(290), None);
-        let told = "291 bytes at one time, more than 100 and 2 for each of 50, and 30 for each of 3 entries";
+        let told = "291 bytes at one time, more than 100 and 2 for each of 50, and 30 for each of 3 objects and entries";
         assert_eq!(said(291).as_deref(), Some(told));
     }
 

@@ -34,8 +34,8 @@ const NODE: u8 = 5;
 /// Reading a text and judging it. Most of what one needs is for its libraries; the standard ones are read for each.
 const COMPILE: Bounds = Bounds {
     step: "compile",
-    peak: Bound::new(4_000_000, 400).and_per_entry(1000),
-    total: Bound::new(120_000_000, 4000).and_per_entry(10_000),
+    peak: Bound::new(4_000_000, 400).and_for_each_described(2400),
+    total: Bound::new(120_000_000, 4000).and_for_each_described(10_000),
 };
 
 /// The library of the device that uses one.
@@ -67,7 +67,7 @@ impl Subject for Specifications {
     fn complaints(&self, name: &str, bytes: &[u8]) -> Vec<Complaint> {
         let read = || Size {
             bytes: bytes.len(),
-            entries: compiled(name, bytes).map_or(0, |(.., compiled)| compiled.entries),
+            described: compiled(name, bytes).map_or(0, |(.., compiled)| compiled.described),
         };
         let mut complaints: Vec<Complaint> = COMPILE.of_step(self.meter, read).into_iter().collect();
         if complaints.is_empty() {

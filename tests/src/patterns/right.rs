@@ -124,7 +124,10 @@ pub const RIGHT: &[Pattern] = &[
             format!("  d{at}: {{name: device {at}, bit-rates: [125], eds: {{created: 2024-02-29 12:00}}}}\n")
         });
         let objects = each(n, |at| {
-            format!("  0x{:X}: {{name: object {at}, on: d{at}, type: unsigned8, access: ro}}\n", index(at))
+            format!(
+                "  0x{:X}: {{name: object {at}, devices: d{at}, type: unsigned8, access: ro}}\n",
+                index(at)
+            )
         });
         format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n{objects}")
     }),
@@ -134,13 +137,13 @@ pub const RIGHT: &[Pattern] = &[
         });
         let objects = each(n, |at| {
             format!(
-                "  0x{:X}: {{name: object {at}, on: d{at}, type: unsigned8, access: rw, writable-when: \"0x{:X} == 0\"}}\n",
+                "  0x{:X}: {{name: object {at}, devices: d{at}, type: unsigned8, access: rw, writable-when: \"0x{:X} == 0\"}}\n",
                 index(at),
                 index(at)
             )
         });
         let constraints =
-            each(n, |at| format!("  c{at}: {{on: d{at}, require: \"d{at}:0x{:X} < 9\"}}\n", index(at)));
+            each(n, |at| format!("  c{at}: {{devices: d{at}, require: \"d{at}:0x{:X} < 9\"}}\n", index(at)));
         format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n{objects}constraints:\n{constraints}")
     }),
     pattern("devices with machines, PDOs and errata of their own", |n| {
@@ -149,22 +152,22 @@ pub const RIGHT: &[Pattern] = &[
         });
         let objects = each(n, |at| {
             format!(
-                "  0x{:X}: {{name: object {at}, on: d{at}, type: unsigned8, access: rw, pdo: both}}\n",
+                "  0x{:X}: {{name: object {at}, devices: d{at}, type: unsigned8, access: rw, pdo: both}}\n",
                 index(at)
             )
         });
         let pdos = each(n, |at| format!("  d{at}: {{transmit: {{1: {{map: [object {at}]}}}}}}\n"));
         let machines = each(n, |at| {
             format!(
-                "  m{at}: {{on: d{at}, status: object {at}, command: object {at}, states: {{a: {{pattern: xxxxxxx1}}}}}}\n"
+                "  m{at}: {{devices: d{at}, status: object {at}, command: object {at}, states: {{a: {{pattern: xxxxxxx1}}}}}}\n"
             )
         });
         let errata = each(n, |at| {
             format!(
-                "  - {{at: object {at}, on: d{at}, kind: name, place: page, prints: a, reads: b, because: c}}\n"
+                "  - {{at: object {at}, devices: d{at}, kind: name, place: page, prints: a, reads: b, because: c}}\n"
             )
         });
-        let errors = each(n, |at| format!("  0x{at:04X}: {{name: error {at}, on: d{at}}}\n"));
+        let errors = each(n, |at| format!("  0x{at:04X}: {{name: error {at}, devices: d{at}}}\n"));
         format!(
             "od-spec: 1\ntitle: t\nuses: [cia301]\ndevices:\n{devices}objects:\n{objects}pdos:\n{pdos}state-machines:\n{machines}errata:\n{errata}errors:\n{errors}"
         )

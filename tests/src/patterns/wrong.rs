@@ -64,7 +64,7 @@ pub const WRONG: &[Pattern] = &[
         spec(
             "",
             &format!(
-                "  0x2000..0x{:X}: {{name: \"a {{n}}\", on: e, type: unsigned8, access: ro}}\n",
+                "  0x2000..0x{:X}: {{name: \"a {{n}}\", devices: e, type: unsigned8, access: ro}}\n",
                 index(n)
             ),
         )
@@ -106,7 +106,7 @@ pub const WRONG: &[Pattern] = &[
         spec(
             "",
             &format!(
-                "  0x2000: {{name: a, type: unsigned8, access: ro, on: [{}]}}\n",
+                "  0x2000: {{name: a, type: unsigned8, access: ro, devices: [{}]}}\n",
                 list(n, |at| format!("e{at}"))
             ),
         )
@@ -420,7 +420,7 @@ pub const WRONG: &[Pattern] = &[
             "od-spec: 1\ndevices:\n{}objects:\n{}",
             each(n, |at| format!("  d{at}: {{name: d{at}}}\n")),
             each(n, |at| format!(
-                "  0x{:X}: {{name: o{at}, type: unsigned9, access: ro, on: d{at}}}\n",
+                "  0x{:X}: {{name: o{at}, type: unsigned9, access: ro, devices: d{at}}}\n",
                 index(at)
             ))
         )

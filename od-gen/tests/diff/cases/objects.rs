@@ -6,15 +6,15 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "an object comes",
         at: "  0x3068:",
-        find: "    on: pmm",
-        replace: "    on: [pmm, pmc]",
+        find: "    devices: pmm",
+        replace: "    devices: [pmm, pmc]",
         expected: &["pmc: + 3068h battery test voltage: unsigned16 ro [addition]"],
     },
     Case {
         name: "an object goes",
         at: "  0x2030:",
-        find: "    on: [pmm, pmc]",
-        replace: "    on: pmc",
+        find: "    devices: [pmm, pmc]",
+        replace: "    devices: pmc",
         expected: &["pmm: - 2030h error field time stamp: ARRAY with 2 entries [plc, firmware]"],
     },
     Case {
@@ -70,15 +70,15 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "an object gets an identifier",
         at: "  0x3001:",
-        find: "    on: pmm\n",
-        replace: "    on: pmm\n    identifier: charger\n",
+        find: "    devices: pmm\n",
+        replace: "    devices: pmm\n    identifier: charger\n",
         expected: &["pmm: ~ 3001h charger status: identifier: none -> charger [firmware]"],
     },
     Case {
         name: "an identifier that changes nothing",
         at: "  0x3001:",
-        find: "    on: pmm\n",
-        replace: "    on: pmm\n    identifier: charger_status\n",
+        find: "    devices: pmm\n",
+        replace: "    devices: pmm\n    identifier: charger_status\n",
         expected: &["pmm: ~ 3001h charger status: identifier: none -> charger_status [documents]"],
     },
     Case {
@@ -168,8 +168,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a standard demands it",
         at: "  0x3005:",
-        find: "    on: pmm\n",
-        replace: "    on: pmm\n    category: optional\n",
+        find: "    devices: pmm\n",
+        replace: "    devices: pmm\n    category: optional\n",
         expected: &["pmm: ~ 3005h test status: category: none -> optional [documents]"],
     },
     Case {
@@ -182,8 +182,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "objects that belong together",
         at: "  0x3005:",
-        find: "    on: pmm\n",
-        replace: "    on: pmm\n    links: [0x3001, 0x3006]\n",
+        find: "    devices: pmm\n",
+        replace: "    devices: pmm\n    links: [0x3001, 0x3006]\n",
         expected: &["pmm: ~ 3005h test status: links: none -> 3001h, 3006h [documents]"],
     },
     Case {

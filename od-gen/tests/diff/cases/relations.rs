@@ -6,7 +6,7 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "an error code goes",
         at: "errors:",
-        find: "  0x3120: {name: Grid under voltage, on: pmm}\n",
+        find: "  0x3120: {name: Grid under voltage, devices: pmm}\n",
         replace: "",
         expected: &["pmm: - error 3120h Grid under voltage: Grid under voltage [plc, firmware]"],
     },
@@ -14,7 +14,7 @@ pub(crate) const CASES: &[Case] = &[
         name: "an error code comes",
         at: "errors:",
         find: "  0x3120: {",
-        replace: "  0x3121: {name: Grid missing, on: pmm}\n  0x3120: {",
+        replace: "  0x3121: {name: Grid missing, devices: pmm}\n  0x3120: {",
         expected: &["pmm: + error 3121h Grid missing: Grid missing [addition]"],
     },
     Case {
@@ -65,7 +65,7 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a condition goes",
         at: "constraints:",
-        find: "  shutdown after ride-through:\n    on: pmm\n    about: The time to the shutdown has to cover the bridged power failure and, after it, the travel to the feather position.\n    require: \"0x30E0 < 0x30E1\"\n",
+        find: "  shutdown after ride-through:\n    devices: pmm\n    about: The time to the shutdown has to cover the bridged power failure and, after it, the travel to the feather position.\n    require: \"0x30E0 < 0x30E1\"\n",
         replace: "",
         expected: &["pmm: - condition `shutdown after ride-through`: 0x30E0 < 0x30E1 [firmware, addition]"],
     },

@@ -45,22 +45,22 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a limit where there was none",
         at: "  0x5681:",
-        find: "    on: pmc\n",
-        replace: "    on: pmc\n    max: 50.00 °/s\n",
+        find: "    devices: pmc\n",
+        replace: "    devices: pmc\n    max: 50.00 °/s\n",
         expected: &["pmc: ~ 5681h EFC profile velocity: max: none -> 5000 PU/s [plc]"],
     },
     Case {
         name: "the limit of the type",
         at: "  0x5681:",
-        find: "    on: pmc\n",
-        replace: "    on: pmc\n    min: 0\n",
+        find: "    devices: pmc\n",
+        replace: "    devices: pmc\n    min: 0\n",
         expected: &["pmc: ~ 5681h EFC profile velocity: min: none -> 0 PU/s [documents]"],
     },
     Case {
         name: "a narrower limit of what is only read",
         at: "  0x3068:",
-        find: "    on: pmm\n",
-        replace: "    on: pmm\n    max: 300 V\n",
+        find: "    devices: pmm\n",
+        replace: "    devices: pmm\n    max: 300 V\n",
         expected: &["pmm: ~ 3068h battery test voltage: max: none -> 300 V [documents]"],
     },
     Case {
@@ -158,15 +158,15 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "kept from now on",
         at: "  0x3040:",
-        find: "    on: pmm\n",
-        replace: "    on: pmm\n    stored: manufacturer\n",
+        find: "    devices: pmm\n",
+        replace: "    devices: pmm\n    stored: manufacturer\n",
         expected: &["pmm: ~ 3040h PMM controlword: stored: no -> manufacturer [behaviour]"],
     },
     Case {
         name: "a write condition comes",
         at: "  0x5681:",
-        find: "    on: pmc\n",
-        replace: "    on: pmc\n    writable-when: \"bit(0x6041, 2) == 0\"\n",
+        find: "    devices: pmc\n",
+        replace: "    devices: pmc\n    writable-when: \"bit(0x6041, 2) == 0\"\n",
         expected: &["pmc: ~ 5681h EFC profile velocity: writable-when: none -> bit(0x6041, 2) == 0 [plc]"],
     },
     Case {
@@ -217,8 +217,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "the EDS shows a default",
         at: "  0x5681:",
-        find: "    on: pmc\n",
-        replace: "    on: pmc\n    eds: {default: written}\n",
+        find: "    devices: pmc\n",
+        replace: "    devices: pmc\n    eds: {default: written}\n",
         expected: &[
             "pmc: ~ 5681h EFC profile velocity: eds: access rw, default withheld, flags 0 -> access rw, default written, flags 0 [behaviour]",
         ],
@@ -226,8 +226,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "the EDS shows a flag",
         at: "  0x5681:",
-        find: "    on: pmc\n",
-        replace: "    on: pmc\n    eds: {flags: [no-scan]}\n",
+        find: "    devices: pmc\n",
+        replace: "    devices: pmc\n    eds: {flags: [no-scan]}\n",
         expected: &[
             "pmc: ~ 5681h EFC profile velocity: eds: access rw, default withheld, flags 0 -> access rw, default withheld, flags 2 [behaviour]",
         ],
@@ -235,8 +235,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "the EDS shows another access",
         at: "  0x5681:",
-        find: "    on: pmc\n",
-        replace: "    on: pmc\n    eds: {access: ro}\n",
+        find: "    devices: pmc\n",
+        replace: "    devices: pmc\n    eds: {access: ro}\n",
         expected: &[
             "pmc: ~ 5681h EFC profile velocity: eds: access rw, default withheld, flags 0 -> access ro, default withheld, flags 0 [plc]",
         ],

@@ -16,7 +16,7 @@ pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> Object
     ObjectDecl {
         index: Spanned::new(index, place),
         weight: 0,
-        on: None,
+        devices: None,
         from: None,
         alias: None,
         outside: None,
