@@ -13,7 +13,7 @@
 
 use std::fmt::Write as _;
 
-use crate::keys::{Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape, VERSION};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape, VERSION};
 use crate::model::{Access, DataType};
 
 /// Prints the JSON Schema of specifications and libraries.
@@ -206,6 +206,15 @@ fn schema(shape: Shape) -> Json {
         Shape::List(item) => list(*item),
         Shape::OneOrMore(item) => any_of([schema(*item), at_least_one(*item)]),
         Shape::ShortOr(short, keys) => any_of([schema(*short), reference(&slug(keys.name))]),
+        Shape::Feature => any_of([
+            schema(Shape::Text),
+            object([
+                ("type", text("object")),
+                ("additionalProperties", integer(Some((1, CHANNELS)))),
+                ("minProperties", Json::Number(1)),
+                ("maxProperties", Json::Number(1)),
+            ]),
+        ]),
         _ => reference(definition(shape).unwrap_or(TEXT)),
     }
 }
@@ -327,7 +336,8 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         | Shape::MapOf(..)
         | Shape::List(_)
         | Shape::OneOrMore(_)
-        | Shape::ShortOr(..) => return None,
+        | Shape::ShortOr(..)
+        | Shape::Feature => return None,
     })
 }
 

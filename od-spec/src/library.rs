@@ -51,6 +51,8 @@ pub struct Feature {
     pub objects: Vec<Index>,
     /// Features that it cannot be without.
     pub needs: Vec<String>,
+    /// Whether a device says how many channels it has: its arrays have as many elements as these need.
+    pub is_counted: bool,
 }
 
 /// A built-in library.
@@ -100,6 +102,7 @@ pub fn library(name: &str) -> Option<Library> {
                 implied: feature.implied,
                 objects: feature.objects.iter().map(|index| index.value).collect(),
                 needs: feature.needs.iter().map(|need| need.value.clone()).collect(),
+                is_counted: feature.channels.is_some() || feature.channels_of.is_some(),
             })
             .collect(),
         units: system.units,

@@ -57,19 +57,36 @@ const DEVICE_OBJECTS: &str = "
   0x68D0: {from: cia402, array: {elements: {1: {default: 1}, 2: {default: 1}}}}
 ";
 
-fn head(features: &str) -> String {
+fn head(library: &str, features: &str) -> String {
+    let library = if library == "cia301" { "cia402" } else { library };
     format!(
-        "od-spec: 1\ntitle: Drive\nuses: [cia301, cia402]\ndevices:\n  drive: {{name: Drive, bit-rates: [125], features: [{features}]}}\n"
+        "od-spec: 1\ntitle: Drive\nuses: [cia301, {library}]\ndevices:\n  drive: {{name: Drive, bit-rates: [125], features: [{features}]}}\n"
     )
+}
+
+/// A feature with what it needs to be told: the number of its channels, or of those of another one.
+fn selected(text: &str, feature: &str) -> String {
+    let of = |key: &str| {
+        let (_, features) = text.split_once("\nfeatures:").unwrap();
+        let (_, line) = features.split_once(&format!("\n  {feature}:")).unwrap();
+        let (_, value) = line.lines().next().unwrap().split_once(&format!(" {key}: "))?;
+        value.split([',', '}']).next()
+    };
+    match (of("channels-of"), of("channels")) {
+        (Some(other), _) => format!("{other}: 20, {feature}"),
+        (None, Some(_)) => format!("{feature}: 20"),
+        (None, None) => feature.to_owned(),
+    }
 }
 
 #[test]
 fn every_feature_can_be_taken_alone() {
-    for name in ["cia301", "cia402"] {
-        let features = keys(library(name), "features");
-        assert!(features.len() > 25, "{features:?}");
+    for (name, text) in LIBRARIES {
+        let features = keys(text, "features");
+        assert!(features.len() > 15, "{features:?}");
         for feature in features {
-            let (system, messages) = compiled(&head(&format!("heartbeat producer, {feature}")));
+            let (system, messages) =
+                compiled(&head(name, &format!("heartbeat producer, {}", selected(text, &feature))));
             let device = &system.unwrap_or_else(|| panic!("{feature}: {messages}")).devices[0];
             for index in objects_of(library(name), &feature) {
                 assert!(device.objects.contains_key(&Index(index)), "{feature}: {index:04X}h");
@@ -88,7 +105,7 @@ fn everything_of_cia402_on_two_axes_in_one_device() {
     let features = keys(text, "features");
     let both = features.iter().cloned().chain(features.iter().map(|feature| format!("{feature} axis 2")));
     let both: Vec<String> = both.collect();
-    let mut spec = head(&format!("heartbeat producer, emergency, {}", both.join(", ")));
+    let mut spec = head("cia402", &format!("heartbeat producer, emergency, {}", both.join(", ")));
     spec.push_str("objects:");
     spec.push_str(DEVICE_OBJECTS);
     let objects = keys(text, "objects");
@@ -125,5 +142,46 @@ fn everything_of_cia402_on_two_axes_in_one_device() {
             "{id}: {:?}",
             entry.facts
         );
+    }
+}
+
+/// The devices of the other two libraries with everything that these have.
+#[test]
+fn everything_of_cia302_and_cia401_in_one_device() {
+    for (name, profile) in [("cia302", 0), ("cia401", 0x000F_0191)] {
+        let text = library(name);
+        let features: Vec<String> =
+            keys(text, "features").iter().map(|feature| selected(text, feature)).collect();
+        let mut spec = head(name, &format!("heartbeat producer, {}", features.join(", ")));
+        spec = spec.replace("{name: Drive, ", &format!("{{name: Drive, device-type: {profile}, "));
+        let pdos = "{receive: {1: {map: [0x6200.1]}}, transmit: {1: {map: [0x6000.1]}}}";
+        if name == "cia401" {
+            write!(spec, "pdos:\n  drive: {pdos}\n").unwrap();
+        }
+        let (system, messages) = compiled(&spec);
+        assert_eq!(messages, "", "{name}");
+        let device = &system.unwrap().devices[0];
+        let own =
+            device.objects.values().filter(|object| object.index.0 >= 0x1F00 && object.index.0 < 0xA000);
+        assert_eq!(own.count(), keys(text, "objects").len(), "{name}");
+    }
+}
+
+/// Of 20 channels in elements of 8, 16 and 32.
+#[test]
+fn channels_fill_elements() {
+    let features = [
+        ("digital inputs 8-bit: 20, digital input polarity 8-bit", [0x6000, 0x6002], 3),
+        ("digital inputs 16-bit: 20, digital input filter 16-bit", [0x6100, 0x6103], 2),
+        ("digital outputs 32-bit: 20, digital output polarity 32-bit", [0x6320, 0x6322], 1),
+        ("analogue inputs 16-bit: 20, analogue input SI unit", [0x6401, 0x6430], 20),
+        ("analogue inputs 16-bit: 33, analogue input interrupt source", [0x6422, 0x6422], 2),
+    ];
+    for (features, indices, count) in features {
+        let (system, messages) = compiled(&head("cia401", &format!("heartbeat producer, {features}")));
+        let device = &system.unwrap_or_else(|| panic!("{messages}")).devices[0];
+        for index in indices {
+            assert_eq!(device.objects[&Index(index)].entries.len(), count + 1, "{features}: {index:04X}h");
+        }
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn choose(library: &Library, exact: &BTreeSet<Index>, wanted: bool, c
     let mut candidates: Vec<(BTreeSet<Index>, &Feature)> = library
         .features
         .iter()
-        .filter(|feature| wanted && !feature.implied)
+        .filter(|feature| wanted && !feature.implied && !feature.is_counted)
         .filter_map(|feature| Some((brought(library, feature)?, feature)))
         .filter(|(objects, _)| objects.is_subset(exact))
         .collect();

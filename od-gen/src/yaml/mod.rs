@@ -249,13 +249,26 @@ fn follow(device: &mut Dictionary, found: &Dictionary) {
     }
 }
 
+/// Whether a library describes a device profile, and the device type names another one that has a library: profiles
+/// give the same indices to different objects.
+fn is_of_another_profile(device: &Dictionary, library: &Library) -> bool {
+    let device_type =
+        device.objects.get(&Index(0x1000)).and_then(|object| object.entries.first()?.default.as_ref());
+    let Some(device_type) = device_type.and_then(Value::integer) else { return false };
+    let named = format!("cia{}", device_type & 0xFFFF);
+    let is_profile = |name: &str| name.strip_prefix("cia").is_some_and(|number| number >= "401");
+    is_profile(&library.name) && library.name != named && BUILT_IN.iter().any(|one| one.name == named)
+}
+
 /// A short text that gives what the plain one gives; `None` where none was found.
 fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks) -> Option<Written> {
     let has = |index: &Index| draft.device.objects.contains_key(index);
     let usable = |library: &&Arc<Library>| {
         // What every device has that uses it cannot be left out.
         let implied = library.features.iter().filter(|feature| feature.implied);
-        implied.flat_map(|feature| &feature.objects).all(has) && library.objects.keys().any(has)
+        implied.flat_map(|feature| &feature.objects).all(has)
+            && library.objects.keys().any(has)
+            && !is_of_another_profile(&draft.device, library)
     };
     let libraries = BUILT_IN.iter().filter(usable).cloned().collect();
     let mut style = Style { libraries, features: true, short: true, ..Style::default() };

@@ -13,11 +13,13 @@ fn new_writes_a_specification_that_is_clean() {
         ("io-module", &[][..]),
         ("lift", &["--profile", "cia402", "--modes", "profile position,HM"][..]),
         ("fan", &["--profile", "cia402", "--modes", "velocity mode"][..]),
+        ("valves", &["--profile", "cia401"][..]),
+        ("sensors", &["--profile", "cia401", "--inputs", "20", "--analogue-inputs", "6"][..]),
     ] {
         let output = odgen(&scratch.0, &[&["new", name], arguments].concat());
         assert_eq!((code(&output), stderr(&output)), (0, String::new()));
         let file = format!("{name}.od.yaml");
-        assert!(stdout(&output).starts_with(&format!("  {file}  a ")), "{}", stdout(&output));
+        assert!(stdout(&output).starts_with(&format!("  {file}  a")), "{}", stdout(&output));
         // What is the author's to say is said to be open.
         let path = scratch.0.join(&file);
         let text = fs::read_to_string(&path).unwrap();
@@ -58,6 +60,10 @@ fn new_refuses_what_it_cannot_make() {
         (vec!["lift", drive[0], drive[1], drive[2], "pp,sideways"], 2),
         (vec!["lift", drive[0], drive[1], drive[2], ""], 2),
         (vec!["lift", "--out", "there.od.yaml"], 1),
+        (vec!["valves", "--outputs", "8"], 2),
+        (vec!["valves", "--profile", "cia401", "--outputs", "0"], 2),
+        (vec!["valves", "--profile", "cia401", "--modes", "pp"], 2),
+        (vec!["valves", "--profile", "cia401", "--outputs", "3000"], 2),
     ] {
         let output = odgen(&scratch.0, &[vec!["new"], arguments, vec!["--format", "short"]].concat());
         assert_eq!(code(&output), expected, "{}", stderr(&output));

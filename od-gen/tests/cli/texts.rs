@@ -30,10 +30,10 @@ fn explain_errata_and_completions() {
 #[test]
 fn libraries_are_printed() {
     let scratch = Scratch::new("library");
-    assert_eq!(stdout(&odgen(&scratch.0, &["library"])), "cia301\ncia402\n");
+    assert_eq!(stdout(&odgen(&scratch.0, &["library"])), "cia301\ncia302\ncia401\ncia402\n");
     let output = odgen(&scratch.0, &["library", "cia402"]);
     assert!(stdout(&output).contains("\n  0x6040:"), "{}", stdout(&output));
     let output = odgen(&scratch.0, &["library", "cia999"]);
     assert_eq!((code(&output), stdout(&output)), (2, String::new()));
-    assert!(stderr(&output).contains("the libraries are cia301, cia402"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the libraries are cia301, cia302, cia401, cia402"), "{}", stderr(&output));
 }

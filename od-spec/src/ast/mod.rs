@@ -240,6 +240,28 @@ pub(crate) struct FeatureDecl {
     pub implied: bool,
     pub objects: Vec<Spanned<Index>>,
     pub needs: Vec<Name>,
+    /// Channels in each element of its arrays.
+    pub channels: Option<Spanned<i128>>,
+    /// The feature that has as many elements.
+    pub channels_of: Option<Name>,
+}
+
+/// A feature as a device selects it.
+#[derive(Debug, Clone)]
+pub(crate) struct FeatureChoice {
+    pub name: Name,
+    pub channels: ChannelNumber,
+}
+
+/// How many channels a device has of a feature.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum ChannelNumber {
+    /// It does not say.
+    None,
+    /// What it says was refused.
+    Refused,
+    /// So many.
+    Stated(Spanned<i128>),
 }
 
 #[derive(Debug, Clone)]

@@ -4,16 +4,30 @@ use std::collections::BTreeMap;
 
 use super::lexical;
 use super::numbered::twice;
-use super::read::{Field, Reader, reader};
-use crate::ast::{ChannelDecl, DeviceDecl, FileDecl, IndexRange, Name};
+use super::read::{Field, FromNode, Reader, owned, reader};
+use crate::ast::{ChannelDecl, ChannelNumber, DeviceDecl, FeatureChoice, FileDecl, IndexRange, Name};
 use crate::diag::{Diagnostics, codes};
-use crate::keys::{channel_keys, device_keys, file_keys};
+use crate::keys::{CHANNELS, channel_keys, device_keys, file_keys};
 use crate::model::Index;
+use crate::scalar;
 use crate::source::Spanned;
 
 device_keys! { reader pub(super) fn device(key: Name) -> DeviceDecl }
 file_keys! { reader fn file() -> FileDecl }
 channel_keys! { reader fn channel(range: Spanned<IndexRange>) -> ChannelDecl }
+
+impl FromNode for FeatureChoice {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        if let Some(name) = reader.scalar(|text| Some(text.to_owned())) {
+            return Some(Self { name, channels: ChannelNumber::None });
+        }
+        let (name, number) = reader.pairs().next()?;
+        let number = number.scalar(|text| scalar::integer(text).ok());
+        let number = number.filter(|number| (1..=CHANNELS).contains(&number.value));
+        let channels = number.map_or(ChannelNumber::Refused, ChannelNumber::Stated);
+        Some(Self { name: owned(name), channels })
+    }
+}
 
 impl Field for Option<FileDecl> {
     fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {

@@ -3,7 +3,7 @@
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{ConditionError, Expr, Parsed};
-use crate::keys::{Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
@@ -143,6 +143,7 @@ fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnosti
             }
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
+        Shape::Feature => check_feature(node, diagnostics),
         Shape::OneOrMore(item) => match &mut node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
@@ -171,6 +172,24 @@ fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnosti
 /// The place that stands for a value without a key of its own: a map's first key.
 pub(super) fn start(node: &Node) -> Span {
     node.entries().first().map_or(node.span, |(name, _)| name.span)
+}
+
+/// A name, or a name and a number.
+fn check_feature(node: &mut Node, diagnostics: &mut Diagnostics) {
+    let owner = node.span;
+    match &mut node.kind {
+        NodeKind::Map(entries) if entries.len() == 1 => {
+            for (name, number) in entries {
+                check(number, Shape::Integer(1, CHANNELS), name.span, diagnostics);
+            }
+        }
+        NodeKind::Map(_) => {
+            wrong_kind(node, "a feature, such as `emergency` or `digital inputs: 16`", diagnostics);
+        }
+        NodeKind::Scalar { .. } | NodeKind::List(_) | NodeKind::Null | NodeKind::Broken => {
+            check(node, Shape::Text, owner, diagnostics);
+        }
+    }
 }
 
 fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagnostics) {
@@ -257,6 +276,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::NumberedName(NumberedName::MappedEntry) => "a name such as `Mapping Entry {n}`",
         Shape::Text | Shape::HeaderText | Shape::Words => "a text",
         Shape::Map(_) | Shape::MapOf(..) | Shape::ShortOr(..) => "a map",
+        Shape::Feature => "a feature such as `emergency` or `digital inputs: 16`",
         Shape::List(_) | Shape::OneOrMore(_) => "a list",
     }
 }

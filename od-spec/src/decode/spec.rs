@@ -148,6 +148,8 @@ fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {
         implied: r.yes_no("implied").is_some_and(|implied| implied.value),
         objects: r.indices("objects"),
         needs: r.texts("needs"),
+        channels: r.integer("channels"),
+        channels_of: r.text("channels-of"),
     }
 }
 

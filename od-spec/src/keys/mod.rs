@@ -28,7 +28,7 @@ pub use pdos::{
     PDO, PDO_COMMUNICATION, PDO_DIRECTIONS, PDO_MAPPED_ENTRY, PDO_MAPPING, PDO_PARAMETER, PDO_PARAMETERS,
     PDO_RESERVED, PDOS,
 };
-pub use shape::{Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
+pub use shape::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 
 pub(crate) use constraints::constraint_keys;

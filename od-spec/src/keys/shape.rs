@@ -77,6 +77,8 @@ pub enum Shape {
     OneOrMore(&'static Shape),
     /// A short form (a scalar) or a map.
     ShortOr(&'static Shape, &'static Keys),
+    /// The name of a feature; behind a colon, how many channels it has, where it has some.
+    Feature,
 }
 
 /// What a name with placeholders is the name of.
@@ -124,6 +126,11 @@ pub fn name_today(name: &str, keys: &Keys) -> Option<&'static str> {
 
 /// The version of the language that the compiler reads.
 pub const VERSION: i128 = 1;
+
+/// Most channels of a feature: 254 elements of 64 channels each.
+pub const CHANNELS: i128 = 254 * CHANNELS_OF_ELEMENT;
+/// Most channels of an element.
+pub(super) const CHANNELS_OF_ELEMENT: i128 = 64;
 
 pub(super) const U8: Shape = Shape::Integer(0, 0xFF);
 pub(super) const U16: Shape = Shape::Integer(0, 0xFFFF);

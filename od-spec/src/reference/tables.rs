@@ -102,6 +102,7 @@ fn value(shape: Shape) -> String {
         Shape::List(inner) => format!("list: {}", value(*inner)),
         Shape::OneOrMore(inner) => format!("{}, or a list of such", value(*inner)),
         Shape::ShortOr(short, keys) => format!("{} or {}", value(*short), link(keys)),
+        Shape::Feature => "text, or text and a number behind a colon".to_owned(),
     }
 }
 

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
 
+use super::channels::{self, Elements};
 use super::keys_have_effect;
 use super::libraries::{self, Libraries};
 use super::scope::{Scope, unknown};
@@ -18,6 +19,22 @@ pub(super) struct Declared<'a> {
     pub origin: Origin,
     pub profile: Option<String>,
     pub departures: Vec<Departure>,
+}
+
+/// A feature that a device has.
+pub(super) struct Selected<'a> {
+    pub library: &'a Spec,
+    pub feature: &'a FeatureDecl,
+    pub axis: u16,
+    /// Who asks for it.
+    pub name: Name,
+}
+
+impl Selected<'_> {
+    /// Whether a library offers it.
+    pub(super) fn is_of(&self, library: &Spec) -> bool {
+        self.library.file == library.file
+    }
 }
 
 /// The declaration of an object. It is large: one that is written has no room of its own here.
@@ -47,8 +64,10 @@ pub(super) fn of_device<'a>(
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    let mut declared = of_specification(written, libraries, scope, diagnostics);
-    for (library, feature, axis) in features(libraries, device, diagnostics) {
+    let selected = features(libraries, device, diagnostics);
+    let elements = channels::elements(&selected, device, diagnostics);
+    let mut declared = of_specification(written, libraries, &elements, scope, diagnostics);
+    for Selected { library, feature, axis, .. } in selected {
         for index in &feature.objects {
             let Some(decl) = libraries.written(library, index.value) else {
                 diagnostics.push(
@@ -64,9 +83,12 @@ pub(super) fn of_device<'a>(
                 );
                 continue;
             };
-            let decl = match library.axes.filter(|_| axis > 1) {
-                Some(axes) => libraries::on_axis(decl, axes, axis).map(|decl| Decl::Made(Box::new(decl))),
-                None => Some(Decl::Written(decl)),
+            let decl = match (library.axes.filter(|_| axis > 1), elements.of(library, index.value)) {
+                (Some(axes), _) => {
+                    libraries::on_axis(decl, axes, axis).map(|decl| Decl::Made(Box::new(decl)))
+                }
+                (None, Some(count)) => Some(Decl::Made(Box::new(channels::with_elements(decl, count)))),
+                (None, None) => Some(Decl::Written(decl)),
             };
             let Some(decl) = decl else { continue };
             declared.entry(decl.index.value).or_insert_with(|| Declared {
@@ -87,20 +109,22 @@ pub(super) fn of_library<'a>(
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    of_specification(&root.objects.iter().collect::<Vec<_>>(), libraries, scope, diagnostics)
+    let written: Vec<&ObjectDecl> = root.objects.iter().collect();
+    of_specification(&written, libraries, &Elements::default(), scope, diagnostics)
 }
 
 /// The declarations that stand in the specification itself.
 fn of_specification<'a>(
     written: &[&'a ObjectDecl],
     libraries: &Libraries<'a>,
+    elements: &Elements,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
     let mut declared = BTreeMap::new();
     for decl in written.iter().copied() {
         let one = match &decl.from {
-            Some(from) => from_library(decl, from, libraries, scope, diagnostics),
+            Some(from) => from_library(decl, from, libraries, elements, scope, diagnostics),
             None => match Some(decl)
                 .filter(|decl| is_departure(decl))
                 .and_then(|decl| libraries.defining(decl.index.value))
@@ -141,14 +165,14 @@ fn not_taken(decl: &ObjectDecl, library: &str) -> Diagnostic {
         .help(format!("write `from: {library}` beside what differs from the library's, or describe the object with `name:` and `type:`"))
 }
 
-/// The features of a device: those that every device has, those it names, and those they need; each with its axis.
+/// The features of a device: those that every device has, those it names, and those they need.
 fn features<'a>(
     libraries: &Libraries<'a>,
     device: &DeviceDecl,
     diagnostics: &mut Diagnostics,
-) -> Vec<(&'a Spec, &'a FeatureDecl, u16)> {
+) -> Vec<Selected<'a>> {
     let mut wanted: Vec<Name> = libraries.implied().iter().map(|feature| feature.name.clone()).collect();
-    wanted.extend(device.features.iter().cloned());
+    wanted.extend(device.features.iter().map(|choice| choice.value.name.clone()));
     let mut seen: BTreeSet<String> = BTreeSet::new();
     let mut found = Vec::new();
     while let Some(name) = wanted.pop() {
@@ -164,11 +188,12 @@ fn features<'a>(
         match plain.or_else(on_axis) {
             Some((library, feature, axis)) => {
                 // What a feature of a further axis needs, it needs on that axis.
-                wanted.extend(feature.needs.iter().map(|need| match axis {
+                let needs = feature.needs.iter().chain(&feature.channels_of);
+                wanted.extend(needs.map(|need| match axis {
                     1 => need.clone(),
                     _ => Spanned::new(format!("{} axis {axis}", need.value), need.span),
                 }));
-                found.push((library, feature, axis));
+                found.push(Selected { library, feature, axis, name });
             }
             None => {
                 let alike: Vec<String> =
@@ -198,6 +223,7 @@ fn from_library<'a>(
     decl: &ObjectDecl,
     from: &Name,
     libraries: &Libraries<'_>,
+    elements: &Elements,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> Option<Declared<'a>> {
@@ -206,6 +232,10 @@ fn from_library<'a>(
         let what = decl.index.value.to_string();
         diagnostics.push(libraries::not_there(from, &what).help("write the object in full, without `from:`"));
         return None;
+    };
+    let below = match elements.of(library, decl.index.value) {
+        Some(count) => channels::with_elements(&below, count),
+        None => below,
     };
     let (merged, departures) = lay_over(decl, &below, scope);
     check_own_keys(decl, &merged, diagnostics);

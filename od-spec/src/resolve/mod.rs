@@ -2,6 +2,7 @@
 
 mod aliases;
 mod assigned;
+mod channels;
 mod constraints;
 mod decls;
 mod device_info;

@@ -18,6 +18,8 @@ use crate::yaml;
 /// Libraries that come with the compiler: name and text.
 pub const LIBRARIES: &[(&str, &str)] = &[
     ("cia301", include_str!("../../profiles/cia301.od.yaml")),
+    ("cia302", include_str!("../../profiles/cia302.od.yaml")),
+    ("cia401", include_str!("../../profiles/cia401.od.yaml")),
     ("cia402", include_str!("../../profiles/cia402.od.yaml")),
 ];
 

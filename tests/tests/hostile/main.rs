@@ -17,13 +17,14 @@ mod outputs;
 use outputs::skeleton;
 
 /// Keys whose text is one of a fixed set or the name of a file, or that only libraries have.
-const LIBRARIES: [KeyName; 7] = [
+const LIBRARIES: [KeyName; 8] = [
     ("a specification", "parts"),
     ("a state machine", "from"),
     ("a specification", "profile"),
     ("a specification", "features"),
     ("a feature", "about"),
     ("a feature", "needs"),
+    ("a feature", "channels-of"),
     ("an error code", "from"),
 ];
 

@@ -523,6 +523,22 @@ pub(crate) struct NewArgs {
     #[arg(long, value_delimiter = ',', value_name = "MODES")]
     pub modes: Vec<String>,
 
+    /// Digital inputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=2032))]
+    pub inputs: Option<u16>,
+
+    /// Digital outputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=2032))]
+    pub outputs: Option<u16>,
+
+    /// Analogue inputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=254))]
+    pub analogue_inputs: Option<u16>,
+
+    /// Analogue outputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=254))]
+    pub analogue_outputs: Option<u16>,
+
     /// Directory for the file
     #[arg(long, short, default_value = ".", value_name = "DIR")]
     pub out: PathBuf,
@@ -536,6 +552,8 @@ pub(crate) enum Profile {
     /// No device profile, only the communication objects
     #[default]
     Cia301,
+    /// I/O modules; how many channels they have, `--inputs` and the others say
+    Cia401,
     /// Drives and motion control; its modes are pp, vl, pv, tq, hm, ip, csp, csv, cst
     Cia402,
 }

@@ -53,9 +53,13 @@ pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
     new("started", &[])?;
     new("started-pp-hm", &["--profile", "cia402", "--modes", "profile position,homing"])?;
     new("started-all", &["--profile", "cia402", "--modes", "pp,vl,pv,tq,hm,ip,csp,csv,cst"])?;
+    new(
+        "started-io",
+        &["--profile", "cia401", "--inputs", "20", "--outputs", "9", "--analogue-inputs", "6"],
+    )?;
     std::fs::copy(root().join("tests/readme/lift.od.yaml"), folder.join("lift.od.yaml"))?;
     let mut dumps = Vec::new();
-    for stem in ["lift", "started", "started-all", "started-pp-hm"] {
+    for stem in ["lift", "started", "started-all", "started-io", "started-pp-hm"] {
         // What is to be filled in counts as filled in.
         let path = folder.join(format!("{stem}.od.yaml"));
         std::fs::write(&path, std::fs::read_to_string(&path)?.replace("# <--", "#"))?;

@@ -1,0 +1,142 @@
+//! How many elements the arrays of a library have in a device that says how many channels it has:
+//! `digital inputs 8-bit: 20` are three elements of eight inputs.
+
+use std::collections::BTreeMap;
+
+use super::decls::Selected;
+use crate::ast::{ArrayDecl, ChannelNumber, DeviceDecl, FeatureChoice, FeatureDecl, Name, ObjectDecl, Spec};
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::model::Index;
+use crate::source::{FileId, Spanned};
+
+/// The number of elements of arrays, by library and index.
+#[derive(Default)]
+pub(super) struct Elements {
+    by_object: BTreeMap<(FileId, Index), i128>,
+}
+
+impl Elements {
+    /// How many elements an array has, where channels say so.
+    pub(super) fn of(&self, library: &Spec, index: Index) -> Option<i128> {
+        self.by_object.get(&(library.file, index)).copied()
+    }
+}
+
+/// The elements that follow from the channels of a device.
+pub(super) fn elements(
+    selected: &[Selected<'_>],
+    device: &DeviceDecl,
+    diagnostics: &mut Diagnostics,
+) -> Elements {
+    let stated = stated(device, diagnostics);
+    let mut elements = Elements::default();
+    for one in selected {
+        let (library, feature) = (one.library, one.feature);
+        // Who has as many as another has the other's number, and its own elements if they hold more or fewer.
+        let of = feature.channels_of.as_ref().map(|of| &of.value);
+        let counting = match of {
+            Some(of) => selected.iter().find(|one| one.is_of(library) && one.feature.name.value == *of),
+            None => Some(one),
+        };
+        let Some(counting) = counting.map(|one| one.feature) else { continue };
+        let mut refuse_number = || {
+            if let Some(ChannelNumber::Stated(number)) = stated.get(feature.name.value.as_str()) {
+                diagnostics.push(number_without_effect(feature, number));
+            }
+        };
+        let Some(per_element) = feature.channels.as_ref().or(counting.channels.as_ref()) else {
+            refuse_number();
+            continue;
+        };
+        if of.is_some() {
+            refuse_number();
+        }
+        let channels = match stated.get(counting.name.value.as_str()) {
+            Some(ChannelNumber::Stated(channels)) => channels,
+            Some(ChannelNumber::Refused) => continue,
+            Some(ChannelNumber::None) | None => {
+                // Who has as many as another was told with the other.
+                if of.is_none() {
+                    diagnostics.push(number_missing(device, &feature.name.value, &one.name));
+                }
+                continue;
+            }
+        };
+        let count = (channels.value - 1) / per_element.value.max(1) + 1;
+        if count > 254 {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::NUMBER_OUT_OF_RANGE,
+                    channels.span,
+                    format!("{} channels are {count} elements; an array has at most 254", channels.value),
+                )
+                .help(format!("write a number from 1 to {}", per_element.value.saturating_mul(254))),
+            );
+            continue;
+        }
+        for index in &feature.objects {
+            elements.by_object.insert((library.file, index.value), count);
+        }
+    }
+    elements
+}
+
+/// What a device says about the channels of features.
+fn stated<'d>(device: &'d DeviceDecl, diagnostics: &mut Diagnostics) -> BTreeMap<&'d str, ChannelNumber> {
+    let mut stated: BTreeMap<&str, ChannelNumber> = BTreeMap::new();
+    for FeatureChoice { name, channels } in device.features.iter().map(|choice| &choice.value) {
+        let before = stated.get(name.value.as_str());
+        if let (ChannelNumber::Stated(number), Some(ChannelNumber::Stated(before))) = (channels, before)
+            && number.value != before.value
+        {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::DUPLICATE_VALUE,
+                    number.span,
+                    format!("feature `{}` has two numbers of channels", name.value),
+                )
+                .label("again here")
+                .with(before.span, "first here")
+                .help("keep one of the two"),
+            );
+        }
+        if matches!(before, None | Some(ChannelNumber::None)) {
+            stated.insert(&name.value, *channels);
+        }
+    }
+    stated
+}
+
+/// An array of a library with so many elements; what is no array stays as it is.
+pub(super) fn with_elements(decl: &ObjectDecl, count: i128) -> ObjectDecl {
+    let array = decl.array.as_ref().map(|array| {
+        let count = Some(Spanned::new(count, array.span));
+        Box::new(ArrayDecl { count, ..ArrayDecl::clone(array) })
+    });
+    ObjectDecl { array, ..decl.clone() }
+}
+
+/// A feature with channels, of which nobody says how many there are.
+fn number_missing(device: &DeviceDecl, feature: &str, name: &Name) -> Diagnostic {
+    // The place of a need is in the library; the device is whose list lacks it.
+    let selecting = device.features.iter().find(|choice| choice.value.name.value == feature);
+    let (span, message) = match selecting {
+        Some(choice) => (choice.span, format!("feature `{feature}` lacks the number of its channels")),
+        None => (
+            device.key.span,
+            format!("`{}` needs the feature `{feature}` with the number of its channels", device.key.value),
+        ),
+    };
+    let diagnostic = Diagnostic::new(codes::MISSING_KEY, span, message)
+        .help(format!("write `{feature}: 8` under `features:`, with the number that the device has"));
+    if selecting.is_some() { diagnostic } else { diagnostic.with(name.span, "needed here") }
+}
+
+/// A number at a feature that counts no channels of its own.
+fn number_without_effect(feature: &FeatureDecl, number: &Spanned<i128>) -> Diagnostic {
+    let message = format!("feature `{}` is given no number", feature.name.value);
+    Diagnostic::new(codes::CONFLICTING_KEYS, number.span, message).help(match &feature.channels_of {
+        Some(other) => format!("write the name alone; it has as many channels as `{}`", other.value),
+        None => "write the name alone".to_owned(),
+    })
+}
