@@ -191,7 +191,7 @@ fn libraries(
                 }
             },
         };
-        let Some(library) = file(sources, id, loader, diagnostics) else {
+        let Some(mut library) = file(sources, id, loader, diagnostics) else {
             complete = false;
             continue;
         };
@@ -207,6 +207,7 @@ fn libraries(
             complete = false;
             continue;
         }
+        resolve::expand(&mut library, diagnostics);
         libraries.push(library);
     }
     complete.then_some(libraries)

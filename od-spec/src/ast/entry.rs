@@ -55,6 +55,27 @@ macro_rules! entry_decl {
                 }
             }
 
+            /// What is written here and not there.
+            pub(crate) fn without(&self, there: &EntryDecl) -> EntryDecl {
+                EntryDecl {
+                    span: self.span,
+                    unsure: self.unsure,
+                    $($($field: self.$field.clone().filter(|_| there.$field.is_none()),)+)+
+                }
+            }
+
+            /// The same, as if the maker, whose file is `maker`, had said at `place` what a library says.
+            pub(crate) fn adopted(&self, maker: FileId, place: Span) -> EntryDecl {
+                EntryDecl {
+                    span: adopted(self.span, maker, place),
+                    unsure: self.unsure,
+                    $($($field: self.$field.clone().map(|fact| Spanned {
+                        span: adopted(fact.span, maker, place),
+                        ..fact
+                    }),)+)+
+                }
+            }
+
             /// The keys written here that are about one value, each with its place.
             pub(crate) fn about_one_value(&self) -> impl Iterator<Item = Spanned<&'static str>> {
                 let places = [$($(($key, Reach::$reach, self.$field.as_ref().map(|fact| fact.span)),)+)+];
@@ -81,6 +102,11 @@ macro_rules! entry_decl {
     };
 }
 entry_keys!(entry_decl);
+
+/// A place of the maker's as it is; of any other, the place at which the maker refers to it.
+pub(crate) fn adopted(written: Span, maker: FileId, place: Span) -> Span {
+    if written.file.is_one_with(maker) { written } else { place }
+}
 
 /// A raw value with a meaning of its own.
 #[derive(Debug, Clone, PartialEq)]

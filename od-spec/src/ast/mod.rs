@@ -16,7 +16,7 @@ use crate::model::{
 };
 use crate::source::{FileId, Span, Spanned};
 
-pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl, adopted};
 pub(crate) use pdos::{
     MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };
@@ -249,6 +249,8 @@ pub(crate) struct ObjectDecl {
     pub weight: usize,
     pub on: Option<Vec<Name>>,
     pub from: Option<Name>,
+    /// The object that it is like; what is written here differs.
+    pub like: Option<Spanned<Index>>,
     pub alias: Option<Name>,
     pub outside: Option<Spanned<Outside>>,
     pub rounding: Option<Spanned<Rounding>>,

@@ -95,6 +95,7 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
         weight: written,
         on: r.optional_texts("on"),
         from: r.text("from"),
+        like: r.value("like", lexical::index),
         alias: r.text("alias"),
         outside: r.value("outside", Outside::from_word),
         rounding: r.value("rounding", Rounding::from_word),
@@ -115,6 +116,10 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
         links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     };
+    // An object that is like something else lacks nothing of its own.
+    let lost = decl.like.is_none() && r.node.get("like").is_some();
+    let entry = EntryDecl { unsure: decl.entry.unsure || lost, ..decl.entry };
+    let decl = ObjectDecl { entry, ..decl };
     if decl.entries() == 1 {
         return decl;
     }

@@ -27,7 +27,7 @@ impl<'a> Assigned<'a> {
             };
             let keys: BTreeSet<&str> = on.iter().map(|key| key.value.as_str()).collect();
             if keys.is_subset(&known) {
-                for_nobody.own(decl.index.value, decl.entry.name.as_ref(), on);
+                for_nobody.own(decl.index, decl.entry.name.as_ref(), on);
             } else {
                 for_nobody.add(decl.index.value, decl.entry.name.as_ref());
             }

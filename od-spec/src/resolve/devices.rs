@@ -30,6 +30,7 @@ pub(super) fn resolve<'a>(
     }
     let mut broken = Broken::over(assigned.for_nobody());
     let mut room = Room::new(ENTRIES_OF_FILE);
+    let mut copies = Room::new(ENTRIES_OF_FILE);
     if let Some(device) = root.devices.get(DEVICES) {
         diagnostics.push(
             Diagnostic::new(
@@ -55,7 +56,15 @@ pub(super) fn resolve<'a>(
                 broken: Broken::over(assigned.for_nobody()),
             };
             let written = assigned.to(&device.key.value);
-            let mut declared = decls::of_device(&written, libraries, device, scope, diagnostics);
+            let mut declared = decls::of_device(
+                &written,
+                libraries,
+                device,
+                assigned.for_nobody(),
+                &mut copies,
+                scope,
+                diagnostics,
+            );
             if let Err(refusal) = take_room(&declared, device, &mut room) {
                 diagnostics.push(*refusal);
                 declared.clear();

@@ -11,6 +11,7 @@ mod entries;
 mod errors;
 mod keys_have_effect;
 mod libraries;
+mod likes;
 mod machines;
 mod numbers;
 mod objects;
@@ -30,6 +31,7 @@ use crate::model::{Dictionary, System, SystemSource, Vendor};
 use crate::source::Span;
 
 use libraries::Libraries;
+pub(crate) use likes::expand;
 use numbers::to_u32;
 use refs::NamesOf;
 pub(crate) use refs::{Lookup, NotFound};

@@ -9,6 +9,7 @@ use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::diag::{Suggestions, shorten};
 use crate::model::{Devices, Dictionary, EntryId, Index, Object, SubIndex};
+use crate::source::{Span, Spanned};
 
 /// What is defined, but not well enough to be there: a reference to it says nothing new.
 #[derive(Debug, Default)]
@@ -30,6 +31,8 @@ struct Owners {
     object: String,
     /// Keys of the devices.
     devices: Vec<String>,
+    /// Where it stands.
+    place: Span,
 }
 
 impl Owners {
@@ -56,11 +59,16 @@ impl Broken {
     }
 
     /// Notes an object that only some devices have.
-    pub(super) fn own(&mut self, index: Index, name: Option<&Name>, devices: &[Name]) {
-        let object = name.map_or_else(|| index.to_string(), |name| name.value.clone());
+    pub(super) fn own(&mut self, index: Spanned<Index>, name: Option<&Name>, devices: &[Name]) {
+        let object = name.map_or_else(|| index.value.to_string(), |name| name.value.clone());
         let devices = devices.iter().map(|key| key.value.clone()).collect();
-        self.owned.extend(name.map(|name| (name.value.clone(), index)));
-        self.owners.insert(index, Owners { object, devices });
+        self.owned.extend(name.map(|name| (name.value.clone(), index.value)));
+        self.owners.insert(index.value, Owners { object, devices, place: index.span });
+    }
+
+    /// Where an object stands that only some devices have, and what to do when another is to have it.
+    pub(super) fn elsewhere(&self, index: Index) -> Option<(Span, String)> {
+        self.owners_of(index).map(|owners| (owners.place, owners.help()))
     }
 
     fn owners_of(&self, index: Index) -> Option<&Owners> {

@@ -11,6 +11,18 @@ pub const RIGHT: &[Pattern] = &[
     pattern("a run of objects", |n| {
         spec("", &format!("  0x2000..0x{:X}: {{name: \"a {{n}}\", type: unsigned8, access: ro}}\n", index(n)))
     }),
+    pattern("objects that are like one another", |n| {
+        let like = |at: usize| {
+            format!(
+                "  0x{:X}: {{name: o{at}, like: 0x{:X}, default: {}}}\n",
+                index(at),
+                index(at + 1),
+                at % 200
+            )
+        };
+        let last = format!("  0x{:X}: {{name: last, type: unsigned8, access: rw}}\n", index(n));
+        spec("", &format!("{}{last}", each(n, like)))
+    }),
     pattern("records", |n| {
         spec(
             "",

@@ -1,0 +1,120 @@
+//! What is written in a short form says the same as what is written in full: every output of the two is the same.
+
+use od_gen::{eds, json, rust};
+use od_spec::diag::Diagnostics;
+
+use crate::bytes_and_libraries::{LAMP, compiled_with};
+use crate::human;
+
+const HEAD: &str = "\
+od-spec: 1
+title: Lamp
+uses: [cia301]
+devices:
+  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+  post: {name: Post, bit-rates: [125], features: [heartbeat producer]}
+";
+
+/// The dump, and what is made for each device.
+fn outputs(body: &str, files: &'static [(&'static str, &'static [u8])]) -> Vec<String> {
+    let (sources, compiled) = compiled_with(&format!("{HEAD}{body}"), files);
+    assert_eq!(human(&compiled.diagnostics, &sources), "");
+    let system = compiled.system.unwrap();
+    let mut outputs = vec![String::from_utf8(json::dump(&system, &[])).unwrap()];
+    for device in &system.devices {
+        outputs.push(String::from_utf8(eds::write_eds(&system, device)).unwrap());
+        let mut diagnostics = Diagnostics::new();
+        let tokens = rust::tokens(&system, device, &mut diagnostics);
+        assert_eq!(human(&diagnostics, &sources), "");
+        outputs.push(tokens.unwrap().to_string());
+    }
+    outputs
+}
+
+/// Compares what is written in short with what is written in full.
+fn same(short: &str, full: &str) {
+    let (short, full) = (outputs(short, &[]), outputs(full, &[]));
+    for (short, full) in short.iter().zip(&full) {
+        let different = short.lines().zip(full.lines()).find(|(short, full)| short != full);
+        assert_eq!(different, None);
+        assert_eq!(short.len(), full.len());
+    }
+    assert_eq!(short.len(), full.len());
+}
+
+#[test]
+fn an_object_that_is_like_another_is_that_in_full() {
+    same(
+        "objects:
+  0x2000: {like: 0x2001, name: low, default: 10}
+  0x2001: {like: 0x2002, name: middle, default: 50, about: half}
+  0x2002: {name: high, identifier: top, type: unsigned8, access: rw, default: 90, max: 100, special: {255: flashing}, about: most}
+  0x2003..0x2004: {like: 0x2005, name: 'hours {n}', access: ro}
+  0x2005:
+    name: hours
+    array: {count: 3, name: 'lamp {n}', type: unsigned16, access: rw, writable-when: '0x2002 == 0', elements: {1: {default: 4}, 2: {name: spare, default: 5}, 3: {max: 9, default: 6}}}
+  0x2006: {like: 0x2005, name: minutes, array: {count: 2, type: unsigned32, elements: {1: {name: main}}}}
+  0x2007:
+    on: lamp
+    name: colour
+    record: {1: {name: red, type: unsigned8, access: rw, default: 1}, 2: {name: blue, type: unsigned8, access: rw, default: 2}}
+  0x2008: {on: lamp, like: 0x2007, name: sky, omit: [1], record: {2: {default: 9}, 3: {name: white, type: unsigned8, access: ro}}}
+  0x2009: {like: 0x1017, name: beat of the lamp, default: 500, about: beats}
+",
+        "objects:
+  0x2000: {name: low, type: unsigned8, access: rw, default: 10, max: 100, special: {255: flashing}, about: half}
+  0x2001: {name: middle, type: unsigned8, access: rw, default: 50, max: 100, special: {255: flashing}, about: half}
+  0x2002: {name: high, identifier: top, type: unsigned8, access: rw, default: 90, max: 100, special: {255: flashing}, about: most}
+  0x2003: {name: hours 1, array: {count: 3, name: 'lamp {n}', type: unsigned16, access: ro, elements: {1: {default: 4}, 2: {name: spare, default: 5}, 3: {max: 9, default: 6}}}}
+  0x2004: {name: hours 2, array: {count: 3, name: 'lamp {n}', type: unsigned16, access: ro, elements: {1: {default: 4}, 2: {name: spare, default: 5}, 3: {max: 9, default: 6}}}}
+  0x2005:
+    name: hours
+    array: {count: 3, name: 'lamp {n}', type: unsigned16, access: rw, writable-when: '0x2002 == 0', elements: {1: {default: 4}, 2: {name: spare, default: 5}, 3: {max: 9, default: 6}}}
+  0x2006:
+    name: minutes
+    array: {count: 2, name: 'lamp {n}', type: unsigned32, access: rw, writable-when: '0x2002 == 0', elements: {1: {name: main, default: 4}, 2: {name: spare, default: 5}}}
+  0x2007:
+    on: lamp
+    name: colour
+    record: {1: {name: red, type: unsigned8, access: rw, default: 1}, 2: {name: blue, type: unsigned8, access: rw, default: 2}}
+  0x2008:
+    on: lamp
+    name: sky
+    record: {2: {name: blue, type: unsigned8, access: rw, default: 9}, 3: {name: white, type: unsigned8, access: ro}}
+  0x2009: {name: beat of the lamp, category: conditional, type: unsigned16, unit: millisecond, access: rw, default: 500, special: {0: heartbeat off}, about: beats}
+",
+    );
+}
+
+#[test]
+fn an_object_of_a_library_is_like_another_of_it() {
+    const SHORT: &[(&str, &[u8])] = &[(
+        "../lamps.od.yaml",
+        b"od-spec: 1
+title: Lamps
+profile: lamps
+features: {dimmer: {objects: [0x6001]}}
+objects:
+  0x6000: {like: 0x6001, name: colour, max: 9}
+  0x6001: {name: brightness, type: unsigned8, access: rw, default: 1}
+",
+    )];
+    const FULL: &[(&str, &[u8])] = &[(
+        "../lamps.od.yaml",
+        b"od-spec: 1
+title: Lamps
+profile: lamps
+features: {dimmer: {objects: [0x6001]}}
+objects:
+  0x6000: {name: colour, max: 9, type: unsigned8, access: rw, default: 1}
+  0x6001: {name: brightness, type: unsigned8, access: rw, default: 1}
+",
+    )];
+    let dump = |files| {
+        let text = format!("{LAMP}objects:\n  0x6000: {{from: lamps}}\n");
+        let (sources, compiled) = compiled_with(&text, files);
+        assert_eq!(human(&compiled.diagnostics, &sources), "");
+        String::from_utf8(json::dump(&compiled.system.unwrap(), &[])).unwrap()
+    };
+    assert_eq!(dump(SHORT), dump(FULL));
+}
