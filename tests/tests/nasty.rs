@@ -105,3 +105,9 @@ fn what_is_like_another_object_has_its_values_and_limits() {
         assert!(od.write(0x2013, sub, &most.to_le_bytes(), &mut ()).is_ok());
     }
 }
+
+#[test]
+fn runs_of_entries_are_mapped_one_by_one() {
+    let mut od = Nasty::new(1);
+    assert_eq!(*pdo::pack(&mut od, 2, &mut ()).unwrap(), [9, 3, 3, 3]);
+}

@@ -300,6 +300,21 @@ error_keys! { declaration
     }
 }
 
+/// Sub-indices from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct SubIndexRange {
+    pub first: SubIndex,
+    pub last: SubIndex,
+}
+
+impl SubIndexRange {
+    /// The sub-indices, ascending.
+    pub(crate) fn subs(self) -> impl ExactSizeIterator<Item = SubIndex> {
+        let count = self.last.0.saturating_sub(self.first.0).saturating_add(1);
+        (0..count).map(move |at| SubIndex(self.first.0 + at))
+    }
+}
+
 /// Error codes from the first to the last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct CodeRange {

@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 
 use super::entry::entry;
 use super::lexical;
-use super::numbered::{numbered, twice};
+use super::numbered::twice;
 use super::read::Reader;
-use crate::ast::{ArrayDecl, EntryDecl, IndexRange, Name, ObjectDecl, RecordDecl};
+use crate::ast::{ArrayDecl, EntryDecl, IndexRange, ObjectDecl, RecordDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys;
 use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{Index, Outside, Rounding, SubIndex};
-use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::Node;
 
@@ -35,7 +34,7 @@ pub(super) fn objects<'a>(
         }
         before.extend((first.0..=last.0).map(|index| (Index(index), key)));
         let written = r.node.weight();
-        let one = object(Spanned::new(first, key.span), written, r, diagnostics);
+        let one = object(Spanned::new(first, key.span), written, r, room, diagnostics);
         let objects = usize::from(last.0 - first.0) + 1;
         let repeated = if objects > 1 { one.weight } else { one.weight - written };
         if let Err(full) = room.take(one.entries() * objects, repeated.saturating_mul(objects)) {
@@ -66,30 +65,44 @@ fn run(
     last: Index,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
-    if let Some(name) = one.entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
-        diagnostics.push(
-            Diagnostic::new(codes::BAD_NOTATION, name.span, "the objects of a run would all have this name")
-                .help("write `{n}` into the name; it stands for 1, 2, and so on"),
-        );
-    }
+    check_numbered(&one.entry, "objects", "it stands for 1, 2, and so on", diagnostics);
     let copies = (1..).zip(first.0..=last.0).map(|(number, index)| {
-        let numbered = |text: &Option<Name>| {
-            let text = text.as_ref()?;
-            let whole = text.value.replace("{n}", &i32::to_string(&number));
-            // A name without `{n}` was reported; its copies do not have to be reported, too.
-            let whole = if whole == text.value { format!("{whole} {number}") } else { whole };
-            Some(Spanned::new(whole, text.span))
-        };
         let mut copy = ObjectDecl { index: Spanned::new(Index(index), key), ..one.clone() };
-        copy.entry.name = numbered(&one.entry.name);
-        copy.entry.identifier = numbered(&one.entry.identifier);
+        number_names(&mut copy.entry, number);
         copy
     });
     copies.collect()
 }
 
+/// Checks that the names of a run are different ones.
+fn check_numbered(entry: &EntryDecl, what: &str, number: &str, diagnostics: &mut Diagnostics) {
+    if let Some(name) = entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
+        let message = format!("the {what} of a run would all have this name");
+        diagnostics.push(
+            Diagnostic::new(codes::BAD_NOTATION, name.span, message)
+                .help(format!("write `{{n}}` into the name; {number}")),
+        );
+    }
+}
+
+/// Writes the number of an object or entry of a run into its names.
+fn number_names(entry: &mut EntryDecl, number: u16) {
+    for text in [&mut entry.name, &mut entry.identifier].into_iter().flatten() {
+        let whole = text.value.replace("{n}", &number.to_string());
+        // A name without `{n}` was reported; its copies do not have to be reported, too.
+        text.value = if whole == text.value { format!("{whole} {number}") } else { whole };
+    }
+}
+
 /// Reads an object that takes so many bytes where it is written.
-fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
+fn object(
+    index: Spanned<Index>,
+    written: usize,
+    r: Reader<'_>,
+    room: Room,
+    diagnostics: &mut Diagnostics,
+) -> ObjectDecl {
+    let mut repeated = 0;
     let decl = ObjectDecl {
         index,
         weight: written,
@@ -105,12 +118,19 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
                 span: key,
                 count: child.integer("count"),
                 entry: entry(child, &keys::ARRAY, key, diagnostics),
-                elements: members(child.entries("elements"), diagnostics),
+                elements: members(
+                    child.entries("elements"),
+                    Kind::Elements,
+                    room,
+                    &mut repeated,
+                    diagnostics,
+                ),
             })
         }),
-        record: r
-            .keyed("record")
-            .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
+        record: r.keyed("record").map(|(key, _)| RecordDecl {
+            span: key,
+            members: members(r.entries("record"), Kind::Members, room, &mut repeated, diagnostics),
+        }),
         sub0: r.keyed("sub0").map(|(key, child)| Box::new(entry(child, &keys::SUB0, key, diagnostics))),
         omit: r.integers("omit"),
         links: r.optional_indices("links"),
@@ -127,23 +147,72 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
     let of = |key: &str| r.node.get(key).map_or(0, Node::weight);
     let elements = r.child("array").and_then(|child| child.node.get("elements")).map_or(0, Node::weight);
     let common = written.saturating_sub(of("record")).saturating_sub(elements);
+    let written = written.saturating_add(repeated);
     let weight = written.saturating_add(common.saturating_mul(decl.entries() - 1));
     ObjectDecl { weight, ..decl }
 }
 
+/// What a map of entries describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Elements of an array, whose number is their sub-index.
+    Elements,
+    /// Members of a record; those of a run are counted.
+    Members,
+}
+
+/// Reads elements or members; a run of sub-indices makes one for each of them. `repeated` grows by the bytes that stand once for
+/// several.
 fn members<'a>(
     entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    kind: Kind,
+    mut room: Room,
+    repeated: &mut usize,
     diagnostics: &mut Diagnostics,
 ) -> Vec<(Spanned<SubIndex>, EntryDecl)> {
-    let sub = |text: &str| {
-        let number = u8::try_from(scalar::integer(text).ok()?).ok()?;
-        (1..=254).contains(&number).then_some(SubIndex(number))
-    };
-    let mut members: Vec<_> =
-        numbered(entries, sub, diagnostics, codes::DUPLICATE_SUB_INDEX, |sub| format!("sub-index {sub}"))
-            .into_iter()
-            .map(|(sub, r)| (sub, entry(r, &keys::ENTRY, sub.span, diagnostics)))
-            .collect();
+    let mut before: BTreeMap<SubIndex, Spanned<&str>> = BTreeMap::new();
+    let mut members = Vec::new();
+    for (key, r) in entries {
+        let Some(range) = lexical::sub_indices(key.value) else { continue };
+        if let Some((sub, earlier)) = before.range(range.first..=range.last).next() {
+            let number = format!("sub-index {sub}");
+            diagnostics.push(twice(codes::DUPLICATE_SUB_INDEX, &number, key, *earlier));
+            continue;
+        }
+        before.extend(range.subs().map(|sub| (sub, key)));
+        let one = entry(r, &keys::ENTRY, key.span, diagnostics);
+        if range.first == range.last {
+            members.push((Spanned::new(range.first, key.span), one));
+            continue;
+        }
+        let text = r.node.weight().saturating_mul(range.subs().len() - 1);
+        if let Err(full) = room.take(0, text) {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::TOO_MUCH,
+                    key.span,
+                    format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
+                )
+                .help("correct the run, or shorten its texts"),
+            );
+            continue;
+        }
+        *repeated = repeated.saturating_add(text);
+        let (what, number) = match kind {
+            Kind::Elements => ("elements", "it stands for the sub-index"),
+            Kind::Members => ("members", "it stands for 1, 2, and so on"),
+        };
+        check_numbered(&one, what, number, diagnostics);
+        for (count, sub) in (1..).zip(range.subs()) {
+            let number = match kind {
+                Kind::Elements => u16::from(sub.0),
+                Kind::Members => count,
+            };
+            let mut copy = one.clone();
+            number_names(&mut copy, number);
+            members.push((Spanned::new(sub, key.span), copy));
+        }
+    }
     members.sort_by_key(|(sub, _)| sub.value);
     members
 }

@@ -49,6 +49,8 @@ pub enum Shape {
     Index,
     /// An entry: `0x30FA.3`, or by name.
     Entry,
+    /// An entry, or a run of entries of one object: `0x2021.1..4`.
+    Entries,
     /// An access type, `locked` may follow.
     Access,
     /// A data type or a named type.
@@ -101,6 +103,8 @@ pub enum KeyKind {
     Indices,
     /// A sub-index from 1 to 254.
     SubIndex,
+    /// A sub-index from 1 to 254, or a run of them: `1..4`.
+    SubIndices,
     /// A bit, or bits `0..3`.
     Bits,
     /// An integer.

@@ -156,7 +156,8 @@ fn members(
             continue;
         }
         let Some(name) = &member.name else {
-            if !member.unsure {
+            // A run of members lacks it once.
+            if !member.unsure && diagnostics.is_new(codes::MISSING_KEY, sub.span) {
                 diagnostics.push(
                     Diagnostic::new(
                         codes::MISSING_KEY,

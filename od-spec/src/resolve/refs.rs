@@ -66,6 +66,15 @@ impl Broken {
         self.owners.insert(index.value, Owners { object, devices, place: index.span });
     }
 
+    /// An entry that is named at `place`, and is not there.
+    pub(super) fn missing(&self, id: EntryId, place: Span) -> Diagnostic {
+        let help = match self.owners_of(id.index) {
+            Some(owners) => owners.help(),
+            None => "correct the index or sub-index, or define the object on this device".to_owned(),
+        };
+        Diagnostic::new(codes::UNKNOWN_ENTRY, place, format!("there is no entry {id}")).help(help)
+    }
+
     /// Where an object stands that only some devices have, and what to do when another is to have it.
     pub(super) fn elsewhere(&self, index: Index) -> Option<(Span, String)> {
         self.owners_of(index).map(|owners| (owners.place, owners.help()))
@@ -182,15 +191,7 @@ fn find(
             return Some(id);
         }
         if !broken.has(id.index) {
-            diagnostics.push(
-                Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, format!("there is no entry {id}"))
-                    .help(match broken.owners_of(id.index) {
-                        Some(owners) => owners.help(),
-                        None => {
-                            "correct the index or sub-index, or define the object on this device".to_owned()
-                        }
-                    }),
-            );
+            diagnostics.push(broken.missing(id, reference.span));
         }
         return None;
     }

@@ -118,3 +118,40 @@ objects:
     };
     assert_eq!(dump(SHORT), dump(FULL));
 }
+
+#[test]
+fn a_run_of_sub_indices_is_its_entries() {
+    same(
+        "objects:
+  0x2000:
+    name: cells
+    type: unsigned8
+    access: ro
+    pdo: transmit
+    record: {1: {name: total}, 2..4: {name: 'cell {n}', identifier: 'c{n}', about: a cell}}
+  0x2001:
+    name: outputs
+    array: {count: 5, name: 'output {n}', type: unsigned8, access: rw, pdo: transmit, elements: {2..3: {max: 7}, 4..5: {name: 'spare {n}'}}}
+pdos: {lamp: {transmit: {1: {map: [0x2000.2..4, 0x2001.1..2, 0x2001.5..5]}}}}
+",
+        "objects:
+  0x2000:
+    name: cells
+    type: unsigned8
+    access: ro
+    pdo: transmit
+    record:
+      1: {name: total}
+      2: {name: cell 1, identifier: c1, about: a cell}
+      3: {name: cell 2, identifier: c2, about: a cell}
+      4: {name: cell 3, identifier: c3, about: a cell}
+  0x2001:
+    name: outputs
+    type: unsigned8
+    access: rw
+    pdo: transmit
+    array: {count: 5, name: 'output {n}', elements: {2: {max: 7}, 3: {max: 7}, 4: {name: spare 4}, 5: {name: spare 5}}}
+pdos: {lamp: {transmit: {1: {map: [0x2000.2, 0x2000.3, 0x2000.4, outputs.output 1, outputs.output 2, outputs.spare 5]}}}}
+",
+    );
+}
