@@ -289,6 +289,7 @@ const SCALARS: &[Shape] = &[
     Shape::Access,
     Shape::Type,
     Shape::Value,
+    Shape::Default,
     Shape::Ratio,
     Shape::Base,
     Shape::Condition,
@@ -316,6 +317,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Access => "access",
         Shape::Type => "type-name",
         Shape::Value => "value",
+        Shape::Default => "default-value",
         Shape::Ratio => "fraction",
         Shape::Base => "fraction-and-symbol",
         Shape::Condition => "condition",
@@ -357,6 +359,11 @@ fn scalar(shape: Shape) -> Json {
             &["string", "number", "boolean"],
             format!("^({}(\\.{})?$|(?!0[xX]))", unsigned(4, 5), unsigned(2, 3)),
         ),
+        Shape::Default => any_of([
+            any_text(),
+            at_least_one(Shape::Default),
+            object([("type", text("object")), ("additionalProperties", schema(Shape::Default))]),
+        ]),
         Shape::Entries => {
             let sub = unsigned(2, 3);
             pattern(

@@ -111,3 +111,9 @@ fn runs_of_entries_are_mapped_one_by_one() {
     let mut od = Nasty::new(1);
     assert_eq!(*pdo::pack(&mut od, 2, &mut ()).unwrap(), [9, 3, 3, 3]);
 }
+
+#[test]
+fn every_element_has_its_own_default() {
+    let od = Nasty::new(1);
+    assert_eq!([1, 2, 3].map(|sub| od.read(0x2015, sub).unwrap()[0]), [0xFF, 0, 0xFF]);
+}

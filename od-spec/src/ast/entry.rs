@@ -116,6 +116,32 @@ pub(crate) struct SpecialDecl {
     pub about: Words,
 }
 
+/// The value of `default:`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum DefaultDecl {
+    /// One value.
+    One(String),
+    /// The values of the elements of an array, in their order.
+    Each(Vec<Spanned<DefaultDecl>>),
+    /// The values of devices, by their keys.
+    ByDevice(Vec<(Name, Spanned<DefaultDecl>)>),
+}
+
+impl DefaultDecl {
+    /// A default that is one value.
+    pub(crate) fn one(text: Name) -> Spanned<Self> {
+        text.map(Self::One)
+    }
+
+    /// The text of a default that is one value.
+    pub(crate) fn text(&self) -> Option<&str> {
+        match self {
+            Self::One(text) => Some(text),
+            Self::Each(_) | Self::ByDevice(_) => None,
+        }
+    }
+}
+
 /// Error codes of a bit of the entry's type.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BitErrorDecl {

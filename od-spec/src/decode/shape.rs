@@ -116,6 +116,17 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
             }
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
+        Shape::Default => match &node.kind {
+            NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
+            NodeKind::List(items) => {
+                for node in items {
+                    check(node, Shape::Default, start(node), diagnostics);
+                }
+            }
+            NodeKind::Map(_) => check_keyed(node, KeyKind::Name, Shape::Default, diagnostics),
+            NodeKind::Scalar { .. } => {}
+            NodeKind::Null | NodeKind::Broken => wrong_kind(node, expected(shape), diagnostics),
+        },
         Shape::OneOrMore(item) => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
@@ -238,7 +249,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Entries => "an entry such as `0x6040`, `0x30FA.3` or its name, or a run such as `0x2021.1..4`",
         Shape::Access => "an access type such as `ro` or `rw locked`",
         Shape::Type => "a data type or the name of a type",
-        Shape::Value => "a value",
+        Shape::Value | Shape::Default => "a value",
         Shape::Ratio => "a fraction such as `1/10`",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",

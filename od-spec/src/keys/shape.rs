@@ -57,6 +57,8 @@ pub enum Shape {
     Type,
     /// A value of an entry: number, physical value, enum name, text or `$NODEID` formula.
     Value,
+    /// A value; a list of values, one for each element of an array; or a map from device to one of these.
+    Default,
     /// A fraction: `1/10`.
     Ratio,
     /// A fraction and a symbol: `1/1000 V`.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::assigned::Assigned;
 use super::decls::{self, Declared};
+use super::defaults;
 use super::entries::{EdsDefaults, Surroundings};
 use super::libraries::Libraries;
 use super::refs::Broken;
@@ -50,6 +51,7 @@ pub(super) fn resolve<'a>(
                 around: Surroundings {
                     scope,
                     file: root.file,
+                    device: Some(&device.key.value),
                     eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
                 objects: BTreeMap::new(),
@@ -107,7 +109,7 @@ pub(super) fn of_library<'a>(
     diagnostics: &mut Diagnostics,
 ) -> Option<Dictionary> {
     let profile = root.profile.as_ref()?;
-    let around = Surroundings { scope, file: root.file, eds: EdsDefaults::Safe };
+    let around = Surroundings { scope, file: root.file, device: None, eds: EdsDefaults::Safe };
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));
@@ -139,6 +141,12 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
         let (names, otherwise) = (known.iter().copied(), "define it under `devices:`");
         unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
     }
+    let not_known = |key: &Name, diagnostics: &mut Diagnostics| {
+        let (names, otherwise) =
+            (known.iter().copied(), "define it under `devices:`, or write one value for all");
+        unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
+    };
+    defaults::check_devices(root, not_known, diagnostics);
 }
 
 /// Takes the room of a device, if there is enough.

@@ -4,6 +4,7 @@ mod aliases;
 mod assigned;
 mod constraints;
 mod decls;
+mod defaults;
 mod device_info;
 mod devices;
 mod document;

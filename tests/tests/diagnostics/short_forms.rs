@@ -2,6 +2,7 @@
 
 use od_gen::{eds, json, rust};
 use od_spec::diag::Diagnostics;
+use od_spec::model::{Index, SubIndex, Value};
 
 use crate::bytes_and_libraries::{LAMP, compiled_with};
 use crate::human;
@@ -124,18 +125,21 @@ fn a_run_of_sub_indices_is_its_entries() {
     same(
         "objects:
   0x2000:
+    on: lamp
     name: cells
     type: unsigned8
     access: ro
     pdo: transmit
     record: {1: {name: total}, 2..4: {name: 'cell {n}', identifier: 'c{n}', about: a cell}}
   0x2001:
+    on: lamp
     name: outputs
     array: {count: 5, name: 'output {n}', type: unsigned8, access: rw, pdo: transmit, elements: {2..3: {max: 7}, 4..5: {name: 'spare {n}'}}}
 pdos: {lamp: {transmit: {1: {map: [0x2000.2..4, 0x2001.1..2, 0x2001.5..5]}}}}
 ",
         "objects:
   0x2000:
+    on: lamp
     name: cells
     type: unsigned8
     access: ro
@@ -146,6 +150,7 @@ pdos: {lamp: {transmit: {1: {map: [0x2000.2..4, 0x2001.1..2, 0x2001.5..5]}}}}
       3: {name: cell 2, identifier: c2, about: a cell}
       4: {name: cell 3, identifier: c3, about: a cell}
   0x2001:
+    on: lamp
     name: outputs
     type: unsigned8
     access: rw
@@ -154,4 +159,47 @@ pdos: {lamp: {transmit: {1: {map: [0x2000.2..4, 0x2001.1..2, 0x2001.5..5]}}}}
 pdos: {lamp: {transmit: {1: {map: [0x2000.2, 0x2000.3, 0x2000.4, outputs.output 1, outputs.output 2, outputs.spare 5]}}}}
 ",
     );
+}
+
+#[test]
+fn defaults_of_elements_and_devices_are_those_of_each() {
+    same(
+        "types:
+  kind: {base: unsigned8, values: {0: lamp, 1: post}}
+objects:
+  0x2000: {name: first, on: lamp, type: kind, access: rw, default: {lamp: post}}
+  0x2001: {name: kinds, omit: [2], array: {count: 3, name: 'kind {n}', type: kind, access: rw, default: [lamp, post]}}
+  0x2002: {name: steps, on: lamp, array: {count: 2, name: 'step {n}', type: unsigned8, access: rw, default: {lamp: [1, 2]}}}
+  0x2003: {name: ramps, on: post, array: {count: 2, name: 'ramp {n}', type: unsigned8, access: rw, default: {post: 3}}}
+",
+        "types:
+  kind: {base: unsigned8, values: {0: lamp, 1: post}}
+objects:
+  0x2000: {name: first, on: lamp, type: kind, access: rw, default: 1}
+  0x2001: {name: kinds, omit: [2], array: {count: 3, name: 'kind {n}', type: kind, access: rw, elements: {1: {default: 0}, 3: {default: 1}}}}
+  0x2002: {name: steps, on: lamp, array: {count: 2, name: 'step {n}', type: unsigned8, access: rw, elements: {1: {default: 1}, 2: {default: 2}}}}
+  0x2003: {name: ramps, on: post, array: {count: 2, name: 'ramp {n}', type: unsigned8, access: rw, default: 3}}
+",
+    );
+}
+
+#[test]
+fn every_device_has_its_own_default() {
+    let body = "objects:
+  0x1017: {from: cia301, default: {lamp: 500, post: 1000 ms}}
+  0x2000: {name: steps, array: {count: 2, name: 'step {n}', type: unsigned8, access: rw, default: {lamp: [1, 2], post: 7}}}
+";
+    let (sources, compiled) = compiled_with(&format!("{HEAD}{body}"), &[]);
+    assert_eq!(human(&compiled.diagnostics, &sources), "");
+    let system = compiled.system.unwrap();
+    let defaults: Vec<_> = system
+        .devices
+        .iter()
+        .flat_map(|device| [(0x1017, 0), (0x2000, 1), (0x2000, 2)].map(|(index, sub)| (device, index, sub)))
+        .map(|(device, index, sub)| {
+            device.objects[&Index(index)].entry(SubIndex(sub)).unwrap().default.clone()
+        })
+        .collect();
+    let expected = [500, 1, 2, 1000, 7, 7].map(|raw| Some(Value::Integer(raw)));
+    assert_eq!(defaults, expected);
 }
