@@ -6,17 +6,19 @@ use super::entry::entry;
 use super::lexical;
 use super::numbered::twice;
 use super::read::Reader;
+use super::shape::start;
 use crate::ast::{ArrayDecl, EntryDecl, IndexRange, ObjectDecl, RecordDecl};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::keys;
 use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{Index, Outside, Rounding, SubIndex};
 use crate::source::{Span, Spanned};
-use crate::yaml::Node;
+use crate::yaml::{Node, NodeKind};
 
-/// Reads the objects; a run of indices makes one object for each of them.
+/// Reads the objects; a run of indices makes one object for each of them. Where devices have different objects, they are a list.
 pub(super) fn objects<'a>(
     entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    is_library: bool,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
     let mut before: BTreeMap<Index, Spanned<&str>> = BTreeMap::new();
@@ -27,34 +29,99 @@ pub(super) fn objects<'a>(
     for (key, r) in entries {
         // A key that lacks its `0x` was refused; what refers to the object is right all the same.
         let range = lexical::indices(key.value).or_else(|| lexical::indices(&lexical::with_0x(key.value)?));
-        let Some(IndexRange { first, last }) = range else { continue };
-        if let Some((index, earlier)) = before.range(first..=last).next() {
+        let Some(range) = range else { continue };
+        if let Some((index, earlier)) = before.range(range.first..=range.last).next() {
             diagnostics.push(twice(codes::DUPLICATE_INDEX, &index.to_string(), key, *earlier));
             continue;
         }
-        before.extend((first.0..=last.0).map(|index| (Index(index), key)));
-        let written = r.node.weight();
-        let one = object(Spanned::new(first, key.span), written, r, room, diagnostics);
-        let objects = usize::from(last.0 - first.0) + 1;
-        let repeated = if objects > 1 { one.weight } else { one.weight - written };
-        if let Err(full) = room.take(one.entries() * objects, repeated.saturating_mul(objects)) {
+        before.extend((range.first.0..=range.last.0).map(|index| (Index(index), key)));
+        let NodeKind::List(items) = &r.node.kind else {
+            add(range, key.span, r, &mut room, &mut list, diagnostics);
+            continue;
+        };
+        if is_library {
+            let message = format!("several objects at {} of a library", range.first);
             diagnostics.push(
-                Diagnostic::new(
-                    codes::TOO_MUCH,
-                    key.span,
-                    format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
-                )
-                .help("correct the run or the `count`, or describe the objects in several files"),
+                Diagnostic::new(codes::CONFLICTING_KEYS, key.span, message)
+                    .help("describe one; a library knows no devices that could have different ones"),
             );
-            continue;
         }
-        if first == last {
-            list.push(one);
-            continue;
+        let first_of_list = list.len();
+        for node in items {
+            add(range, start(node), r.at(node), &mut room, &mut list, diagnostics);
         }
-        list.extend(run(&one, key.span, first, last, diagnostics));
+        if items.len() > 1 {
+            belong_to_different_devices(&mut list, first_of_list, diagnostics);
+        }
     }
     list
+}
+
+/// Reads what is described at an index or a run of indices; `place` stands for it.
+fn add(
+    range: IndexRange,
+    place: Span,
+    r: Reader<'_>,
+    room: &mut Room,
+    list: &mut Vec<ObjectDecl>,
+    diagnostics: &mut Diagnostics,
+) {
+    let IndexRange { first, last } = range;
+    let written = r.node.weight();
+    let one = object(Spanned::new(first, place), written, r, *room, diagnostics);
+    let objects = usize::from(last.0 - first.0) + 1;
+    let repeated = if objects > 1 { one.weight } else { one.weight - written };
+    if let Err(full) = room.take(one.entries() * objects, repeated.saturating_mul(objects)) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::TOO_MUCH,
+                place,
+                format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
+            )
+            .help("correct the run or the `count`, or describe the objects in several files"),
+        );
+    } else if first == last {
+        list.push(one);
+    } else {
+        list.extend(run(&one, place, first, last, diagnostics));
+    }
+}
+
+/// Checks the devices of different objects at one index, which are those of the list from `first` on: each device has one of them.
+fn belong_to_different_devices(list: &mut [ObjectDecl], first: usize, diagnostics: &mut Diagnostics) {
+    let mut owners: BTreeMap<(Index, String), Span> = BTreeMap::new();
+    for decl in &mut list[first..] {
+        let index = decl.index.value;
+        let Some(on) = &mut decl.on else {
+            // A run lacks it once.
+            if !decl.entry.unsure && diagnostics.is_new(codes::MISSING_KEY, decl.index.span) {
+                let message = format!("one of several objects at {index} needs the key `on`");
+                diagnostics.push(
+                    Diagnostic::new(codes::MISSING_KEY, decl.index.span, message)
+                        .help("add `on:` with the devices that have this one"),
+                );
+            }
+            decl.on = Some(Vec::new());
+            continue;
+        };
+        on.retain(|device| {
+            let before = owners.get(&(index, device.value.clone())).copied();
+            // A run has it once.
+            if let Some(before) = before
+                && diagnostics.is_new(codes::DUPLICATE_INDEX, device.span)
+            {
+                let message = format!("{index} of `{}` is defined twice", shorten(&device.value));
+                diagnostics.push(
+                    Diagnostic::new(codes::DUPLICATE_INDEX, device.span, message)
+                        .label("again here")
+                        .with(before, "first here")
+                        .help("name each device at one of these objects only"),
+                );
+            }
+            owners.entry((index, device.value.clone())).or_insert(device.span);
+            before.is_none()
+        });
+    }
 }
 
 /// The objects of a run of indices, all like the first but for their numbers.

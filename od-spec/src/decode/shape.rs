@@ -152,7 +152,7 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
 }
 
 /// The place that stands for a value without a key of its own: a map's first key.
-pub(super) fn start(node: &Node) -> Span {
+pub(in crate::decode) fn start(node: &Node) -> Span {
     node.entries().first().map_or(node.span, |(name, _)| name.span)
 }
 

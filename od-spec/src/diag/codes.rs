@@ -106,6 +106,8 @@ codes! {
         "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that stands in both places would have two descriptions."
     LIKE_ITSELF Error "OD0324" "an object that is like itself":
         "`like:` takes what is not written from another object. Objects that are like each other in a circle, or one that is like itself, leave nobody to say what they are. Describe one of them in full."
+    DIFFERENT_OBJECTS Error "OD0325" "a reference to different objects":
+        "Devices of one file may have different objects at one index. What names the index for several of these devices, a condition, an erratum or a state machine, would mean another object on each. Say for which device it is."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":

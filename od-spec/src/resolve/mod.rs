@@ -25,6 +25,7 @@ mod scope;
 mod table_content;
 mod types;
 pub(crate) mod values;
+mod varied;
 
 use crate::ast::{FrontEnd, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};

@@ -237,7 +237,7 @@ fn in_run(
     let index = run.index;
     let Some(object) = objects.get(&index) else {
         if !broken.has(index) {
-            diagnostics.push(broken.missing(EntryId { index, sub: run.subs.first }, place));
+            diagnostics.push(broken.missing(EntryId { index, sub: run.subs.first }, false, place));
         }
         return Vec::new();
     };

@@ -1,6 +1,7 @@
 //! References to entries, by index or by name.
 
 use std::cell::OnceCell;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -20,12 +21,12 @@ pub(super) struct Broken {
     everywhere: Option<Arc<Broken>>,
     /// Objects that only some devices have.
     owners: BTreeMap<Index, Owners>,
-    /// Their indices, by name.
-    owned: BTreeMap<String, Index>,
+    /// The same by name.
+    owned: BTreeMap<String, Owners>,
 }
 
 /// The devices that have an object.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Owners {
     /// How the specification calls the object.
     object: String,
@@ -36,6 +37,13 @@ struct Owners {
 }
 
 impl Owners {
+    /// Adds the devices of another object.
+    fn join(&mut self, other: &Owners) {
+        let new = other.devices.iter().filter(|device| !self.devices.contains(device)).cloned();
+        let new: Vec<String> = new.collect();
+        self.devices.extend(new);
+    }
+
     /// What to do when another device is to have the object.
     fn help(&self) -> String {
         let devices: Vec<String> = self.devices.iter().map(|key| format!("`{key}`")).collect();
@@ -62,13 +70,25 @@ impl Broken {
     pub(super) fn own(&mut self, index: Spanned<Index>, name: Option<&Name>, devices: &[Name]) {
         let object = name.map_or_else(|| index.value.to_string(), |name| name.value.clone());
         let devices = devices.iter().map(|key| key.value.clone()).collect();
-        self.owned.extend(name.map(|name| (name.value.clone(), index.value)));
-        self.owners.insert(index.value, Owners { object, devices, place: index.span });
+        let owners = Owners { object, devices, place: index.span };
+        if let Some(name) = name {
+            self.owned
+                .entry(name.value.clone())
+                .and_modify(|known| known.join(&owners))
+                .or_insert_with(|| owners.clone());
+        }
+        match self.owners.entry(index.value) {
+            Entry::Vacant(vacant) => drop(vacant.insert(owners)),
+            Entry::Occupied(mut known) => {
+                known.get_mut().join(&owners);
+                known.get_mut().object = index.value.to_string();
+            }
+        }
     }
 
-    /// An entry that is named at `place`, and is not there.
-    pub(super) fn missing(&self, id: EntryId, place: Span) -> Diagnostic {
-        let help = match self.owners_of(id.index) {
+    /// An entry that is named at `place`, and is not there; `is_there` tells whether its object is.
+    pub(super) fn missing(&self, id: EntryId, is_there: bool, place: Span) -> Diagnostic {
+        let help = match self.owners_of(id.index).filter(|_| !is_there) {
             Some(owners) => owners.help(),
             None => "correct the index or sub-index, or define the object on this device".to_owned(),
         };
@@ -87,8 +107,7 @@ impl Broken {
 
     fn owners_of_name(&self, name: &str) -> Option<&Owners> {
         let everywhere = || self.everywhere.as_ref()?.owners_of_name(name);
-        let index = objects_in(name).find_map(|object| self.owned.get(object));
-        index.and_then(|index| self.owners.get(index)).or_else(everywhere)
+        objects_in(name).find_map(|object| self.owned.get(object)).or_else(everywhere)
     }
 
     pub(super) fn append(&mut self, more: Broken) {
@@ -119,13 +138,21 @@ pub(super) struct Names<'a> {
     objects: Vec<&'a Object>,
     /// What can be written, for suggestions.
     all: OnceCell<Vec<String>>,
+    /// For help.
+    indices: OnceCell<BTreeSet<Index>>,
 }
 
 impl<'a> Names<'a> {
     pub(super) fn new(objects: impl IntoIterator<Item = &'a Object>) -> Self {
         let mut objects: Vec<&Object> = objects.into_iter().collect();
         objects.sort_by(|one, other| one.name.cmp(&other.name));
-        Self { objects, all: OnceCell::new() }
+        Self { objects, all: OnceCell::new(), indices: OnceCell::new() }
+    }
+
+    /// Whether there is an object of this index.
+    fn has(&self, index: Index) -> bool {
+        let indices = self.indices.get_or_init(|| self.objects.iter().map(|object| object.index).collect());
+        indices.contains(&index)
     }
 
     /// The objects of a name.
@@ -191,7 +218,8 @@ fn find(
             return Some(id);
         }
         if !broken.has(id.index) {
-            diagnostics.push(broken.missing(id, reference.span));
+            let is_there = devices.iter().any(|names| names.has(id.index));
+            diagnostics.push(broken.missing(id, is_there, reference.span));
         }
         return None;
     }

@@ -140,6 +140,14 @@ pub const RIGHT: &[Pattern] = &[
         });
         format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n{objects}")
     }),
+    pattern("devices with different objects at one index", |n| {
+        let devices = each(n, |at| {
+            format!("  d{at}: {{name: device {at}, bit-rates: [125], eds: {{created: 2024-02-29 12:00}}}}\n")
+        });
+        let objects =
+            each(n, |at| format!("    - {{on: d{at}, name: object {at}, type: unsigned8, access: ro}}\n"));
+        format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n  0x2000:\n{objects}")
+    }),
     pattern("devices with conditions of their own", |n| {
         let devices = each(n, |at| {
             format!("  d{at}: {{name: device {at}, bit-rates: [125], eds: {{created: 2024-02-29 12:00}}}}\n")

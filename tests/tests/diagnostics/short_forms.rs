@@ -203,3 +203,35 @@ fn every_device_has_its_own_default() {
     let expected = [500, 1, 2, 1000, 7, 7].map(|raw| Some(Value::Integer(raw)));
     assert_eq!(defaults, expected);
 }
+
+#[test]
+fn different_objects_at_one_index_are_those_of_their_devices() {
+    const BODY: &str = "objects:
+  0x2000:
+    - {on: lamp, name: brightness, type: unsigned8, access: rw, pdo: receive, default: 5}
+    - {on: post, name: heights, array: {count: 2, name: 'height {n}', type: integer16, access: rw, pdo: receive, default: 7}}
+pdos:
+  lamp: {receive: {1: {map: [0x2000]}}}
+  post: {receive: {1: {map: [0x2000.1..2]}}}
+constraints:
+  bright: {on: lamp, require: '0x2000 <= 100'}
+errata:
+  - {at: 0x2000, on: post, kind: name, place: page 1, prints: a, reads: b, because: c}
+";
+    // A file for each device has the same EDS and the same code.
+    let lamp = "objects:
+  0x2000: {on: lamp, name: brightness, type: unsigned8, access: rw, pdo: receive, default: 5}
+pdos: {lamp: {receive: {1: {map: [0x2000]}}}}
+constraints: {bright: {on: lamp, require: '0x2000 <= 100'}}
+";
+    let post = "objects:
+  0x2000: {on: post, name: heights, array: {count: 2, name: 'height {n}', type: integer16, access: rw, pdo: receive, default: 7}}
+pdos: {post: {receive: {1: {map: [0x2000.1, 0x2000.2]}}}}
+";
+    let [_, lamp_eds, lamp_code, post_eds, post_code] = <[String; 5]>::try_from(outputs(BODY, &[])).unwrap();
+    let alone = outputs(lamp, &[]);
+    assert_eq!((&alone[1], &alone[2]), (&lamp_eds, &lamp_code));
+    let alone = outputs(post, &[]);
+    assert_eq!((&alone[3], &alone[4]), (&post_eds, &post_code));
+    assert!(lamp_eds.contains("brightness") && post_eds.contains("heights"));
+}
