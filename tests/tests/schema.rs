@@ -21,6 +21,7 @@ const BEYOND_SCHEMA: &[(&str, &str)] = &[
     ),
     ("err_od0203_like", "a name may come from a library"),
     ("err_od0203_not_from_the_library", "whether a library has an object is for the compiler to say"),
+    ("err_od0205_consumers", "a map may as well be one of defaults by device"),
     ("err_od0207_allow", "which codes there are is for the rules to say"),
     ("err_od0203_cob_id", "`cob-id` is needed for some PDO numbers only, and only by valid PDOs"),
     ("err_od0203_entry", "`name`, `type` and `access` may come from the object or a library"),

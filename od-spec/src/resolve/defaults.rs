@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::consumers;
 use super::entries::Surroundings;
 use crate::ast::{ArrayDecl, DefaultDecl, EntryDecl, Name, ObjectDecl, Spec};
 use crate::check::codes as rule_codes;
@@ -17,6 +18,9 @@ pub(super) fn of_device<'d>(
     let Some(Spanned { value: DefaultDecl::ByDevice(values), span }) = &decl.default else {
         return Cow::Borrowed(decl);
     };
+    if around.index.is_some_and(|index| consumers::are_meant(index, values)) {
+        return Cow::Borrowed(decl);
+    }
     let own = around.device.and_then(|device| values.iter().find(|(key, _)| key.value == device));
     // One of its keys was no device, and may have been meant for this one.
     let is_misspelt = values.iter().any(|(key, _)| !diagnostics.is_new(codes::UNKNOWN_DEVICE, key.span));
@@ -37,7 +41,11 @@ pub(super) fn of_device<'d>(
 }
 
 /// The text of a default that is one value.
-pub(super) fn one(default: Option<&Spanned<DefaultDecl>>, diagnostics: &mut Diagnostics) -> Option<Name> {
+pub(super) fn one(
+    default: Option<&Spanned<DefaultDecl>>,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Name> {
     let default = default?;
     let (message, help) = match &default.value {
         DefaultDecl::One(text) => return Some(Spanned::new(text.clone(), default.span)),
@@ -45,6 +53,12 @@ pub(super) fn one(default: Option<&Spanned<DefaultDecl>>, diagnostics: &mut Diag
             "a list of values is the default of an array, and this is one entry",
             "write one value, or the list under `array:` with a value for each element",
         ),
+        DefaultDecl::ByDevice(keys)
+            if around.index.is_some_and(|index| consumers::are_meant(index, keys)) =>
+        {
+            let raw = consumers::raw(keys, default.span, diagnostics)?;
+            return Some(Spanned::new(raw.to_string(), default.span));
+        }
         DefaultDecl::ByDevice(_) => (
             "devices inside of what is for one device already",
             "write one value for each device, or one list for each",
@@ -87,29 +101,40 @@ pub(super) fn check_devices(
 ) {
     let is_known = |name: &str| root.devices.iter().any(|device| device.key.value == name);
     for decl in &root.objects {
-        for (key, _) in entries(decl)
-            .filter_map(|entry| entry.default.as_ref())
-            .flat_map(|default| by_device(&default.value))
-        {
-            let has = decl.on.as_ref().is_none_or(|on| on.iter().any(|device| device.value == key.value));
-            if !is_known(&key.value) {
-                unknown(key, diagnostics);
-            } else if !has {
-                let message = format!("`{}` has no object {}", key.value, decl.index.value);
-                diagnostics.push(
-                    Diagnostic::new(codes::CONFLICTING_KEYS, key.span, message)
-                        .with(decl.index.span, "an object of other devices")
-                        .help("remove it, or name the device where the object says which devices have it"),
-                );
+        let defaults = entries(decl).filter_map(|entry| entry.default.as_ref());
+        for values in defaults.filter_map(|default| by_device(&default.value)) {
+            let is_consumer = consumers::are_meant(decl.index.value, values);
+            for (key, _) in values {
+                let has = decl.on.as_ref().is_none_or(|on| on.iter().any(|device| device.value == key.value));
+                match (is_consumer, is_known(&key.value)) {
+                    (true, true) => diagnostics.push(two_meanings(key)),
+                    (true, false) => {}
+                    (false, false) => unknown(key, diagnostics),
+                    (false, true) if has => {}
+                    (false, true) => {
+                        let message = format!("`{}` has no object {}", key.value, decl.index.value);
+                        diagnostics.push(
+                            Diagnostic::new(codes::CONFLICTING_KEYS, key.span, message)
+                                .with(decl.index.span, "an object of other devices")
+                                .help("remove it, or name the device where the object says which devices have it"),
+                        );
+                    }
+                }
             }
         }
     }
 }
 
-fn by_device(default: &DefaultDecl) -> &[(Name, Spanned<DefaultDecl>)] {
+fn two_meanings(key: &Name) -> Diagnostic {
+    let message = format!("`{}` is a device, and what a heartbeat consumer is told by", key.value);
+    Diagnostic::new(codes::BAD_VALUE, key.span, message)
+        .help("write the consumers as a list under `array:`, or the raw value")
+}
+
+fn by_device(default: &DefaultDecl) -> Option<&[(Name, Spanned<DefaultDecl>)]> {
     match default {
-        DefaultDecl::ByDevice(values) => values,
-        DefaultDecl::One(_) | DefaultDecl::Each(_) => &[],
+        DefaultDecl::ByDevice(values) => Some(values),
+        DefaultDecl::One(_) | DefaultDecl::Each(_) => None,
     }
 }
 

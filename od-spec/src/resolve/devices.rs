@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::assigned::Assigned;
+use super::consumers;
 use super::decls::{self, Declared};
 use super::defaults;
 use super::entries::{EdsDefaults, Surroundings};
@@ -51,6 +52,7 @@ pub(super) fn resolve<'a>(
                 around: Surroundings {
                     scope,
                     file: root.file,
+                    index: None,
                     device: Some(&device.key.value),
                     eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
@@ -109,7 +111,7 @@ pub(super) fn of_library<'a>(
     diagnostics: &mut Diagnostics,
 ) -> Option<Dictionary> {
     let profile = root.profile.as_ref()?;
-    let around = Surroundings { scope, file: root.file, device: None, eds: EdsDefaults::Safe };
+    let around = Surroundings { scope, file: root.file, index: None, device: None, eds: EdsDefaults::Safe };
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));
@@ -142,8 +144,12 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
         unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
     }
     let not_known = |key: &Name, diagnostics: &mut Diagnostics| {
-        let (names, otherwise) =
-            (known.iter().copied(), "define it under `devices:`, or write one value for all");
+        let names = known.iter().copied();
+        let otherwise = if consumers::is_key(&key.value) {
+            "`node` and `time` are for the consumers of 1016h; write one value, or one for each device"
+        } else {
+            "define it under `devices:`, or write one value for all"
+        };
         unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
     };
     defaults::check_devices(root, not_known, diagnostics);

@@ -3,6 +3,7 @@
 mod aliases;
 mod assigned;
 mod constraints;
+mod consumers;
 mod decls;
 mod defaults;
 mod device_info;

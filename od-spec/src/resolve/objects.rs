@@ -21,6 +21,7 @@ pub(super) fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> Option<Object> {
     let decl = &declared.decl;
+    let around = Surroundings { index: Some(decl.index.value), ..around };
     let Some(name) = &decl.entry.name else {
         // A run of objects lacks it once.
         if decl.entry.unsure || !diagnostics.is_new(codes::MISSING_KEY, decl.index.span) {

@@ -235,3 +235,15 @@ pdos: {post: {receive: {1: {map: [0x2000.1, 0x2000.2]}}}}
     assert_eq!((&alone[3], &alone[4]), (&post_eds, &post_code));
     assert!(lamp_eds.contains("brightness") && post_eds.contains("heights"));
 }
+
+#[test]
+fn a_heartbeat_consumer_is_its_raw_value() {
+    same(
+        "objects:
+  0x1016: {name: watched, array: {count: 3, name: 'node {n}', type: unsigned32, access: rw, default: [{node: 5, time: 3000 ms}, {node: 127, time: 65.535 s}, 0]}}
+",
+        "objects:
+  0x1016: {name: watched, array: {count: 3, name: 'node {n}', type: unsigned32, access: rw, elements: {1: {default: 0x00050BB8}, 2: {default: 0x007FFFFF}, 3: {default: 0}}}}
+",
+    );
+}
