@@ -133,6 +133,20 @@ impl DefaultDecl {
         text.map(Self::One)
     }
 
+    /// The same, as if the maker, whose file is `maker`, had said at `place` what a library says.
+    pub(crate) fn adopted(&self, maker: FileId, place: Span) -> Self {
+        let value = |value: &Spanned<Self>| {
+            Spanned::new(value.value.adopted(maker, place), adopted(value.span, maker, place))
+        };
+        match self {
+            Self::One(text) => Self::One(text.clone()),
+            Self::Each(values) => Self::Each(values.iter().map(value).collect()),
+            Self::ByDevice(values) => {
+                Self::ByDevice(values.iter().map(|(key, one)| (key.clone(), value(one))).collect())
+            }
+        }
+    }
+
     /// The text of a default that is one value.
     pub(crate) fn text(&self) -> Option<&str> {
         match self {

@@ -81,7 +81,7 @@ codes! {
     CONFLICTING_KEYS Error "OD0208" "keys that exclude each other":
         "Only one of these keys can be true of one thing: an object is an array or a record, a type an enum or a bit field, a table has one content."
     DUPLICATE_INDEX Error "OD0301" "an index is defined twice":
-        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files. Readers of YAML that keep the last one would lose the first without a word."
+        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files, or one device has two of the objects that are listed under an index for different devices. Readers of YAML that keep the last one would lose the first without a word."
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
     DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
@@ -89,7 +89,7 @@ codes! {
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
-        "`on:`, `pdos:` and conditions name devices by their key under `devices:`."
+        "`on:`, `pdos:`, conditions and defaults by device name devices by their key under `devices:`."
     UNKNOWN_LIBRARY Error "OD0307" "an unknown library":
         "`from:` names a library by its `profile:` name; the library must stand in `uses:`."
     UNKNOWN_FEATURE Error "OD0308" "an unknown feature":

@@ -84,7 +84,8 @@ pub(super) fn of_device<'a>(
         }
     }
     let name = format!("`{}`", device.key.value);
-    let owner = Owner { name, file: device.key.span.file, written: indices(written), others };
+    let owner =
+        Owner { name, help: likes::OF_DEVICE, file: device.key.span.file, written: indices(written), others };
     likes::resolve(&waiting, &owner, room, &mut declared, diagnostics);
     declared
 }
@@ -99,8 +100,13 @@ pub(super) fn of_library<'a>(
     let written = root.objects.iter().collect::<Vec<_>>();
     let mut declared = of_specification(&written, libraries, scope, diagnostics);
     let (none, waiting) = (Broken::default(), likes::waiting(written.iter().copied()));
-    let owner =
-        Owner { name: "the library".to_owned(), file: root.file, written: indices(&written), others: &none };
+    let owner = Owner {
+        name: "the library".to_owned(),
+        help: likes::OF_LIBRARY,
+        file: root.file,
+        written: indices(&written),
+        others: &none,
+    };
     likes::resolve(&waiting, &owner, &mut Room::new(ENTRIES_OF_FILE), &mut declared, diagnostics);
     declared
 }

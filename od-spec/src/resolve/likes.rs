@@ -11,6 +11,11 @@ use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{Index, Origin, SubIndex};
 use crate::source::{FileId, Span, Spanned};
 
+/// What to do where a device has no such object.
+pub(super) const OF_DEVICE: &str = "name an object that is described for the same devices";
+/// What to do where a library has no such object.
+pub(super) const OF_LIBRARY: &str = "name an object of the library";
+
 /// Objects that are like others, by index.
 pub(super) type Waiting<'a> = BTreeMap<Index, &'a ObjectDecl>;
 
@@ -18,6 +23,8 @@ pub(super) type Waiting<'a> = BTreeMap<Index, &'a ObjectDecl>;
 pub(super) struct Owner<'a> {
     /// In a message: "`pmc`".
     pub name: String,
+    /// Which objects it has.
+    pub help: &'static str,
     /// The maker's file.
     pub file: FileId,
     /// What is written for it, but cannot be used.
@@ -42,7 +49,7 @@ pub(super) fn resolve(
         let found = there.binary_search(&like.value).is_ok();
         let is_broken = owner.written.contains(&like.value);
         if !found && !is_broken && diagnostics.is_new(codes::UNKNOWN_ENTRY, like.span) {
-            diagnostics.push(missing(like, over, &owner.name, owner.others));
+            diagnostics.push(missing(like, over, (&owner.name, owner.help), owner.others));
         }
         found
     };
@@ -70,7 +77,7 @@ pub(crate) fn expand(library: &mut Spec, diagnostics: &mut Diagnostics) {
     let is_there = |like: Spanned<Index>, over: &ObjectDecl, diagnostics: &mut Diagnostics| {
         let found = place.contains_key(&like.value);
         if !found && diagnostics.is_new(codes::UNKNOWN_ENTRY, like.span) {
-            diagnostics.push(missing(like, over, "the library", &Broken::default()));
+            diagnostics.push(missing(like, over, ("the library", OF_LIBRARY), &Broken::default()));
         }
         found
     };
@@ -166,12 +173,17 @@ fn circle(chain: &[&ObjectDecl], first: &ObjectDecl) -> Diagnostic {
     })
 }
 
-fn missing(like: Spanned<Index>, over: &ObjectDecl, owner: &str, others: &Broken) -> Diagnostic {
+fn missing(
+    like: Spanned<Index>,
+    over: &ObjectDecl,
+    (owner, otherwise): (&str, &str),
+    others: &Broken,
+) -> Diagnostic {
     let message = format!("{owner} has no object {} that {} could be like", like.value, over.index.value);
     let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, like.span, message);
     match others.elsewhere(like.value) {
         Some((place, help)) => diagnostic.with(place, "this one is for other devices").help(help),
-        None => diagnostic.help("name an object that is described for the same devices"),
+        None => diagnostic.help(otherwise),
     }
 }
 
@@ -251,7 +263,13 @@ fn adopted_object(decl: &ObjectDecl, maker: FileId, place: Span) -> ObjectDecl {
         return decl.clone();
     }
     let span = |written: Span| adopted(written, maker, place);
-    let entry = |entry: &EntryDecl| entry.adopted(maker, place);
+    let entry = |entry: &EntryDecl| {
+        let mut entry = entry.adopted(maker, place);
+        if let Some(default) = &mut entry.default {
+            default.value = default.value.adopted(maker, place);
+        }
+        entry
+    };
     let members = |members: &[(Spanned<SubIndex>, EntryDecl)]| {
         members.iter().map(|(sub, one)| (Spanned::new(sub.value, span(sub.span)), entry(one))).collect()
     };

@@ -247,3 +247,46 @@ fn a_heartbeat_consumer_is_its_raw_value() {
 ",
     );
 }
+
+#[test]
+fn what_a_library_cannot_say_is_told_at_its_place() {
+    const WRONG: &[(&str, &[u8])] = &[(
+        "../lamps.od.yaml",
+        b"od-spec: 1
+profile: lamps
+title: Lamps
+features: {dimmer: {objects: [0x6000]}}
+objects:
+  0x6000: {name: brightness, type: unsigned8, access: rw}
+  0x6001: {name: colour, like: 0x6002}
+  0x6003: {name: shade, like: 0x6003}
+  0x6004: [{on: lamp, name: height, type: unsigned8, access: rw}, {on: post, name: width, type: unsigned8, access: rw}]
+",
+    )];
+    let (sources, compiled) = compiled_with(LAMP, WRONG);
+    insta::assert_snapshot!(human(&compiled.diagnostics, &sources), @r#"
+        error[OD0310]: the library has no object 6002h that 6001h could be like
+         --> plant/../lamps.od.yaml:7:32
+          |
+        7 |   0x6001: {name: colour, like: 0x6002}
+          |                                ^^^^^^
+          |
+        help: name an object of the library
+
+        error[OD0324]: 6003h is like itself
+         --> plant/../lamps.od.yaml:8:31
+          |
+        8 |   0x6003: {name: shade, like: 0x6003}
+          |   ------ the object           ^^^^^^
+          |
+        help: name another object, or describe this one in full
+
+        error[OD0208]: several objects at 6004h of a library
+         --> plant/../lamps.od.yaml:9:3
+          |
+        9 |   0x6004: [{on: lamp, name: height, type: unsigned8, access: rw}, {on: post, name: width, type: unsigned8, access: rw}]
+          |   ^^^^^^
+          |
+        help: describe one; a library knows no devices that could have different ones
+        "#);
+}
