@@ -203,7 +203,7 @@ fn libraries(
                 }
             },
         };
-        let Some(library) = file(sources, id, loader, diagnostics) else {
+        let Some(mut library) = file(sources, id, loader, diagnostics) else {
             complete = false;
             continue;
         };
@@ -219,6 +219,7 @@ fn libraries(
             complete = false;
             continue;
         }
+        resolve::expand(&mut library, diagnostics);
         libraries.push(library);
     }
     complete.then_some(libraries)

@@ -253,6 +253,7 @@ fn key_pattern(kind: KeyKind) -> Option<String> {
         KeyKind::Language => "[A-Za-z0-9-]{2,}".to_owned(),
         KeyKind::Indices => run(&unsigned(4, 5)),
         KeyKind::SubIndex | KeyKind::Number => unsigned(2, 3),
+        KeyKind::SubIndices => run(&unsigned(2, 3)),
         KeyKind::PdoNumber => unsigned(3, 3),
         KeyKind::Integer => any_integer(),
         KeyKind::Bits => run(&unsigned(2, 2)),
@@ -293,9 +294,11 @@ const SCALARS: &[Shape] = &[
     Shape::DateTime,
     Shape::Index,
     Shape::Entry,
+    Shape::Entries,
     Shape::Access,
     Shape::Type,
     Shape::Value,
+    Shape::Default,
     Shape::Ratio,
     Shape::Base,
     Shape::Condition,
@@ -319,9 +322,11 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::DateTime => "date-and-time",
         Shape::Index => "index",
         Shape::Entry => "entry-reference",
+        Shape::Entries => "entry-references",
         Shape::Access => "access",
         Shape::Type => "type-name",
         Shape::Value => "value",
+        Shape::Default => "default-value",
         Shape::Ratio => "fraction",
         Shape::Base => "fraction-and-symbol",
         Shape::Condition => "condition",
@@ -364,6 +369,18 @@ fn scalar(shape: Shape) -> Json {
             &["string", "number", "boolean"],
             format!("^({}(\\.{})?$|(?!0[xX]))", unsigned(4, 5), unsigned(2, 3)),
         ),
+        Shape::Default => any_of([
+            any_text(),
+            at_least_one(Shape::Default),
+            object([("type", text("object")), ("additionalProperties", schema(Shape::Default))]),
+        ]),
+        Shape::Entries => {
+            let sub = unsigned(2, 3);
+            pattern(
+                &["string", "number", "boolean"],
+                format!("^({}(\\.{sub}( *\\.\\. *{sub})?)?$|(?!0[xX]))", unsigned(4, 5)),
+            )
+        }
         Shape::Access => any_of([
             object([("enum", texts(access_words().iter().map(String::as_str)))]),
             pattern(&["string"], format!("^({})\\s* locked$", writable_words().join("|"))),

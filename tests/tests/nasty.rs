@@ -94,3 +94,26 @@ fn rows_beyond_the_table_are_nothing() {
     od.set_type(nasty::units::T(3));
     assert_eq!(od.type_().to_string(), "3 T");
 }
+
+#[test]
+fn what_is_like_another_object_has_its_values_and_limits() {
+    let mut od = Nasty::new(1);
+    assert_eq!(*od.read(0x2012, 2).unwrap(), [100]);
+    assert_eq!(*od.read(0x2013, 2).unwrap(), [100, 0]);
+    for (sub, most) in [(1, 9u16), (2, 200), (3, 300)] {
+        assert_eq!(od.write(0x2013, sub, &(most + 1).to_le_bytes(), &mut ()), Err(AbortCode::TOO_HIGH));
+        assert!(od.write(0x2013, sub, &most.to_le_bytes(), &mut ()).is_ok());
+    }
+}
+
+#[test]
+fn runs_of_entries_are_mapped_one_by_one() {
+    let mut od = Nasty::new(1);
+    assert_eq!(*pdo::pack(&mut od, 2, &mut ()).unwrap(), [9, 3, 3, 3]);
+}
+
+#[test]
+fn every_element_has_its_own_default() {
+    let od = Nasty::new(1);
+    assert_eq!([1, 2, 3].map(|sub| od.read(0x2015, sub).unwrap()[0]), [0xFF, 0, 0xFF]);
+}

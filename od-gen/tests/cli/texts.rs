@@ -35,5 +35,9 @@ fn libraries_are_printed() {
     assert!(stdout(&output).contains("\n  0x6040:"), "{}", stdout(&output));
     let output = odgen(&scratch.0, &["library", "cia999"]);
     assert_eq!((code(&output), stdout(&output)), (2, String::new()));
-    assert!(stderr(&output).contains("the libraries are cia301, cia302, cia401, cia402"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("the libraries are cia301, cia302, cia401, cia402"),
+        "{}",
+        stderr(&output)
+    );
 }

@@ -55,6 +55,27 @@ macro_rules! entry_decl {
                 }
             }
 
+            /// What is written here and not there.
+            pub(crate) fn without(&self, there: &EntryDecl) -> EntryDecl {
+                EntryDecl {
+                    span: self.span,
+                    unsure: self.unsure,
+                    $($($field: self.$field.clone().filter(|_| there.$field.is_none()),)+)+
+                }
+            }
+
+            /// The same, as if the maker, whose file is `maker`, had said at `place` what a library says.
+            pub(crate) fn adopted(&self, maker: FileId, place: Span) -> EntryDecl {
+                EntryDecl {
+                    span: adopted(self.span, maker, place),
+                    unsure: self.unsure,
+                    $($($field: self.$field.clone().map(|fact| Spanned {
+                        span: adopted(fact.span, maker, place),
+                        ..fact
+                    }),)+)+
+                }
+            }
+
             /// The keys written here that are about one value, each with its place.
             pub(crate) fn about_one_value(&self) -> impl Iterator<Item = Spanned<&'static str>> {
                 let places = [$($(($key, Reach::$reach, self.$field.as_ref().map(|fact| fact.span)),)+)+];
@@ -82,12 +103,57 @@ macro_rules! entry_decl {
 }
 entry_keys!(entry_decl);
 
+/// A place of the maker's as it is; of any other, the place at which the maker refers to it.
+pub(crate) fn adopted(written: Span, maker: FileId, place: Span) -> Span {
+    if written.file.is_one_with(maker) { written } else { place }
+}
+
 /// A raw value with a meaning of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SpecialDecl {
     pub value: Spanned<i128>,
     pub name: Option<Name>,
     pub about: Words,
+}
+
+/// The value of `default:`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum DefaultDecl {
+    /// One value.
+    One(String),
+    /// The values of the elements of an array, in their order.
+    Each(Vec<Spanned<DefaultDecl>>),
+    /// The values of devices, by their keys.
+    ByDevice(Vec<(Name, Spanned<DefaultDecl>)>),
+}
+
+impl DefaultDecl {
+    /// A default that is one value.
+    pub(crate) fn one(text: Name) -> Spanned<Self> {
+        text.map(Self::One)
+    }
+
+    /// The same, as if the maker, whose file is `maker`, had said at `place` what a library says.
+    pub(crate) fn adopted(&self, maker: FileId, place: Span) -> Self {
+        let value = |value: &Spanned<Self>| {
+            Spanned::new(value.value.adopted(maker, place), adopted(value.span, maker, place))
+        };
+        match self {
+            Self::One(text) => Self::One(text.clone()),
+            Self::Each(values) => Self::Each(values.iter().map(value).collect()),
+            Self::ByDevice(values) => {
+                Self::ByDevice(values.iter().map(|(key, one)| (key.clone(), value(one))).collect())
+            }
+        }
+    }
+
+    /// The text of a default that is one value.
+    pub(crate) fn text(&self) -> Option<&str> {
+        match self {
+            Self::One(text) => Some(text),
+            Self::Each(_) | Self::ByDevice(_) => None,
+        }
+    }
 }
 
 /// Error codes of a bit of the entry's type.

@@ -16,7 +16,7 @@ use crate::model::{
 };
 use crate::source::{FileId, Span, Spanned};
 
-pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+pub(crate) use entry::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SpecialDecl, adopted};
 pub(crate) use pdos::{
     MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };
@@ -271,6 +271,8 @@ pub(crate) struct ObjectDecl {
     pub weight: usize,
     pub devices: Option<Vec<Name>>,
     pub from: Option<Name>,
+    /// The object that it is like; what is written here differs.
+    pub like: Option<Spanned<Index>>,
     pub alias: Option<Name>,
     pub outside: Option<Spanned<Outside>>,
     pub rounding: Option<Spanned<Rounding>>,
@@ -317,6 +319,21 @@ error_keys! { declaration
         codes: Spanned<CodeRange>,
         /// Something here was refused.
         unsure: bool,
+    }
+}
+
+/// Sub-indices from the first to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct SubIndexRange {
+    pub first: SubIndex,
+    pub last: SubIndex,
+}
+
+impl SubIndexRange {
+    /// The sub-indices, ascending.
+    pub(crate) fn subs(self) -> impl ExactSizeIterator<Item = SubIndex> {
+        let count = self.last.0.saturating_sub(self.first.0).saturating_add(1);
+        (0..count).map(move |at| SubIndex(self.first.0 + at))
     }
 }
 

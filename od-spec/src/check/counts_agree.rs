@@ -15,8 +15,8 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "two counts disagree",
-    explanation: "An array has an element beyond its `count`, sub-index 0 says another number than the entries, or a table row has more or fewer \
-        cells than the table has columns. A client reads sub-index 0 to know how far to go, and would miss entries or ask for some that are not \
+    explanation: "An array has an element beyond its `count`, sub-index 0 says another number than the entries, a table row has more or fewer \
+        cells than the table has columns, or a list of defaults more or fewer values than the array has elements. A client reads sub-index 0 to know how far to go, and would miss entries or ask for some that are not \
         there. Correct one of the two counts.",
     clause: Some("CiA 306, 4.6.3.2 (SubNumber and sub-index 0)"),
     example: Some(Example::new(

@@ -2,13 +2,14 @@
 
 use super::lexical;
 use super::numbered::by_integer;
-use super::read::{Field, FromNode, Reader};
-use crate::ast::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+use super::read::{Field, FromNode, Reader, owned};
+use crate::ast::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SpecialDecl};
 use crate::diag::Diagnostics;
 use crate::keys::{Keys, entry_keys};
 use crate::model::Access;
 use crate::scalar;
 use crate::source::{Span, Spanned};
+use crate::yaml::NodeKind;
 
 macro_rules! entry_reader {
     ($($group:ident {
@@ -45,6 +46,28 @@ impl FromNode for Vec<SpecialDecl> {
                 .collect(),
         )
     }
+}
+
+impl FromNode for DefaultDecl {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        default(reader).map(|default| default.value)
+    }
+}
+
+fn default(reader: Reader<'_>) -> Option<Spanned<DefaultDecl>> {
+    let value = match &reader.node.kind {
+        NodeKind::List(items) if items.is_empty() => return None,
+        NodeKind::List(items) => {
+            DefaultDecl::Each(items.iter().filter_map(|item| default(reader.at(item))).collect())
+        }
+        NodeKind::Map(_) => DefaultDecl::ByDevice(
+            reader.pairs().filter_map(|(key, reader)| Some((owned(key), default(reader)?))).collect(),
+        ),
+        NodeKind::Scalar { .. } | NodeKind::Null | NodeKind::Broken => {
+            DefaultDecl::One(reader.scalar(|text| Some(text.to_owned()))?.value)
+        }
+    };
+    Some(Spanned::new(value, reader.node.span))
 }
 
 impl FromNode for Vec<BitErrorDecl> {

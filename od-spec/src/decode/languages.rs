@@ -55,6 +55,7 @@ fn in_value(node: &Node, shape: Shape, listed: &[&str], diagnostics: &mut Diagno
                 in_value(node, *item, listed, diagnostics);
             }
         }
+        (Shape::OneOrMore(item), _) => in_value(node, *item, listed, diagnostics),
         _ => {}
     }
 }

@@ -1,6 +1,6 @@
 //! Notations inside scalars: indices, entries, bits, dates, access, patterns.
 
-use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange};
+use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange, SubIndexRange};
 use crate::model::{
     Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
 };
@@ -71,6 +71,56 @@ pub(crate) fn entry_by_index(text: &str) -> Option<NumberedEntry> {
         None => None,
     };
     Some(NumberedEntry { index, sub })
+}
+
+/// Entries of one object, from the first sub-index to the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NumberedRun {
+    pub index: Index,
+    pub subs: SubIndexRange,
+}
+
+/// `0x2021.1..4`.
+pub(crate) fn run_by_index(text: &str) -> Option<NumberedRun> {
+    let (object, subs) = text.split_once('.').filter(|(_, subs)| subs.contains(".."))?;
+    Some(NumberedRun { index: index(object)?, subs: sub_indices(subs)? })
+}
+
+/// How a run of entries is written that is meant by `2021.1..4` or `0x2021.1..0x2021.4`.
+pub(crate) fn run_with_0x(text: &str) -> Option<String> {
+    let (first, last) = text.split_once("..")?;
+    let (first, last) = (first.trim(), last.trim());
+    let first = with_0x(first).unwrap_or_else(|| first.to_owned());
+    let last = match last.split_once('.') {
+        Some((object, last)) => {
+            let object = with_0x(object).unwrap_or_else(|| object.to_owned());
+            (index(&object) == entry_by_index(&first)?.index.into()).then_some(last)?
+        }
+        None => last,
+    };
+    let meant = format!("{first}..{last}");
+    run_by_index(&meant).map(|_| meant)
+}
+
+/// `5`, or `1..4`: sub-indices of elements or members.
+pub(crate) fn sub_indices(text: &str) -> Option<SubIndexRange> {
+    let number = |text: &str| {
+        let number = u8::try_from(scalar::integer(text.trim()).ok()?).ok()?;
+        (1..=254).contains(&number).then_some(SubIndex(number))
+    };
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let (first, last) = (number(first)?, number(last)?);
+    (first <= last).then_some(SubIndexRange { first, last })
+}
+
+/// The other way round, a run that ends before it begins: `1..4` of `4..1`.
+pub(crate) fn turned(text: &str) -> Option<String> {
+    let (first, last) = text.split_once("..")?;
+    let (first, last) = (first.trim(), last.trim());
+    match first.split_once('.') {
+        Some((object, first)) => Some(format!("{object}.{last}..{first}")),
+        None => Some(format!("{last}..{first}")),
+    }
 }
 
 /// Whether a reference is meant as a number rather than as a name.

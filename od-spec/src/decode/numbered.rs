@@ -49,6 +49,8 @@ pub(super) fn twice(
     Diagnostic::new(code, name.span, format!("{number} is defined twice"))
         .label(if before.value == name.value {
             "again here".to_owned()
+        } else if name.value.contains("..") {
+            format!("again here (`{}` has {number} in it)", name.value)
         } else {
             format!("again here (`{}` is {number})", name.value)
         })

@@ -4,20 +4,21 @@ use std::collections::BTreeMap;
 
 use super::entry::entry;
 use super::lexical;
-use super::numbered::{numbered, twice};
+use super::numbered::twice;
 use super::read::Reader;
-use crate::ast::{ArrayDecl, EntryDecl, IndexRange, Name, ObjectDecl, RecordDecl};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use super::shape::start;
+use crate::ast::{ArrayDecl, EntryDecl, IndexRange, ObjectDecl, RecordDecl};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::keys;
 use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{Index, Outside, Rounding, SubIndex};
-use crate::scalar;
 use crate::source::{Span, Spanned};
-use crate::yaml::Node;
+use crate::yaml::{Node, NodeKind};
 
-/// Reads the objects; a run of indices makes one object for each of them.
+/// Reads the objects; a run of indices makes one object for each of them. Where devices have different objects, they are a list.
 pub(super) fn objects<'a>(
     entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    is_library: bool,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
     let mut before: BTreeMap<Index, Spanned<&str>> = BTreeMap::new();
@@ -28,34 +29,99 @@ pub(super) fn objects<'a>(
     for (key, r) in entries {
         // A key that lacks its `0x` was refused; what refers to the object is right all the same.
         let range = lexical::indices(key.value).or_else(|| lexical::indices(&lexical::with_0x(key.value)?));
-        let Some(IndexRange { first, last }) = range else { continue };
-        if let Some((index, earlier)) = before.range(first..=last).next() {
+        let Some(range) = range else { continue };
+        if let Some((index, earlier)) = before.range(range.first..=range.last).next() {
             diagnostics.push(twice(codes::DUPLICATE_INDEX, &index.to_string(), key, *earlier));
             continue;
         }
-        before.extend((first.0..=last.0).map(|index| (Index(index), key)));
-        let written = r.node.weight();
-        let one = object(Spanned::new(first, key.span), written, r, diagnostics);
-        let objects = usize::from(last.0 - first.0) + 1;
-        let repeated = if objects > 1 { one.weight } else { one.weight - written };
-        if let Err(full) = room.take(one.entries() * objects, repeated.saturating_mul(objects)) {
+        before.extend((range.first.0..=range.last.0).map(|index| (Index(index), key)));
+        let NodeKind::List(items) = &r.node.kind else {
+            add(range, key.span, r, &mut room, &mut list, diagnostics);
+            continue;
+        };
+        if is_library {
+            let message = format!("several objects at {} of a library", range.first);
             diagnostics.push(
-                Diagnostic::new(
-                    codes::TOO_MUCH,
-                    key.span,
-                    format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
-                )
-                .help("correct the run or the `count`, or describe the objects in several files"),
+                Diagnostic::new(codes::CONFLICTING_KEYS, key.span, message)
+                    .help("describe one; a library knows no devices that could have different ones"),
             );
-            continue;
         }
-        if first == last {
-            list.push(one);
-            continue;
+        let first_of_list = list.len();
+        for node in items {
+            add(range, start(node), r.at(node), &mut room, &mut list, diagnostics);
         }
-        list.extend(run(&one, key.span, first, last, diagnostics));
+        if items.len() > 1 {
+            belong_to_different_devices(&mut list, first_of_list, diagnostics);
+        }
     }
     list
+}
+
+/// Reads what is described at an index or a run of indices; `place` stands for it.
+fn add(
+    range: IndexRange,
+    place: Span,
+    r: Reader<'_>,
+    room: &mut Room,
+    list: &mut Vec<ObjectDecl>,
+    diagnostics: &mut Diagnostics,
+) {
+    let IndexRange { first, last } = range;
+    let written = r.node.weight();
+    let one = object(Spanned::new(first, place), written, r, *room, diagnostics);
+    let objects = usize::from(last.0 - first.0) + 1;
+    let repeated = if objects > 1 { one.weight } else { one.weight - written };
+    if let Err(full) = room.take(one.entries() * objects, repeated.saturating_mul(objects)) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::TOO_MUCH,
+                place,
+                format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
+            )
+            .help("correct the run or the `count`, or describe the objects in several files"),
+        );
+    } else if first == last {
+        list.push(one);
+    } else {
+        list.extend(run(&one, place, first, last, diagnostics));
+    }
+}
+
+/// Checks the devices of different objects at one index, which are those of the list from `first` on: each device has one of them.
+fn belong_to_different_devices(list: &mut [ObjectDecl], first: usize, diagnostics: &mut Diagnostics) {
+    let mut owners: BTreeMap<(Index, String), Span> = BTreeMap::new();
+    for decl in &mut list[first..] {
+        let index = decl.index.value;
+        let Some(on) = &mut decl.devices else {
+            // A run lacks it once.
+            if !decl.entry.unsure && diagnostics.is_new(codes::MISSING_KEY, decl.index.span) {
+                let message = format!("one of several objects at {index} needs the key `on`");
+                diagnostics.push(
+                    Diagnostic::new(codes::MISSING_KEY, decl.index.span, message)
+                        .help("add `devices:` with the devices that have this one"),
+                );
+            }
+            decl.devices = Some(Vec::new());
+            continue;
+        };
+        on.retain(|device| {
+            let before = owners.get(&(index, device.value.clone())).copied();
+            // A run has it once.
+            if let Some(before) = before
+                && diagnostics.is_new(codes::DUPLICATE_INDEX, device.span)
+            {
+                let message = format!("{index} of `{}` is defined twice", shorten(&device.value));
+                diagnostics.push(
+                    Diagnostic::new(codes::DUPLICATE_INDEX, device.span, message)
+                        .label("again here")
+                        .with(before, "first here")
+                        .help("name each device at one of these objects only"),
+                );
+            }
+            owners.entry((index, device.value.clone())).or_insert(device.span);
+            before.is_none()
+        });
+    }
 }
 
 /// The objects of a run of indices, all like the first but for their numbers.
@@ -66,35 +132,50 @@ fn run(
     last: Index,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
-    if let Some(name) = one.entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
-        diagnostics.push(
-            Diagnostic::new(codes::BAD_NOTATION, name.span, "the objects of a run would all have this name")
-                .help("write `{n}` into the name; it stands for 1, 2, and so on"),
-        );
-    }
+    check_numbered(&one.entry, "objects", "it stands for 1, 2, and so on", diagnostics);
     let copies = (1..).zip(first.0..=last.0).map(|(number, index)| {
-        let numbered = |text: &Option<Name>| {
-            let text = text.as_ref()?;
-            let whole = text.value.replace("{n}", &i32::to_string(&number));
-            // A name without `{n}` was reported; its copies do not have to be reported, too.
-            let whole = if whole == text.value { format!("{whole} {number}") } else { whole };
-            Some(Spanned::new(whole, text.span))
-        };
         let mut copy = ObjectDecl { index: Spanned::new(Index(index), key), ..one.clone() };
-        copy.entry.name = numbered(&one.entry.name);
-        copy.entry.identifier = numbered(&one.entry.identifier);
+        number_names(&mut copy.entry, number);
         copy
     });
     copies.collect()
 }
 
+/// Checks that the names of a run are different ones.
+fn check_numbered(entry: &EntryDecl, what: &str, number: &str, diagnostics: &mut Diagnostics) {
+    if let Some(name) = entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
+        let message = format!("the {what} of a run would all have this name");
+        diagnostics.push(
+            Diagnostic::new(codes::BAD_NOTATION, name.span, message)
+                .help(format!("write `{{n}}` into the name; {number}")),
+        );
+    }
+}
+
+/// Writes the number of an object or entry of a run into its names.
+fn number_names(entry: &mut EntryDecl, number: u16) {
+    for text in [&mut entry.name, &mut entry.identifier].into_iter().flatten() {
+        let whole = text.value.replace("{n}", &number.to_string());
+        // A name without `{n}` was reported; its copies do not have to be reported, too.
+        text.value = if whole == text.value { format!("{whole} {number}") } else { whole };
+    }
+}
+
 /// Reads an object that takes so many bytes where it is written.
-fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mut Diagnostics) -> ObjectDecl {
+fn object(
+    index: Spanned<Index>,
+    written: usize,
+    r: Reader<'_>,
+    room: Room,
+    diagnostics: &mut Diagnostics,
+) -> ObjectDecl {
+    let mut repeated = 0;
     let decl = ObjectDecl {
         index,
         weight: written,
         devices: r.optional_texts("devices"),
         from: r.text("from"),
+        like: r.value("like", lexical::index),
         alias: r.text("alias"),
         outside: r.value("outside", Outside::from_word),
         rounding: r.value("rounding", Rounding::from_word),
@@ -104,17 +185,28 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
                 span: key,
                 count: child.integer("count"),
                 entry: entry(child, &keys::ARRAY, key, diagnostics),
-                elements: members(child.entries("elements"), diagnostics),
+                elements: members(
+                    child.entries("elements"),
+                    Kind::Elements,
+                    room,
+                    &mut repeated,
+                    diagnostics,
+                ),
             })
         }),
-        record: r
-            .keyed("record")
-            .map(|(key, _)| RecordDecl { span: key, members: members(r.entries("record"), diagnostics) }),
+        record: r.keyed("record").map(|(key, _)| RecordDecl {
+            span: key,
+            members: members(r.entries("record"), Kind::Members, room, &mut repeated, diagnostics),
+        }),
         sub0: r.keyed("sub0").map(|(key, child)| Box::new(entry(child, &keys::SUB0, key, diagnostics))),
         omit: r.integers("omit"),
         links: r.optional_indices("links"),
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     };
+    // An object that is like something else lacks nothing of its own.
+    let lost = decl.like.is_none() && r.node.get("like").is_some();
+    let entry = EntryDecl { unsure: decl.entry.unsure || lost, ..decl.entry };
+    let decl = ObjectDecl { entry, ..decl };
     if decl.entries() == 1 {
         return decl;
     }
@@ -122,23 +214,72 @@ fn object(index: Spanned<Index>, written: usize, r: Reader<'_>, diagnostics: &mu
     let of = |key: &str| r.node.get(key).map_or(0, Node::weight);
     let elements = r.child("array").and_then(|child| child.node.get("elements")).map_or(0, Node::weight);
     let common = written.saturating_sub(of("record")).saturating_sub(elements);
+    let written = written.saturating_add(repeated);
     let weight = written.saturating_add(common.saturating_mul(decl.entries() - 1));
     ObjectDecl { weight, ..decl }
 }
 
+/// What a map of entries describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Elements of an array, whose number is their sub-index.
+    Elements,
+    /// Members of a record; those of a run are counted.
+    Members,
+}
+
+/// Reads elements or members; a run of sub-indices makes one for each of them. `repeated` grows by the bytes that stand once for
+/// several.
 fn members<'a>(
     entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
+    kind: Kind,
+    mut room: Room,
+    repeated: &mut usize,
     diagnostics: &mut Diagnostics,
 ) -> Vec<(Spanned<SubIndex>, EntryDecl)> {
-    let sub = |text: &str| {
-        let number = u8::try_from(scalar::integer(text).ok()?).ok()?;
-        (1..=254).contains(&number).then_some(SubIndex(number))
-    };
-    let mut members: Vec<_> =
-        numbered(entries, sub, diagnostics, codes::DUPLICATE_SUB_INDEX, |sub| format!("sub-index {sub}"))
-            .into_iter()
-            .map(|(sub, r)| (sub, entry(r, &keys::ENTRY, sub.span, diagnostics)))
-            .collect();
+    let mut before: BTreeMap<SubIndex, Spanned<&str>> = BTreeMap::new();
+    let mut members = Vec::new();
+    for (key, r) in entries {
+        let Some(range) = lexical::sub_indices(key.value) else { continue };
+        if let Some((sub, earlier)) = before.range(range.first..=range.last).next() {
+            let number = format!("sub-index {sub}");
+            diagnostics.push(twice(codes::DUPLICATE_SUB_INDEX, &number, key, *earlier));
+            continue;
+        }
+        before.extend(range.subs().map(|sub| (sub, key)));
+        let one = entry(r, &keys::ENTRY, key.span, diagnostics);
+        if range.first == range.last {
+            members.push((Spanned::new(range.first, key.span), one));
+            continue;
+        }
+        let text = r.node.weight().saturating_mul(range.subs().len() - 1);
+        if let Err(full) = room.take(0, text) {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::TOO_MUCH,
+                    key.span,
+                    format!("{} up to here; a file describes less", full.words(ENTRIES_OF_FILE)),
+                )
+                .help("correct the run, or shorten its texts"),
+            );
+            continue;
+        }
+        *repeated = repeated.saturating_add(text);
+        let (what, number) = match kind {
+            Kind::Elements => ("elements", "it stands for the sub-index"),
+            Kind::Members => ("members", "it stands for 1, 2, and so on"),
+        };
+        check_numbered(&one, what, number, diagnostics);
+        for (count, sub) in (1..).zip(range.subs()) {
+            let number = match kind {
+                Kind::Elements => u16::from(sub.0),
+                Kind::Members => count,
+            };
+            let mut copy = one.clone();
+            number_names(&mut copy, number);
+            members.push((Spanned::new(sub, key.span), copy));
+        }
+    }
     members.sort_by_key(|(sub, _)| sub.value);
     members
 }

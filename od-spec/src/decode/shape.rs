@@ -144,6 +144,18 @@ fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnosti
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
         Shape::Feature => check_feature(node, diagnostics),
+        Shape::Default => match &mut node.kind {
+            NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
+            NodeKind::List(items) => {
+                for node in items {
+                    let owner = start(node);
+                    check(node, Shape::Default, owner, diagnostics);
+                }
+            }
+            NodeKind::Map(_) => check_keyed(node, KeyKind::Name, Shape::Default, diagnostics),
+            NodeKind::Scalar { .. } => {}
+            NodeKind::Null | NodeKind::Broken => wrong_kind(node, expected(shape), diagnostics),
+        },
         Shape::OneOrMore(item) => match &mut node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
@@ -170,7 +182,7 @@ fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnosti
 }
 
 /// The place that stands for a value without a key of its own: a map's first key.
-pub(super) fn start(node: &Node) -> Span {
+pub(in crate::decode) fn start(node: &Node) -> Span {
     node.entries().first().map_or(node.span, |(name, _)| name.span)
 }
 
@@ -210,6 +222,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
             }
             KeyKind::Indices => lexical::indices(text).is_some(),
+            KeyKind::SubIndices => lexical::sub_indices(text).is_some(),
             KeyKind::SubIndex => integer().is_some_and(|sub| (1..=254).contains(&sub)),
             KeyKind::Bits => lexical::bits(text).is_some(),
             KeyKind::Integer => integer().is_some(),
@@ -224,14 +237,30 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 | KeyKind::DeviceKey
                 | KeyKind::Language
                 | KeyKind::SubIndex
+                | KeyKind::SubIndices
                 | KeyKind::Bits
                 | KeyKind::Integer
                 | KeyKind::PdoNumber
                 | KeyKind::Number => None,
             };
-            let help = match meant {
-                Some(meant) => format!("write `{meant}`"),
-                None => format!("keys of this map are {}", key_words(kind)),
+            let is_run = |text: &str| match kind {
+                KeyKind::Indices => lexical::indices(text).is_some(),
+                KeyKind::SubIndices => lexical::sub_indices(text).is_some(),
+                KeyKind::Bits => lexical::bits(text).is_some(),
+                KeyKind::ErrorCodes => lexical::error_codes(text).is_some(),
+                KeyKind::Name
+                | KeyKind::DeviceKey
+                | KeyKind::Language
+                | KeyKind::SubIndex
+                | KeyKind::Integer
+                | KeyKind::PdoNumber
+                | KeyKind::Number => false,
+            };
+            let turned = lexical::turned(text).filter(|turned| is_run(turned));
+            let help = match (turned, meant) {
+                (Some(turned), _) => format!("write `{turned}`; a run goes from the smaller to the larger"),
+                (None, Some(meant)) => format!("write `{meant}`"),
+                (None, None) => format!("keys of this map are {}", key_words(kind)),
             };
             let message = format!("found the key `{}`, expected {}", shorten(text), key_words(kind));
             diagnostics.push(Diagnostic::new(codes::BAD_KEY, name.span, message).help(help));
@@ -247,6 +276,7 @@ const fn key_words(kind: KeyKind) -> &'static str {
         KeyKind::Language => "language codes such as `en`",
         KeyKind::Indices => "indices such as `0x6040`, 0001h to FFFFh, or runs such as `0x3511..0x3519`",
         KeyKind::SubIndex => "sub-indices, 1 to 254",
+        KeyKind::SubIndices => "sub-indices, 1 to 254, or runs such as `1..4`",
         KeyKind::Bits => "bits such as `4`, or runs such as `0..3`",
         KeyKind::Integer => "integers",
         KeyKind::ErrorCodes => "error codes such as `0x3210`, or ranges such as `0x3281..0x3288`",
@@ -264,9 +294,10 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::DateTime => "a date and time such as `2009-05-27 09:00`",
         Shape::Index => "an index such as `0x6040`",
         Shape::Entry => "an entry such as `0x6040`, `0x30FA.3` or its name",
+        Shape::Entries => "an entry such as `0x6040`, `0x30FA.3` or its name, or a run such as `0x2021.1..4`",
         Shape::Access => "an access type such as `ro` or `rw locked`",
         Shape::Type => "a data type or the name of a type",
-        Shape::Value => "a value",
+        Shape::Value | Shape::Default => "a value",
         Shape::Ratio => "a fraction such as `1/10`",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
@@ -374,6 +405,12 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                 Shape::DateTime => lexical::date_time(value).is_some(),
                 Shape::Index => lexical::index(value).is_some(),
                 Shape::Entry => lexical::entry_by_index(value).is_some() || !lexical::looks_like_index(value),
+                Shape::Entries if value.contains("..") && lexical::looks_like_index(value) => {
+                    lexical::run_by_index(value).is_some()
+                }
+                Shape::Entries => {
+                    lexical::entry_by_index(value).is_some() || !lexical::looks_like_index(value)
+                }
                 Shape::Ratio => lexical::positive_ratio(value).is_some(),
                 Shape::Base => lexical::base(value).is_some(),
                 Shape::Pattern => lexical::pattern(value).is_some(),
@@ -386,17 +423,28 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                         text.span,
                         format!("found {}, expected {}", quoted(value), expected(shape)),
                     )
-                    .help(
-                        match lexical::with_0x(value).filter(|_| matches!(shape, Shape::Index | Shape::Entry))
-                        {
-                            Some(meant) => format!("write `{meant}`"),
-                            None => format!("write {}", expected(shape)),
-                        },
-                    ),
+                    .help(match meant(value, shape) {
+                        Some(help) => help,
+                        None => format!("write {}", expected(shape)),
+                    }),
                 );
             }
         }
     }
+}
+
+/// What to write in the place of a reference that cannot be read.
+fn meant(text: &str, shape: Shape) -> Option<String> {
+    if !matches!(shape, Shape::Index | Shape::Entry | Shape::Entries) {
+        return None;
+    }
+    if matches!(shape, Shape::Entries) && text.contains("..") {
+        let is_run = |text: &String| lexical::run_by_index(text).is_some();
+        let turned = lexical::turned(text).filter(is_run);
+        let turned = turned.map(|run| format!("write `{run}`; a run goes from the smaller to the larger"));
+        return turned.or_else(|| Some(format!("write `{}`", lexical::run_with_0x(text)?)));
+    }
+    lexical::with_0x(text).map(|meant| format!("write `{meant}`"))
 }
 
 /// The part of a scalar that a byte range of its text covers. Exact for plain one-line scalars, else the whole scalar.

@@ -53,7 +53,7 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         types: top.entries("types").map(|(name, r)| named_type(name, r, diagnostics)).collect(),
         axes: top.keyed("axes").and_then(|(key, r)| axes(key, r, diagnostics)),
         features: top.entries("features").map(|(name, r)| feature(name, r)).collect(),
-        objects: objects(top.entries("objects"), diagnostics),
+        objects: objects(top.entries("objects"), top.text("profile").is_some(), diagnostics),
         pdos: top.entries("pdos").map(|(key, r)| (owned(key), pdos(r, diagnostics))).collect(),
         errors: top.entries("errors").filter_map(|(codes, r)| error(codes, r, diagnostics)).collect(),
         machines: top.entries("state-machines").map(|(name, r)| machine(name, r, diagnostics)).collect(),

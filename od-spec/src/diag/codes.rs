@@ -81,7 +81,7 @@ codes! {
     CONFLICTING_KEYS Error "OD0208" "keys that exclude each other":
         "Only one of these keys can be true of one thing: an object is an array or a record, a type an enum or a bit field, a table has one content."
     DUPLICATE_INDEX Error "OD0301" "an index is defined twice":
-        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files. Readers of YAML that keep the last one would lose the first without a word."
+        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files, or one device has two of the objects that are listed under an index for different devices. Readers of YAML that keep the last one would lose the first without a word."
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
     DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
@@ -89,7 +89,7 @@ codes! {
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
-        "Objects, errors, errata, PDOs and conditions name devices by their key under the `devices:` of the file."
+        "Objects, errors, errata, PDOs, conditions and defaults by device name devices by their key under the `devices:` of the file."
     UNKNOWN_LIBRARY Error "OD0307" "an unknown library":
         "`from:` names a library by its `profile:` name; the library must stand in `uses:`."
     UNKNOWN_FEATURE Error "OD0308" "an unknown feature":
@@ -104,6 +104,10 @@ codes! {
         "Transitions name states, and commands name transitions, of the same state machine."
     PDO_DESCRIBED_TWICE Error "OD0317" "a PDO that is described twice":
         "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that stands in both places would have two descriptions."
+    LIKE_ITSELF Error "OD0324" "an object that is like itself":
+        "`like:` takes what is not written from another object. Objects that are like each other in a circle, or one that is like itself, leave nobody to say what they are. Describe one of them in full."
+    DIFFERENT_OBJECTS Error "OD0325" "a reference to different objects":
+        "Devices of one file may have different objects at one index. What names the index for several of these devices, a condition, an erratum or a state machine, would mean another object on each. Say for which device it is."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":

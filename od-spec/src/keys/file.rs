@@ -40,7 +40,7 @@ const SECTION_KEYS: &[Key] = key_list! {
     "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
     "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
     "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
-    "objects": Shape::MapOf(KeyKind::Indices, &Shape::Map(&OBJECT)), "the objects, by index or indices";
+    "objects": Shape::MapOf(KeyKind::Indices, &Shape::OneOrMore(&Shape::Map(&OBJECT))), "the objects, by index or indices; a list where devices have different ones";
     "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
     "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
     "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";

@@ -9,13 +9,14 @@ use crate::model::{Outside, Rounding};
 const OBJECT_KEYS: &[Key] = key_list! {
     "devices": NAMES, "devices that have the object; all unless given", "[pmm, pmc]";
     "from": Shape::Text, "library that defines the object; the other keys say what differs", "cia301";
+    "like": Shape::Index, "object of the same devices that this one is like; the other keys say what differs", "0x3202";
     "alias": Shape::Entry, "makes it a view of another entry, in a narrower type or another unit, without storage of its own", "0x6064";
     "outside": Shape::Choice(Outside::WORDS), "what an alias gives outside its range; saturate unless given";
     "rounding": Shape::Choice(Rounding::WORDS), "how a rescaling alias rounds; down unless given";
     "array": Shape::Map(&ARRAY), "makes it an ARRAY", "{count: 8, name: \"block {n}\", type: integer16, access: ro}";
-    "record": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "makes it a RECORD: members by sub-index", "{1: {name: type, type: unsigned8, access: ro}}";
+    "record": Shape::MapOf(KeyKind::SubIndices, &Shape::Map(&ENTRY)), "makes it a RECORD: members by sub-index, or runs of them such as `1..4`", "{1: {name: type, type: unsigned8, access: ro}}";
     "sub0": Shape::Map(&SUB0), "name and access of sub-index 0, where they are not the usual ones", "{access: rw}";
-    "omit": Shape::List(&Shape::Integer(1, 254)), "with `from:` or `array:`: sub-indices that the device does not have", "[4]";
+    "omit": Shape::List(&Shape::Integer(1, 254)), "with `from:`, `like:` or `array:`: sub-indices that the device does not have", "[4]";
     "links": INDICES, "objects that belong together with this one, by index", "[0x2001, 0x2002]";
 };
 
@@ -33,7 +34,7 @@ pub static OBJECT: Keys = Keys {
 const ARRAY_KEYS: &[Key] = key_list! {
     "count": Shape::Integer(0, 254), "number of elements; the highest of `elements` unless given";
     "name": Shape::Text, "name of the elements; `{n}` stands for the sub-index", "\"block {n}\"";
-    "elements": Shape::MapOf(KeyKind::SubIndex, &Shape::Map(&ENTRY)), "what single elements have of their own", "{1: {name: nominal value, default: 560 V}}";
+    "elements": Shape::MapOf(KeyKind::SubIndices, &Shape::Map(&ENTRY)), "what single elements, or runs of them such as `1..4`, have of their own", "{1: {name: nominal value, default: 560 V}}";
 };
 
 /// `array:`.

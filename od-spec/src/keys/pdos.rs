@@ -124,7 +124,7 @@ macro_rules! pdo_keys {
             "sync-start": Shape::Integer(0, 240) => sync_start: Option<Spanned<i128>>, "SYNC start value; the device has no such entry unless given";
             "mapping": Shape::Choice(&["variable", "fixed"]) => mapping: Option<Spanned<MappingKind>>, "whether the mapping can be changed over the bus; variable unless given";
             "capacity": Shape::Integer(0, 64) => capacity: Option<Spanned<i128>>, "mapping entries the device offers; 64 / granularity unless given (granularity 0 counts as 1); only where the mapping is variable";
-            "map" required: Shape::List(&Shape::Entry) => map: Vec<Name>, "mapped entries in order, by index or name, or data types as placeholders", "[statusword, 0x6064, drive data.error mask]";
+            "map" required: Shape::List(&Shape::Entries) => map: Vec<Name>, "mapped entries in order, by index or name, or data types as placeholders; `0x2021.1..4` is four of one object", "[statusword, 0x6064, 0x2021.1..4, drive data.error mask]";
             "parameters": Shape::Map(&PDO_PARAMETERS) => parameters: Option<Box<PdoParametersDecl>>, "what its parameter objects have otherwise than those of the other PDOs";
             "about": Shape::Words => about: Words, "meaning";
         } }

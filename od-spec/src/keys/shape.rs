@@ -49,12 +49,16 @@ pub enum Shape {
     Index,
     /// An entry: `0x30FA.3`, or by name.
     Entry,
+    /// An entry, or a run of entries of one object: `0x2021.1..4`.
+    Entries,
     /// An access type, `locked` may follow.
     Access,
     /// A data type or a named type.
     Type,
     /// A value of an entry: number, physical value, enum name, text or `$NODEID` formula.
     Value,
+    /// A value; a list of values, one for each element of an array; or a map from device to one of these.
+    Default,
     /// A fraction: `1/10`.
     Ratio,
     /// A fraction and a symbol: `1/1000 V`.
@@ -103,6 +107,8 @@ pub enum KeyKind {
     Indices,
     /// A sub-index from 1 to 254.
     SubIndex,
+    /// A sub-index from 1 to 254, or a run of them: `1..4`.
+    SubIndices,
     /// A bit, or bits `0..3`.
     Bits,
     /// An integer.

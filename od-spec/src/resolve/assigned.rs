@@ -12,7 +12,7 @@ pub(super) struct Assigned<'a> {
     common: Vec<(usize, &'a ObjectDecl)>,
     /// Those that name a device, by its key.
     own: BTreeMap<&'a str, Vec<(usize, &'a ObjectDecl)>>,
-    /// Those that name a device which is not described: any may be meant.
+    /// Those that name no device, or one which is not described: any may be meant.
     for_nobody: Arc<Broken>,
 }
 
@@ -26,8 +26,8 @@ impl<'a> Assigned<'a> {
                 continue;
             };
             let keys: BTreeSet<&str> = on.iter().map(|key| key.value.as_str()).collect();
-            if keys.is_subset(&known) {
-                for_nobody.own(decl.index.value, decl.entry.name.as_ref(), on);
+            if keys.is_subset(&known) && !keys.is_empty() {
+                for_nobody.own(decl.index, decl.entry.name.as_ref(), on);
             } else {
                 for_nobody.add(decl.index.value, decl.entry.name.as_ref());
             }

@@ -11,6 +11,7 @@ use crate::source::{Span, Spanned};
 
 use super::refs::Broken;
 use super::types::words;
+use super::varied::Varied;
 
 pub(super) fn resolve(
     root: &Spec,
@@ -18,16 +19,24 @@ pub(super) fn resolve(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Constraint> {
-    let known = Known::of(devices);
+    let (known, varied) = (Known::of(devices), Varied::of(root));
     for decl in &root.objects {
         check_write_conditions(decl, &known, broken, diagnostics);
     }
     for formula in root.units.iter().filter_map(|unit| unit.formula.clone()) {
         let formula = formula.map(|formula| formula.0);
         check_known(&formula, Meant::Any(&known), broken, diagnostics);
-        check_operands(&formula, &known, diagnostics);
+        check_operands(&formula, Meant::Any(&known), diagnostics);
+        let keys = || known.devices.iter().map(|device| device.key.as_str());
+        for (entry, place) in unprefixed_in(&formula) {
+            let help = "write a formula of entries that are the same on all devices";
+            varied.is_refused(entry.id.index, place, keys(), help, diagnostics);
+        }
     }
-    root.constraints.iter().filter_map(|decl| constraint(decl, &known, broken, diagnostics)).collect()
+    root.constraints
+        .iter()
+        .filter_map(|decl| constraint(decl, &known, &varied, broken, diagnostics))
+        .collect()
 }
 
 /// The devices, by what conditions name.
@@ -67,7 +76,10 @@ impl<'a> Known<'a> {
 /// The devices that a condition may name.
 #[derive(Clone, Copy)]
 enum Meant<'a> {
+    /// Those of one device.
     One(&'a Dictionary),
+    /// Those of one device, and of others with their keys before them.
+    SeenFrom(&'a Dictionary, &'a Known<'a>),
     Any(&'a Known<'a>),
 }
 
@@ -75,14 +87,14 @@ impl<'a> Meant<'a> {
     fn has(self, key: &str) -> bool {
         match self {
             Self::One(device) => device.key == key,
-            Self::Any(devices) => devices.by_key.contains_key(key),
+            Self::SeenFrom(_, devices) | Self::Any(devices) => devices.by_key.contains_key(key),
         }
     }
 
     fn keys(self) -> impl Iterator<Item = &'a str> {
         let (one, any) = match self {
             Self::One(device) => (Some(device.key.as_str()), None),
-            Self::Any(devices) => (None, Some(devices.by_key.keys().copied())),
+            Self::SeenFrom(_, devices) | Self::Any(devices) => (None, Some(devices.by_key.keys().copied())),
         };
         one.into_iter().chain(any.into_iter().flatten())
     }
@@ -90,6 +102,8 @@ impl<'a> Meant<'a> {
     fn entry(self, operand: &EntryRef) -> Option<&'a Entry> {
         match self {
             Self::One(device) => device.entry(operand.id),
+            Self::SeenFrom(device, _) if operand.device.is_none() => device.entry(operand.id),
+            Self::SeenFrom(_, devices) => devices.entry(operand),
             Self::Any(devices) => devices.entry(operand),
         }
     }
@@ -107,12 +121,15 @@ fn check_write_conditions(
     let common = decl.array.iter().map(|array| &array.entry);
     let entries = members.chain(elements).map(|(_, entry)| entry).chain(common).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
-        for device in devices.with(decl.index.value) {
-            check_known(condition, Meant::One(device), broken, diagnostics);
-        }
         check_names_entries(condition, diagnostics);
-        check_operands(condition, devices, diagnostics);
-        check_units(condition, devices, diagnostics);
+        let has = |device: &&&Dictionary| {
+            decl.devices.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key))
+        };
+        for device in devices.with(decl.index.value).iter().filter(has) {
+            check_known(condition, Meant::One(device), broken, diagnostics);
+            check_operands(condition, Meant::One(device), diagnostics);
+            check_units(condition, Meant::One(device), diagnostics);
+        }
     }
 }
 
@@ -169,7 +186,7 @@ fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics)
 }
 
 /// Conditions compute with integers, and ask for bits that exist.
-fn check_operands(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut Diagnostics) {
+fn check_operands(condition: &Spanned<Expr>, devices: Meant<'_>, diagnostics: &mut Diagnostics) {
     for (entry, bit) in condition.value.operands() {
         let Some(found) = devices.entry(entry) else { continue };
         let problem = match (found.data_type.range(), found.data_type.bits(), bit) {
@@ -185,7 +202,7 @@ fn check_operands(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &
 }
 
 /// Entries that are compared directly are measured in one base unit. Products and quotients are left to the author.
-fn check_units(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut Diagnostics) {
+fn check_units(condition: &Spanned<Expr>, devices: Meant<'_>, diagnostics: &mut Diagnostics) {
     let unit = |term: &Term| {
         let Term::Entry(entry) = term else { return None };
         devices.entry(entry)?.unit.clone().map(|unit| (term.to_string(), unit))
@@ -218,21 +235,13 @@ fn check_units(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut
 fn constraint(
     decl: &ConstraintDecl,
     devices: &Known<'_>,
+    varied: &Varied<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraint> {
     let require = decl.require.as_ref()?;
     let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
     if !conditions.iter().all(|condition| check_known(condition, Meant::Any(devices), broken, diagnostics)) {
-        return None;
-    }
-    let before = diagnostics.errors_found();
-    for condition in &conditions {
-        check_names_entries(condition, diagnostics);
-        check_operands(condition, devices, diagnostics);
-        check_units(condition, devices, diagnostics);
-    }
-    if diagnostics.errors_found() > before {
         return None;
     }
     let entries: Vec<&EntryRef> = conditions.iter().flat_map(|condition| condition.value.entries()).collect();
@@ -265,6 +274,24 @@ fn constraint(
         );
         return None;
     }
+    let before = diagnostics.errors_found();
+    for condition in &conditions {
+        check_names_entries(condition, diagnostics);
+        let seen_from = with_all_entries.iter().map(|device| Meant::SeenFrom(device, devices));
+        let nowhere = with_all_entries.is_empty().then_some(Meant::Any(devices));
+        for meant in seen_from.chain(nowhere) {
+            check_operands(condition, meant, diagnostics);
+            check_units(condition, meant, diagnostics);
+        }
+        for (entry, place) in unprefixed_in(condition) {
+            let keys = with_all_entries.iter().map(|device| device.key.as_str());
+            let help = "say in `devices:` for which device it is, or write the device before the entry, such as `pmc:0x6510.4`";
+            varied.is_refused(entry.id.index, place, keys, help, diagnostics);
+        }
+    }
+    if diagnostics.errors_found() > before {
+        return None;
+    }
     let prefixed = entries.iter().filter_map(|entry| entry.device.clone());
     let mut keys: Vec<String> = prefixed.collect();
     if unprefixed().next().is_some() {
@@ -284,6 +311,12 @@ fn constraint(
         span: require.span,
         places: places(require),
     })
+}
+
+/// The entries that a condition names without a device, each with its place.
+fn unprefixed_in(condition: &Spanned<Expr>) -> impl Iterator<Item = (&EntryRef, Span)> {
+    let named = condition.value.entries().into_iter().zip(places(condition));
+    named.filter(|(entry, _)| entry.device.is_none())
 }
 
 /// Where a condition names entries.

@@ -7,9 +7,12 @@ use std::ops::Deref;
 use super::channels::{self, Elements};
 use super::keys_have_effect;
 use super::libraries::{self, Libraries};
+use super::likes::{self, Owner};
+use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{DataType, Departure, Fact, Index, Origin, Part, SubIndex};
 use crate::source::Spanned;
 
@@ -61,12 +64,15 @@ pub(super) fn of_device<'a>(
     written: &[&'a ObjectDecl],
     libraries: &Libraries<'a>,
     device: &DeviceDecl,
+    others: &Broken,
+    room: &mut Room,
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
     let selected = features(libraries, device, diagnostics);
     let elements = channels::elements(&selected, device, diagnostics);
     let mut declared = of_specification(written, libraries, &elements, scope, diagnostics);
+    let waiting = likes::waiting(written.iter().copied());
     for Selected { library, feature, axis, .. } in selected {
         for index in &feature.objects {
             let Some(decl) = libraries.written(library, index.value) else {
@@ -90,7 +96,7 @@ pub(super) fn of_device<'a>(
                 (None, Some(count)) => Some(Decl::Made(Box::new(channels::with_elements(decl, count)))),
                 (None, None) => Some(Decl::Written(decl)),
             };
-            let Some(decl) = decl else { continue };
+            let Some(decl) = decl.filter(|decl| !waiting.contains_key(&decl.index.value)) else { continue };
             declared.entry(decl.index.value).or_insert_with(|| Declared {
                 decl,
                 origin: Origin::Profile,
@@ -99,6 +105,10 @@ pub(super) fn of_device<'a>(
             });
         }
     }
+    let name = format!("`{}`", device.key.value);
+    let owner =
+        Owner { name, help: likes::OF_DEVICE, file: device.key.span.file, written: indices(written), others };
+    likes::resolve(&waiting, &owner, room, &mut declared, diagnostics);
     declared
 }
 
@@ -109,8 +119,22 @@ pub(super) fn of_library<'a>(
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    let written: Vec<&ObjectDecl> = root.objects.iter().collect();
-    of_specification(&written, libraries, &Elements::default(), scope, diagnostics)
+    let written = root.objects.iter().collect::<Vec<_>>();
+    let mut declared = of_specification(&written, libraries, &Elements::default(), scope, diagnostics);
+    let (none, waiting) = (Broken::default(), likes::waiting(written.iter().copied()));
+    let owner = Owner {
+        name: "the library".to_owned(),
+        help: likes::OF_LIBRARY,
+        file: root.file,
+        written: indices(&written),
+        others: &none,
+    };
+    likes::resolve(&waiting, &owner, &mut Room::new(ENTRIES_OF_FILE), &mut declared, diagnostics);
+    declared
+}
+
+fn indices(written: &[&ObjectDecl]) -> BTreeSet<Index> {
+    written.iter().map(|decl| decl.index.value).collect()
 }
 
 /// The declarations that stand in the specification itself.
@@ -122,7 +146,7 @@ fn of_specification<'a>(
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
     let mut declared = BTreeMap::new();
-    for decl in written.iter().copied() {
+    for decl in written.iter().copied().filter(|decl| decl.like.is_none()) {
         let one = match &decl.from {
             Some(from) => from_library(decl, from, libraries, elements, scope, diagnostics),
             None => match Some(decl)
@@ -278,7 +302,7 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
 }
 
 /// Checks that what is left out of an object would be there.
-fn check_omitted(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
+pub(super) fn check_omitted(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
     let elements = merged.array.as_ref().map_or(0, |array| {
         let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
         array.count.map_or(0, |count| count.value).max(highest)
@@ -354,6 +378,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
         weight: over.weight,
         devices: over.devices.clone(),
         from: over.from.clone(),
+        like: over.like,
         alias: over.alias.clone(),
         outside: over.outside,
         rounding: over.rounding,

@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::assigned::Assigned;
+use super::consumers;
 use super::decls::{self, Declared};
+use super::defaults;
 use super::entries::{EdsDefaults, Surroundings};
 use super::libraries::Libraries;
 use super::refs::Broken;
@@ -30,6 +32,7 @@ pub(super) fn resolve<'a>(
     }
     let mut broken = Broken::over(assigned.for_nobody());
     let mut room = Room::new(ENTRIES_OF_FILE);
+    let mut copies = Room::new(ENTRIES_OF_FILE);
     if let Some(device) = root.devices.get(DEVICES) {
         diagnostics.push(
             Diagnostic::new(
@@ -49,13 +52,23 @@ pub(super) fn resolve<'a>(
                 around: Surroundings {
                     scope,
                     file: root.file,
+                    index: None,
+                    device: Some(&device.key.value),
                     eds: EdsDefaults::of(device.eds_defaults.as_ref().map(|word| word.value.as_str())),
                 },
                 objects: BTreeMap::new(),
                 broken: Broken::over(assigned.for_nobody()),
             };
             let written = assigned.to(&device.key.value);
-            let mut declared = decls::of_device(&written, libraries, device, scope, diagnostics);
+            let mut declared = decls::of_device(
+                &written,
+                libraries,
+                device,
+                assigned.for_nobody(),
+                &mut copies,
+                scope,
+                diagnostics,
+            );
             if let Err(refusal) = take_room(&declared, device, &mut room) {
                 diagnostics.push(*refusal);
                 declared.clear();
@@ -98,7 +111,7 @@ pub(super) fn of_library<'a>(
     diagnostics: &mut Diagnostics,
 ) -> Option<Dictionary> {
     let profile = root.profile.as_ref()?;
-    let around = Surroundings { scope, file: root.file, eds: EdsDefaults::Safe };
+    let around = Surroundings { scope, file: root.file, index: None, device: None, eds: EdsDefaults::Safe };
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));
@@ -130,6 +143,16 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
         let (names, otherwise) = (known.iter().copied(), "define it under `devices:`");
         unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
     }
+    let not_known = |key: &Name, diagnostics: &mut Diagnostics| {
+        let names = known.iter().copied();
+        let otherwise = if consumers::is_key(&key.value) {
+            "`node` and `time` are for the consumers of 1016h; write one value, or one for each device"
+        } else {
+            "define it under `devices:`, or write one value for all"
+        };
+        unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
+    };
+    defaults::check_devices(root, not_known, diagnostics);
 }
 
 /// Takes the room of a device, if there is enough.

@@ -7,6 +7,7 @@ use super::places::{self, Places};
 use super::refs::{Broken, NamesOf};
 use super::table_content::Contents;
 use super::types::words;
+use super::varied::Varied;
 use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
@@ -89,6 +90,7 @@ pub(super) fn errata(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Erratum> {
     let mut errata = Vec::new();
+    let varied = Varied::of(root);
     let places = Places::of(&system.document);
     // Without tables, the document is not described.
     let is_described = system.document.tables().next().is_some();
@@ -98,6 +100,9 @@ pub(super) fn errata(
         let mut at = Vec::new();
         for reference in &decl.at {
             if let Some(place) = place(reference, &on, names, broken, diagnostics) {
+                let keys = names.each(&on).map(|(device, _)| device.key.as_str());
+                let help = "say in `devices:` for which device it is";
+                varied.is_refused(place.index(), reference.span, keys, help, diagnostics);
                 at.push(place);
             }
         }

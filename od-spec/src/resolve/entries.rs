@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::defaults;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
@@ -9,8 +10,8 @@ use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, NamedType, PdoMapping, SpecialValue,
-    Storage, SubIndex, TypeKind, Unit,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, Index, NamedType, PdoMapping,
+    SpecialValue, Storage, SubIndex, TypeKind, Unit,
 };
 use crate::source::{FileId, Spanned};
 
@@ -20,6 +21,10 @@ pub(super) struct Surroundings<'a> {
     pub scope: &'a Scope,
     /// The specification's own file; other facts come from libraries.
     pub file: FileId,
+    /// The object that the entries are of.
+    pub index: Option<Index>,
+    /// The key of the device; a library that is compiled by itself has none.
+    pub device: Option<&'a str>,
     /// Which defaults the EDS withholds.
     pub eds: EdsDefaults,
 }
@@ -53,6 +58,7 @@ pub(super) fn resolve(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Entry> {
+    let decl = &*defaults::of_device(decl, around, diagnostics);
     let EntryType { data_type, named_type } = entry_type(decl, around.scope, diagnostics)?;
     let Some(access) = &decl.access else {
         if decl.unsure {
@@ -72,8 +78,8 @@ pub(super) fn resolve(
     // Values in a unit that is broken or unknown cannot be read; that was said already.
     let readable = decl.unit.is_some() == unit.is_some();
     let (low, high) = if readable { limits(decl, expected, diagnostics) } else { (None, None) };
-    let default = decl.default.as_ref().filter(|_| readable);
-    let default = values::read_into(default, expected, diagnostics);
+    let default = defaults::one(decl.default.as_ref().filter(|_| readable), around, diagnostics);
+    let default = values::read_into(default.as_ref(), expected, diagnostics);
     let stored = decl.stored.map_or(Storage::No, |stored| stored.value);
     let entry = Entry {
         sub,

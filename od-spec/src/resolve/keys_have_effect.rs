@@ -6,7 +6,8 @@ use crate::model::PatternBit;
 use crate::source::Span;
 
 pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
-    for object in &root.objects {
+    // What an object has that is like another one, the other one decides, too.
+    for object in root.objects.iter().filter(|object| object.like.is_none()) {
         check_object(object, diagnostics);
     }
     for decl in root.types.iter().filter(|decl| decl.values.is_some()) {
@@ -44,7 +45,7 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
 }
 
 pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
-    let ObjectDecl { alias, from, array, record, sub0, omit, outside, rounding, entry, .. } = object;
+    let ObjectDecl { alias, from, like, array, record, sub0, omit, outside, rounding, entry, .. } = object;
     if alias.is_none() {
         for (key, span) in [("outside", outside.map(|o| o.span)), ("rounding", rounding.map(|r| r.span))] {
             if let Some(span) = span {
@@ -62,7 +63,7 @@ pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
             diagnostics,
         );
     }
-    if let Some(sub) = omit.first().filter(|_| from.is_none() && array.is_none()) {
+    if let Some(sub) = omit.first().filter(|_| from.is_none() && like.is_none() && array.is_none()) {
         let help = "leave the sub-index out of `record:` instead";
         refuse("omit", sub.span, "nothing is taken from a library", help, diagnostics);
     }

@@ -8,6 +8,7 @@ use super::numbers::{to_u8, to_u32};
 use super::refs::{Broken, NamesOf};
 use super::scope::unknown;
 use super::types::words;
+use super::varied::Varied;
 use crate::ast::{MachineDecl, Name, Spec};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
@@ -22,10 +23,10 @@ pub(super) fn resolve(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, StateMachine> {
-    let mut machines = BTreeMap::new();
+    let (mut machines, varied) = (BTreeMap::new(), Varied::of(root));
     for decl in &root.machines {
         let Some(whole) = whole(decl, libraries, diagnostics) else { continue };
-        if let Some(machine) = machine(&whole, names, broken, diagnostics) {
+        if let Some(machine) = machine(&whole, names, &varied, broken, diagnostics) {
             machines.insert(decl.name.value.clone(), machine);
         }
     }
@@ -115,6 +116,7 @@ fn whole<'a>(
 fn machine(
     decl: &MachineDecl,
     names: &NamesOf<'_>,
+    varied: &Varied<'_>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<StateMachine> {
@@ -148,6 +150,14 @@ fn machine(
         }
     }
     let (device, status, command) = found?;
+    for (id, written) in [(status, &decl.status), (command, &decl.command)] {
+        let keys = names.each(&on).map(|(device, _)| device.key.as_str());
+        let place = written.as_ref().map_or(decl.name.span, |name| name.span);
+        let help = "describe a machine per device, each with its `devices:`";
+        if varied.is_refused(id.index, place, keys, help, diagnostics) {
+            return None;
+        }
+    }
     if decl.states.len() > STATES {
         let message = format!("{} states; a state machine has at most {STATES}", decl.states.len());
         diagnostics.push(

@@ -1,6 +1,9 @@
 //! One object: VAR, ARRAY, RECORD, DOMAIN.
 
+use std::borrow::Cow;
+
 use super::decls::Declared;
+use super::defaults;
 use super::entries::{self, Surroundings};
 use super::types::words;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
@@ -18,6 +21,7 @@ pub(super) fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> Option<Object> {
     let decl = &declared.decl;
+    let around = Surroundings { index: Some(decl.index.value), ..around };
     let Some(name) = &decl.entry.name else {
         // A run of objects lacks it once.
         if decl.entry.unsure || !diagnostics.is_new(codes::MISSING_KEY, decl.index.span) {
@@ -110,12 +114,18 @@ fn elements(
         }
     };
     let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
-    let common = EntryDecl { name: None, ..array.entry.over(&decl.entry.inherited()) };
+    let mut common = EntryDecl { name: None, ..array.entry.over(&decl.entry.inherited()) };
+    let subs: Vec<u8> = (1..=count).filter(|sub| !omitted(*sub)).collect();
+    if let Cow::Owned(of_device) = defaults::of_device(&common, around, diagnostics) {
+        common = of_device;
+    }
+    let mut defaults = defaults::of_elements(&mut common, array, subs.len(), diagnostics).into_iter();
     // One more for sub-index 0.
     let (mut list, mut broken) = (Vec::with_capacity(usize::from(count) + 1), false);
-    for sub in (1..=count).filter(|sub| !omitted(*sub)) {
+    for sub in subs {
         let element = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
-        let merged = element.map_or_else(|| common.clone(), |element| element.over(&common));
+        let mut merged = element.map_or_else(|| common.clone(), |element| element.over(&common));
+        merged.default = merged.default.or(defaults.next());
         let pattern = array.entry.name.as_ref().map(|pattern| pattern.value.replace("{n}", &sub.to_string()));
         let own_name = merged.name.as_ref().map(|name| name.value.replace("{n}", &sub.to_string()));
         let Some(name) = own_name.or(pattern) else {
@@ -156,7 +166,8 @@ fn members(
             continue;
         }
         let Some(name) = &member.name else {
-            if !member.unsure {
+            // A run of members lacks it once.
+            if !member.unsure && diagnostics.is_new(codes::MISSING_KEY, sub.span) {
                 diagnostics.push(
                     Diagnostic::new(
                         codes::MISSING_KEY,

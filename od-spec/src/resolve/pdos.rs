@@ -10,9 +10,11 @@ use super::types::words;
 use super::values::{self, Expected};
 use crate::ast::{Name, PdoDecl, PdosDecl};
 use crate::check::codes as rule_codes;
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::decode::lexical::{self, NumberedRun};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::model::{
-    DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, Value, usual_pdo_storage,
+    DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, SubIndex, Value,
+    usual_pdo_storage,
 };
 use crate::source::{Span, Spanned};
 
@@ -40,8 +42,7 @@ pub(super) fn resolve(
             diagnostics.push(stands_twice(one, index, object));
             continue;
         }
-        let map: Vec<Spanned<Mapped>> =
-            one.map.iter().filter_map(|name| mapped(name, &names, objects, broken, diagnostics)).collect();
+        let map = mapped(one, &names, objects, broken, diagnostics);
         let described = Described::new(decl, one, usual_storage);
         let made =
             pdo(one, info, &map, diagnostics).filter(|pdo| is_of_one_kind(pdo, &described, diagnostics));
@@ -196,21 +197,61 @@ fn without_flags(value: Value, text: &Name, diagnostics: &mut Diagnostics) -> Op
     None
 }
 
-/// What an element of `map:` names, with its length; whether it can be mapped is for the rules to say.
+/// What the elements of `map:` name, each with its length; whether it can be mapped is for the rules to say.
 fn mapped(
-    name: &Name,
+    decl: &PdoDecl,
     names: &Names<'_>,
     objects: &BTreeMap<Index, Object>,
     broken: &Broken,
     diagnostics: &mut Diagnostics,
-) -> Option<Spanned<Mapped>> {
+) -> Vec<Spanned<Mapped>> {
     let bits = |data_type: DataType| data_type.bits().map_or(0, |bits| to_u8(i128::from(bits)));
-    if let Some(dummy) = DataType::from_name(&name.value) {
-        let mapped = Mapped { target: PdoTarget::Dummy(dummy), bits: bits(dummy) };
-        return Some(Spanned::new(mapped, name.span));
-    }
     let find = |id: EntryId| objects.get(&id.index).and_then(|object| object.entry(id.sub));
-    let id = names.find(name, |id| find(id).is_some(), broken, diagnostics)?;
-    let mapped = Mapped { target: PdoTarget::Entry(id), bits: bits(find(id)?.data_type) };
-    Some(Spanned::new(mapped, name.span))
+    let mut all = Vec::with_capacity(decl.map.len());
+    for name in &decl.map {
+        if let Some(dummy) = DataType::from_name(&name.value) {
+            let mapped = Mapped { target: PdoTarget::Dummy(dummy), bits: bits(dummy) };
+            all.push(Spanned::new(mapped, name.span));
+            continue;
+        }
+        let ids = match lexical::run_by_index(&name.value) {
+            Some(run) => in_run(run, name.span, objects, broken, diagnostics),
+            None => names.find(name, |id| find(id).is_some(), broken, diagnostics).into_iter().collect(),
+        };
+        for (id, entry) in ids.into_iter().filter_map(|id| Some((id, find(id)?))) {
+            let mapped = Mapped { target: PdoTarget::Entry(id), bits: bits(entry.data_type) };
+            all.push(Spanned::new(mapped, name.span));
+        }
+    }
+    all
+}
+
+/// The entries of a run; without those that the object does not have.
+fn in_run(
+    run: NumberedRun,
+    place: Span,
+    objects: &BTreeMap<Index, Object>,
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Vec<EntryId> {
+    let index = run.index;
+    let Some(object) = objects.get(&index) else {
+        if !broken.has(index) {
+            diagnostics.push(broken.missing(EntryId { index, sub: run.subs.first }, false, place));
+        }
+        return Vec::new();
+    };
+    let (there, missing): (Vec<SubIndex>, Vec<SubIndex>) =
+        run.subs.subs().partition(|sub| object.entry(*sub).is_some());
+    if !missing.is_empty() && !broken.has(index) {
+        let several = if missing.len() == 1 { "sub-index" } else { "sub-indices" };
+        let missing: Vec<String> = missing.iter().map(SubIndex::to_string).collect();
+        let message = format!("{index} has no {several} {}", shorten(&missing.join(", ")));
+        diagnostics.push(
+            Diagnostic::new(codes::UNKNOWN_ENTRY, place, message)
+                .with(object.span, "the object")
+                .help("correct the run, or name the entries one by one"),
+        );
+    }
+    there.into_iter().map(|sub| EntryId { index, sub }).collect()
 }

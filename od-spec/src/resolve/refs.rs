@@ -1,6 +1,7 @@
 //! References to entries, by index or by name.
 
 use std::cell::OnceCell;
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::diag::{Suggestions, shorten};
 use crate::model::{Devices, Dictionary, EntryId, Index, Object, SubIndex};
+use crate::source::{Span, Spanned};
 
 /// What is defined, but not well enough to be there: a reference to it says nothing new.
 #[derive(Debug, Default)]
@@ -19,20 +21,29 @@ pub(super) struct Broken {
     everywhere: Option<Arc<Broken>>,
     /// Objects that only some devices have.
     owners: BTreeMap<Index, Owners>,
-    /// Their indices, by name.
-    owned: BTreeMap<String, Index>,
+    /// The same by name.
+    owned: BTreeMap<String, Owners>,
 }
 
 /// The devices that have an object.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Owners {
     /// How the specification calls the object.
     object: String,
     /// Keys of the devices.
     devices: Vec<String>,
+    /// Where it stands.
+    place: Span,
 }
 
 impl Owners {
+    /// Adds the devices of another object.
+    fn join(&mut self, other: &Owners) {
+        let new = other.devices.iter().filter(|device| !self.devices.contains(device)).cloned();
+        let new: Vec<String> = new.collect();
+        self.devices.extend(new);
+    }
+
     /// What to do when another device is to have the object.
     fn help(&self) -> String {
         let devices: Vec<String> = self.devices.iter().map(|key| format!("`{key}`")).collect();
@@ -56,11 +67,37 @@ impl Broken {
     }
 
     /// Notes an object that only some devices have.
-    pub(super) fn own(&mut self, index: Index, name: Option<&Name>, devices: &[Name]) {
-        let object = name.map_or_else(|| index.to_string(), |name| name.value.clone());
+    pub(super) fn own(&mut self, index: Spanned<Index>, name: Option<&Name>, devices: &[Name]) {
+        let object = name.map_or_else(|| index.value.to_string(), |name| name.value.clone());
         let devices = devices.iter().map(|key| key.value.clone()).collect();
-        self.owned.extend(name.map(|name| (name.value.clone(), index)));
-        self.owners.insert(index, Owners { object, devices });
+        let owners = Owners { object, devices, place: index.span };
+        if let Some(name) = name {
+            self.owned
+                .entry(name.value.clone())
+                .and_modify(|known| known.join(&owners))
+                .or_insert_with(|| owners.clone());
+        }
+        match self.owners.entry(index.value) {
+            Entry::Vacant(vacant) => drop(vacant.insert(owners)),
+            Entry::Occupied(mut known) => {
+                known.get_mut().join(&owners);
+                known.get_mut().object = index.value.to_string();
+            }
+        }
+    }
+
+    /// An entry that is named at `place`, and is not there; `is_there` tells whether its object is.
+    pub(super) fn missing(&self, id: EntryId, is_there: bool, place: Span) -> Diagnostic {
+        let help = match self.owners_of(id.index).filter(|_| !is_there) {
+            Some(owners) => owners.help(),
+            None => "correct the index or sub-index, or define the object on this device".to_owned(),
+        };
+        Diagnostic::new(codes::UNKNOWN_ENTRY, place, format!("there is no entry {id}")).help(help)
+    }
+
+    /// Where an object stands that only some devices have, and what to do when another is to have it.
+    pub(super) fn elsewhere(&self, index: Index) -> Option<(Span, String)> {
+        self.owners_of(index).map(|owners| (owners.place, owners.help()))
     }
 
     fn owners_of(&self, index: Index) -> Option<&Owners> {
@@ -70,8 +107,7 @@ impl Broken {
 
     fn owners_of_name(&self, name: &str) -> Option<&Owners> {
         let everywhere = || self.everywhere.as_ref()?.owners_of_name(name);
-        let index = objects_in(name).find_map(|object| self.owned.get(object));
-        index.and_then(|index| self.owners.get(index)).or_else(everywhere)
+        objects_in(name).find_map(|object| self.owned.get(object)).or_else(everywhere)
     }
 
     pub(super) fn append(&mut self, more: Broken) {
@@ -102,13 +138,21 @@ pub(super) struct Names<'a> {
     objects: Vec<&'a Object>,
     /// What can be written, for suggestions.
     all: OnceCell<Vec<String>>,
+    /// For help.
+    indices: OnceCell<BTreeSet<Index>>,
 }
 
 impl<'a> Names<'a> {
     pub(super) fn new(objects: impl IntoIterator<Item = &'a Object>) -> Self {
         let mut objects: Vec<&Object> = objects.into_iter().collect();
         objects.sort_by(|one, other| one.name.cmp(&other.name));
-        Self { objects, all: OnceCell::new() }
+        Self { objects, all: OnceCell::new(), indices: OnceCell::new() }
+    }
+
+    /// Whether there is an object of this index.
+    fn has(&self, index: Index) -> bool {
+        let indices = self.indices.get_or_init(|| self.objects.iter().map(|object| object.index).collect());
+        indices.contains(&index)
     }
 
     /// The objects of a name.
@@ -174,15 +218,8 @@ fn find(
             return Some(id);
         }
         if !broken.has(id.index) {
-            diagnostics.push(
-                Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, format!("there is no entry {id}"))
-                    .help(match broken.owners_of(id.index) {
-                        Some(owners) => owners.help(),
-                        None => {
-                            "correct the index or sub-index, or define the object on this device".to_owned()
-                        }
-                    }),
-            );
+            let is_there = devices.iter().any(|names| names.has(id.index));
+            diagnostics.push(broken.missing(id, is_there, reference.span));
         }
         return None;
     }

@@ -11,6 +11,18 @@ pub const RIGHT: &[Pattern] = &[
     pattern("a run of objects", |n| {
         spec("", &format!("  0x2000..0x{:X}: {{name: \"a {{n}}\", type: unsigned8, access: ro}}\n", index(n)))
     }),
+    pattern("objects that are like one another", |n| {
+        let like = |at: usize| {
+            format!(
+                "  0x{:X}: {{name: o{at}, like: 0x{:X}, default: {}}}\n",
+                index(at),
+                index(at + 1),
+                at % 200
+            )
+        };
+        let last = format!("  0x{:X}: {{name: last, type: unsigned8, access: rw}}\n", index(n));
+        spec("", &format!("{}{last}", each(n, like)))
+    }),
     pattern("records", |n| {
         spec(
             "",
@@ -130,6 +142,15 @@ pub const RIGHT: &[Pattern] = &[
             )
         });
         format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n{objects}")
+    }),
+    pattern("devices with different objects at one index", |n| {
+        let devices = each(n, |at| {
+            format!("  d{at}: {{name: device {at}, bit-rates: [125], eds: {{created: 2024-02-29 12:00}}}}\n")
+        });
+        let objects = each(n, |at| {
+            format!("    - {{devices: d{at}, name: object {at}, type: unsigned8, access: ro}}\n")
+        });
+        format!("od-spec: 1\ntitle: t\ndevices:\n{devices}objects:\n  0x2000:\n{objects}")
     }),
     pattern("devices with conditions of their own", |n| {
         let devices = each(n, |at| {

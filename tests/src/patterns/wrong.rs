@@ -4,6 +4,14 @@ use super::{Pattern, device_with, each, index, list, objects, pattern, spec};
 
 /// The patterns.
 pub const WRONG: &[Pattern] = &[
+    pattern("objects that are like none", |n| {
+        spec("", &each(n, |at| format!("  0x{:X}: {{name: o{at}, like: 0x9FFF}}\n", index(at))))
+    }),
+    pattern("objects that are like themselves", |n| {
+        let like =
+            |at: usize| format!("  0x{:X}: {{name: o{at}, like: 0x{:X}}}\n", index(at), index((at + 1) % n));
+        spec("", &each(n, like))
+    }),
     pattern("a run of arrays", |n| {
         spec(
             "",

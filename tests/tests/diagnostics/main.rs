@@ -14,6 +14,7 @@ mod parts;
 mod random;
 mod settings;
 mod settings_by_kind;
+mod short_forms;
 mod wording_rules;
 
 use std::collections::BTreeSet;

@@ -18,6 +18,7 @@ pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> Object
         weight: 0,
         devices: None,
         from: None,
+        like: None,
         alias: None,
         outside: None,
         rounding: None,
