@@ -103,6 +103,17 @@ fn plain(path: &Path) -> PathBuf {
 ///
 /// The directory cannot be read.
 pub fn specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = files_of_specifications_in(directory)?;
+    found.retain(|path| whole(path) == *path);
+    Ok(found)
+}
+
+/// [`specifications_in`], with the parts.
+///
+/// # Errors
+///
+/// The directory cannot be read.
+pub fn files_of_specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(directory)? {
         let entry = entry?;
@@ -110,9 +121,7 @@ pub fn specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> {
         let bytes = name.as_encoded_bytes();
         if bytes.ends_with(b".od.yaml") && !bytes.starts_with(b".") && entry.path().is_file() {
             let path = if directory == Path::new(".") { PathBuf::from(name) } else { entry.path() };
-            if whole(&path) == path {
-                found.push(path);
-            }
+            found.push(path);
         }
     }
     found.sort();

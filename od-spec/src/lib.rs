@@ -40,6 +40,7 @@ mod gaps;
 #[cfg(feature = "reference")]
 mod json_schema;
 pub mod keys;
+mod layout;
 mod library;
 mod limits;
 pub mod model;
@@ -76,6 +77,7 @@ pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;
+pub use layout::layout;
 pub use library::{Feature, Library, LibraryObject, library};
 pub use parameters::{Assignment, assign};
 pub use parts::part_of;

@@ -9,8 +9,13 @@ use crate::{FAN, LAMP, MIXER, ROOF_FAN, Scratch, code, odgen, stderr, stdout};
 
 /// A check of what is written to its standard input.
 fn piped(directory: &Path, arguments: &[&str], input: &[u8]) -> Output {
+    odgen_with_input(directory, &[&["check"], arguments].concat(), input)
+}
+
+/// The command with something on its standard input.
+pub(crate) fn odgen_with_input(directory: &Path, arguments: &[&str], input: &[u8]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_odgen"));
-    let command = command.current_dir(directory).arg("check").args(arguments);
+    let command = command.current_dir(directory).args(arguments);
     let mut child =
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(input).unwrap();

@@ -13,6 +13,7 @@ mod diff;
 mod docs;
 mod files;
 mod fix;
+mod fmt;
 mod foreign;
 mod formats;
 mod import;

@@ -98,6 +98,7 @@ impl Cli {
             Command::Errata(args) => args.messages.format,
             Command::Import(args) => args.messages.format,
             Command::Fix(args) => args.messages.format,
+            Command::Fmt(args) => args.messages.format,
             Command::New(args) => args.messages.format,
             _ => None,
         };
@@ -155,6 +156,8 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
     Fix(FixArgs),
+    /// Lay out specifications: indentation and blanks; comments, order and facts stay
+    Fmt(FmtArgs),
     /// Write a commented specification to start from
     New(NewArgs),
     /// Tell what a message code means and what to do about it
@@ -487,6 +490,20 @@ pub(crate) struct FixArgs {
     /// Change the files
     #[arg(long)]
     pub write: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FmtArgs {
+    /// Specifications, their parts and libraries; `-` reads one and prints it [default: the `*.od.yaml` of the current directory]
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+
+    /// Change nothing; name the files that are laid out otherwise, and fail if there is one
+    #[arg(long)]
+    pub check: bool,
 
     #[command(flatten)]
     pub messages: Messages,

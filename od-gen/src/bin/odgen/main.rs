@@ -8,6 +8,7 @@ mod diff;
 mod docs;
 mod errata;
 mod fix;
+mod fmt;
 mod git;
 mod import;
 mod line_diff;
@@ -61,6 +62,7 @@ fn main() -> ExitCode {
         Command::Errata(args) => errata::run(&args, directory, &report),
         Command::Import(args) => import::run(&args, &report),
         Command::Fix(args) => fix::run(&args, &report),
+        Command::Fmt(args) => fmt::run(&args, directory, &report),
         Command::New(args) => new::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use od_gen::source::{specifications_in, whole};
+use od_gen::source::{files_of_specifications_in, specifications_in, whole};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
 use od_spec::visible::visible;
@@ -69,11 +69,26 @@ pub(crate) fn stem(path: &Path) -> String {
     name.strip_suffix(".od").unwrap_or(name).to_owned()
 }
 
+/// The files of a command line that may name several, with parts as they are: those it names, or all of `directory`.
+pub(crate) fn files(named: &[PathBuf], directory: &Path, report: &Report) -> Result<Vec<PathBuf>, u8> {
+    if !named.is_empty() {
+        return Ok(named.to_vec());
+    }
+    let found = some(files_of_specifications_in(directory), directory, report)?;
+    report.note(&format!("no FILE is named: taking {} of {}", list(&found), describe(directory)));
+    Ok(found)
+}
+
 /// At least one specification.
 fn find(directory: &Path, report: &Report) -> Result<Vec<PathBuf>, u8> {
+    some(specifications_in(directory), directory, report)
+}
+
+/// What was found in a directory, if it is not nothing.
+fn some(found: std::io::Result<Vec<PathBuf>>, directory: &Path, report: &Report) -> Result<Vec<PathBuf>, u8> {
     const HELP: &str =
         "name a specification, go to the directory where yours lie, or start one with `odgen new NAME`";
-    match specifications_in(directory) {
+    match found {
         Ok(found) if found.is_empty() => Err(refuse(
             format!("no SPEC is named, and there is no `*.od.yaml` in {}", describe(directory)),
             HELP.to_owned(),
