@@ -209,11 +209,21 @@ pub(crate) struct PlannedBits<'a> {
     pub values: Vec<PlannedValue<'a>>,
 }
 
-/// A set of special values that entries share.
+/// A set of special values that entries share. Sets of one name have the same meanings, and one type in code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct PlannedSpecial {
     pub name: String,
     pub values: Vec<PlannedSpecialValue>,
+}
+
+impl PlannedSpecial {
+    /// Whether both say the same, be it with other raw values.
+    pub(crate) fn has_meanings_of(&self, other: &Self) -> bool {
+        fn meanings(set: &PlannedSpecial) -> impl Iterator<Item = (&str, &str)> {
+            set.values.iter().map(|value| (value.name.as_str(), value.text.as_str()))
+        }
+        meanings(self).eq(meanings(other))
+    }
 }
 
 /// A special value.

@@ -67,7 +67,8 @@ impl<'a> Plan<'a> {
         ValueKind { data_type: entry.data_type, named, unit, special }
     }
 
-    /// The set of special values of an entry; equal sets are one type.
+    /// The set of special values of an entry. Sets with the same meanings are one type in code, whatever their raw values: a
+    /// broken wire is 32767 on one entry and 65535 on another, and the accessors of each know which.
     fn special(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> usize {
         let values: Vec<_> = entry
             .special
@@ -83,14 +84,18 @@ impl<'a> Plan<'a> {
         if let Some(at) = self.specials.iter().position(|planned| *planned == set) {
             return at;
         }
-        if self.specials.iter().any(|planned| planned.name == set.name) {
+        let mut of_name = self.specials.iter().filter(|planned| planned.name == set.name);
+        let one_type = of_name.next();
+        if one_type.is_some_and(|other| !set.has_meanings_of(other)) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::IDENTIFIER_CLASH,
                     entry.span,
                     format!("`{}` would name two sets of special values", set.name),
                 )
-                .help("give special values that differ different names"),
+                .help(
+                    "spell what means the same in the same way, and give different meanings different names",
+                ),
             );
         }
         let mut scope = self.scope(ScopeKind::SpecialValues);
