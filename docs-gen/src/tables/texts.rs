@@ -149,7 +149,7 @@ impl Source<'_> {
             if *symbol.get_or_insert_with(|| unit.base_symbol().to_owned()) != unit.base_symbol() {
                 return None;
             }
-            values.push(Ratio::whole(raw).checked_mul(unit.step()?)?);
+            values.push(unit.quantity(raw)?);
             rungs.push(Rung {
                 value: self.wording.physical(unit, raw),
                 position: 0,

@@ -1,8 +1,7 @@
 //! The facts of an entry before and after.
 
 use od_spec::model::{
-    Access, Alias, BitErrors, EdsPolicy, Entry, EntryId, Expr, Fact, NamedType, Ratio, SpecialValue, Unit,
-    Value,
+    Access, Alias, BitErrors, EdsPolicy, Entry, EntryId, Expr, Fact, NamedType, SpecialValue, Unit, Value,
 };
 
 use super::change::{Change, Class, Place};
@@ -161,7 +160,7 @@ impl Pair<'_> {
     fn is_rescaled(&self, (before, after): (Option<i128>, Option<i128>)) -> bool {
         let amount = |entry: &Entry, raw: Option<i128>| {
             let unit = entry.unit.as_ref()?;
-            Some((unit.base_symbol().to_owned(), Ratio::whole(raw?).checked_mul(unit.step()?)?))
+            Some((unit.base_symbol().to_owned(), unit.quantity(raw?)?))
         };
         before != after && amount(self.old, before).is_some_and(|old| Some(old) == amount(self.new, after))
     }

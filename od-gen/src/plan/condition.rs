@@ -1,6 +1,6 @@
 //! Conditions between entries as integer comparisons.
 //!
-//! A condition is about physical values, raw × scale. Scales are exact fractions, so every comparison can be multiplied out
+//! A condition is about physical values, raw × scale + offset. Scales are exact fractions, so every comparison can be multiplied out
 //! until both sides are integers; how large they can become is known from the types, which decides the width to compute in.
 
 use od_spec::expr::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Term};
@@ -187,9 +187,15 @@ fn fraction(term: &Term, device: &Dictionary) -> Option<Fraction> {
         Term::Entry(reference) => {
             let entry = device.entry(reference.id)?;
             let (low, high) = entry.data_type.range()?;
-            let scale = entry.unit.as_ref().map_or(Some(Ratio::ONE), |unit| unit.step())?;
             let bound = low.checked_abs()?.max(high);
-            whole(Bounded { sum: Sum::Entry(reference.id), bound }, scale)
+            let raw = Bounded { sum: Sum::Entry(reference.id), bound };
+            let Some(unit) = entry.unit.as_deref() else { return whole(raw, Ratio::ONE) };
+            let above = whole(raw, unit.step()?)?;
+            let offset = unit.offset_in(unit.base_symbol())?;
+            if offset == Ratio::ZERO {
+                return Some(above);
+            }
+            sum(above, ArithmeticOp::Add, fraction(&Term::Number(offset), device)?)
         }
         Term::Binary(left, op, right) => {
             let (left, right) = (fraction(left, device)?, fraction(right, device)?);
@@ -250,15 +256,17 @@ devices: {d: {name: D, bit-rates: [125]}}
 units:
   millivolt: {symbol: mV, base: 1/1000 V}
   third: {symbol: V, scale: 1/3}
+  above: {symbol: mV, scale: 20, offset: -5000.5, base: 1/1000 V}
   volt: {symbol: V}
 objects:
   0x2000: {name: a, type: unsigned16, unit: millivolt, access: rw}
   0x2001: {name: b, type: integer16, unit: volt, access: rw}
   0x2002: {name: c, type: integer32, unit: third, access: rw}
   0x2003: {name: d, type: integer8, access: rw}
+  0x2004: {name: e, type: unsigned8, unit: above, access: rw}
 ";
 
-    const CONDITIONS: [&str; 12] = [
+    const CONDITIONS: [&str; 16] = [
         "0x2000 < 0x2001",
         "0x2000 <= 0x2001 < 0x2002",
         "0x2001 == 0x2002 and 0x2000 >= 0",
@@ -271,6 +279,10 @@ objects:
         "-0x2001 < 2.5 and 0x2003 / 3 >= -10",
         "(0x2000 + 1) * (0x2001 - 2) / 4 > 0x2002",
         "0x2001 / (0x2003 + 1) > 0",
+        "0x2004 < 0x2000",
+        "-5.0005 <= 0x2004 <= 0x2001 + 0x2004",
+        "0x2004 * 0x2003 > 0x2001 / 0x2004",
+        "0x2004 >= -0.0005",
     ];
 
     struct Raw<'a> {
@@ -280,8 +292,10 @@ objects:
 
     impl Values for Raw<'_> {
         fn value(&self, entry: &EntryRef) -> Option<Ratio> {
-            let unit = self.system.devices[0].entry(entry.id)?.unit.as_ref();
-            Ratio::whole(self.raw(entry)?).checked_mul(unit.map_or(Some(Ratio::ONE), |unit| unit.step())?)
+            let raw = Ratio::whole(self.raw(entry)?);
+            let Some(unit) = &self.system.devices[0].entry(entry.id)?.unit else { return Some(raw) };
+            let (factor, offset) = (unit.base.as_ref().map_or(Ratio::ONE, |base| base.factor), unit.offset);
+            raw.checked_mul(unit.scale)?.checked_add(offset)?.checked_mul(factor)
         }
         fn raw(&self, entry: &EntryRef) -> Option<i128> {
             self.values.get(&entry.id.index.0).copied()
@@ -314,11 +328,12 @@ objects:
             b in prop_oneof![Just(-32_768), Just(32_767), -32_768..=32_767i128, -20..20i128],
             c in prop_oneof![Just(-2_147_483_648i128), Just(2_147_483_647), -100..100i128],
             d in prop_oneof![Just(-128), Just(127), -5..5i128],
+            e in prop_oneof![Just(0), Just(255), 245..255i128],
         ) {
             let mut sources = SourceMap::new();
             let root = sources.add("random.od.yaml", SPECIFICATION);
             let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
-            let values = BTreeMap::from([(0x2000, a), (0x2001, b), (0x2002, c), (0x2003, d)]);
+            let values = BTreeMap::from([(0x2000, a), (0x2001, b), (0x2002, c), (0x2003, d), (0x2004, e)]);
             for text in CONDITIONS {
                 let expr = Expr::parse(text).unwrap();
                 let planned = plan(&expr, &system.devices[0]).unwrap();

@@ -169,6 +169,24 @@ pub(crate) struct PlannedUnit<'a> {
     pub scale: Fraction,
     /// One raw step in the base.
     pub step: Fraction,
+    /// What the raw value 0 stands for, where that is not 0.
+    pub offset: Option<PlannedOffset>,
+}
+
+/// What the raw value 0 of a unit stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PlannedOffset {
+    /// In the unit's symbol.
+    pub in_symbol: SignedFraction,
+    /// In its base.
+    pub in_base: SignedFraction,
+}
+
+/// A fraction that code computes with, which may be negative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct SignedFraction {
+    pub numerator: i64,
+    pub denominator: u64,
 }
 
 /// A positive fraction that code computes with.

@@ -10,8 +10,8 @@ use od_spec::model::{
 use super::language::{Companion, Role, ScopeKind};
 use super::names::Scope;
 use super::{
-    Fraction, Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit,
-    PlannedValue, ValueKind, too_large,
+    Fraction, Members, Plan, PlannedBits, PlannedOffset, PlannedSpecial, PlannedSpecialValue, PlannedType,
+    PlannedUnit, PlannedValue, SignedFraction, ValueKind, too_large,
 };
 
 impl<'a> Plan<'a> {
@@ -40,7 +40,17 @@ impl<'a> Plan<'a> {
                 diagnostics.push(too_large(span, &format!("the scale of unit `{}`", unit.name)));
                 continue;
             };
-            self.units.push(PlannedUnit { unit, name, scale, step });
+            let offset = match unit.offset {
+                Ratio::ZERO => None,
+                _ => match planned_offset(unit) {
+                    Some(offset) => Some(offset),
+                    None => {
+                        diagnostics.push(too_large(span, &format!("the offset of unit `{}`", unit.name)));
+                        continue;
+                    }
+                },
+            };
+            self.units.push(PlannedUnit { unit, name, scale, step, offset });
         }
     }
 
@@ -165,6 +175,19 @@ impl<'a> Plan<'a> {
         });
         planned.collect()
     }
+}
+
+fn planned_offset(unit: &Unit) -> Option<PlannedOffset> {
+    let in_base = signed_fraction(unit.offset_in(unit.base_symbol())?)?;
+    Some(PlannedOffset { in_symbol: signed_fraction(unit.offset)?, in_base })
+}
+
+/// A ratio in 64 bits, where it fits.
+fn signed_fraction(ratio: Ratio) -> Option<SignedFraction> {
+    Some(SignedFraction {
+        numerator: i64::try_from(ratio.numerator()).ok()?,
+        denominator: u64::try_from(ratio.denominator()).ok()?,
+    })
 }
 
 /// A positive ratio in 64 bits, where it fits.

@@ -173,6 +173,10 @@ unit_keys! { declaration
     }
 }
 
+/// What the raw value 0 of a unit stands for, in its symbol.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Offset(pub Ratio);
+
 /// One symbol of a unit in a more basic one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BaseDecl {

@@ -57,6 +57,8 @@ pub enum Shape {
     Value,
     /// A fraction: `1/10`.
     Ratio,
+    /// A fraction that may be negative or 0: `-40`.
+    SignedRatio,
     /// A fraction and a symbol: `1/1000 V`.
     Base,
     /// A condition between entries.

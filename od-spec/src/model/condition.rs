@@ -1,5 +1,5 @@
 //! Conditions between entries: `0x30FC.2 < 0x30FC.1`, `bit(0x6041, 2) == 0`. Values are compared in physical units: raw value
-//! × scale, in the unit's base symbol.
+//! × scale + offset, in the unit's base symbol.
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -91,6 +91,7 @@ fn value(shape: Shape) -> String {
         Shape::Type => "type".to_owned(),
         Shape::Value => "value".to_owned(),
         Shape::Ratio => "fraction".to_owned(),
+        Shape::SignedRatio => "fraction, which may be negative".to_owned(),
         Shape::Base => "fraction and symbol".to_owned(),
         Shape::Condition => "condition".to_owned(),
         Shape::Formula => "formula".to_owned(),

@@ -10,7 +10,7 @@ use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
     Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, NamedType, PdoMapping, SpecialValue,
-    Storage, SubIndex, TypeKind, Unit,
+    Storage, SubIndex, TypeKind,
 };
 use crate::source::{FileId, Spanned};
 
@@ -339,9 +339,4 @@ pub(super) fn alias_policy(
     let as_target = Entry { locked: target.locked, stored: target.stored, facts, ..alias.clone() };
     let policy = eds_policy(&as_target, decl, defaults);
     EdsPolicy { no_write: policy.no_write || target.eds.no_write, ..policy }
-}
-
-/// The unit of an entry, for messages and alias factors.
-pub(super) fn step(unit: Option<&Arc<Unit>>) -> Option<(String, crate::model::Ratio)> {
-    unit.and_then(|unit| Some((unit.base_symbol().to_owned(), unit.step()?)))
 }

@@ -225,7 +225,7 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
                 .help(format!("write `{}`", shorten(&with_dot))),
         ));
     }
-    let Some(step) = unit.step_in(symbol) else {
+    let (Some(step), Some(offset)) = (unit.step_in(symbol), unit.offset_in(symbol)) else {
         let base = unit.base_symbol();
         let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };
         return Err(Box::new(
@@ -237,7 +237,7 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
             .help(format!("write the value in `{}`{known}", unit.symbol)),
         ));
     };
-    let steps = number.checked_div(step).ok_or_else(|| {
+    let steps = unit.steps(number, symbol).ok_or_else(|| {
         Box::new(
             Diagnostic::new(
                 rule_codes::VALUE_DOES_NOT_FIT,
@@ -251,7 +251,11 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
         let below = steps.floor();
         Box::new(
             Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
-                .label(format!("{steps} steps of {step} {symbol}"))
+                .label(if offset == Ratio::ZERO {
+                    format!("{steps} steps of {step} {symbol}")
+                } else {
+                    format!("{steps} steps of {step} {symbol} from {offset} {symbol}")
+                })
                 .help(format!(
                     "write {} (raw {below}) or {} (raw {}), or a raw value",
                     unit.show(below),

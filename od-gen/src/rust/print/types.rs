@@ -11,7 +11,8 @@ use super::super::language;
 use super::docs::{WORDING, doc, escape};
 use super::literal::{decimal, hex};
 use crate::plan::{
-    Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
+    Members, Plan, PlannedBits, PlannedOffset, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit,
+    PlannedValue, SignedFraction,
 };
 
 impl Plan<'_> {
@@ -42,7 +43,7 @@ impl Plan<'_> {
     }
 
     fn unit(&self, planned: &PlannedUnit<'_>) -> TokenStream {
-        let PlannedUnit { unit, name, scale, step } = planned;
+        let PlannedUnit { unit, name, scale, step, offset } = planned;
         let about = self.words(&unit.about);
         let text =
             format!("{}: one raw step is {}.", escape(&unit.name), escape(&WORDING.counted_step(unit)));
@@ -51,6 +52,15 @@ impl Plan<'_> {
             (format_ident!("{name}"), format_ident!("{}", base_name(planned)), &unit.symbol);
         let [n, d, sn, sd] = [scale.numerator, scale.denominator, step.numerator, step.denominator]
             .map(|number| decimal(number.into()));
+        let offset = offset.map(|PlannedOffset { in_symbol, in_base }| {
+            let fraction = |fraction: SignedFraction| {
+                let (numerator, denominator) =
+                    (decimal(fraction.numerator.into()), decimal(fraction.denominator.into()));
+                quote!(#numerator / #denominator)
+            };
+            let (in_symbol, in_base) = (fraction(in_symbol), fraction(in_base));
+            quote!(, offset #in_symbol, origin #in_base)
+        });
         quote! {
             #about
             #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -58,7 +68,7 @@ impl Plan<'_> {
             pub struct #name<__T>(pub __T);
 
             super::firmware::quantity! {
-                #name = #symbol, scale #n / #d, step #sn / #sd of #base
+                #name = #symbol, scale #n / #d, step #sn / #sd of #base #offset
             }
         }
     }

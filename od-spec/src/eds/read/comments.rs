@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use super::made;
-use crate::ast::{BitDecl, BitRange, EdsDecl, EntryDecl, SpecialDecl, TypeDecl, UnitDecl, ValueDecl};
+use crate::ast::{BitDecl, BitRange, EdsDecl, EntryDecl, Offset, SpecialDecl, TypeDecl, UnitDecl, ValueDecl};
 use crate::eds::number::{formula, lenient_integer};
 use crate::eds::owner::is_code;
 use crate::eds::view::Part;
@@ -87,6 +87,7 @@ impl Meanings {
             name: made(unit.text.clone(), place),
             symbol: Some(made(unit.symbol.clone(), place)),
             scale: Some(Spanned::new(unit.scale, place)),
+            offset: unit.offset.map(|offset| Spanned::new(Offset(offset), place)),
             base: None,
             formula: None,
             about: None,
@@ -183,6 +184,8 @@ struct Comments {
 struct StepText {
     text: String,
     scale: Ratio,
+    /// What the raw value 0 stands for, where the comment says it.
+    offset: Option<Ratio>,
     symbol: String,
 }
 
@@ -283,15 +286,23 @@ fn named_value(line: &str) -> Option<(i128, String)> {
     (!name.trim().is_empty()).then(|| (value, name.trim().to_owned()))
 }
 
-/// `0.1 degC`, `ms`.
+/// `0.1 degC`, `ms`, `0.1 degC from -40 degC`.
 fn step_text(text: &str) -> Option<StepText> {
-    let (scale, symbol) = match text.split_once(' ') {
-        Some((number, symbol)) if scalar::ratio(number).is_some() => (scalar::ratio(number)?, symbol.trim()),
-        _ => (Ratio::ONE, text.trim()),
+    let counted = |text: &str| {
+        let (number, symbol) = text.trim().split_once(' ')?;
+        Some((scalar::ratio(number)?, symbol.trim().to_owned()))
     };
-    let is_positive = scale.compare(Ratio::whole(0)).is_some_and(std::cmp::Ordering::is_gt);
+    let ends = text.rsplit_once(" from ").and_then(|(step, from)| Some((counted(step)?, counted(from)?)));
+    let (scale, symbol, offset) = match ends.filter(|((_, symbol), (_, of_offset))| symbol == of_offset) {
+        Some(((scale, symbol), (offset, _))) => (scale, symbol, Some(offset)),
+        None => {
+            let (scale, symbol) = counted(text).unwrap_or_else(|| (Ratio::ONE, text.trim().to_owned()));
+            (scale, symbol, None)
+        }
+    };
+    let is_positive = scale.compare(Ratio::ZERO).is_some_and(std::cmp::Ordering::is_gt);
     // Signs that ASCII does not have.
-    let symbol = match symbol {
+    let symbol = match symbol.as_str() {
         "degC" => "°C",
         "deg" => "°",
         other => other,
@@ -299,6 +310,7 @@ fn step_text(text: &str) -> Option<StepText> {
     (is_positive && !symbol.is_empty()).then(|| StepText {
         text: text.trim().to_owned(),
         scale,
+        offset,
         symbol: symbol.to_owned(),
     })
 }

@@ -1,0 +1,169 @@
+//! Values in units that do not count from 0, in every output. What is expected is worked out by hand.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use firmware_glue::{AbortCode, Constrained as _, Dictionary as _, OutOfRange, Quantity as _, Special};
+use od_gen::docs::{self, Format, Templates};
+use od_spec::diag::Diagnostics;
+use od_spec::model::{EntryId, Index, SubIndex, System, Value};
+use od_spec::source::{SourceMap, Spanned};
+use od_spec::{NoFiles, assign, compile};
+use od_tests::compile_clean;
+
+#[deny(warnings)]
+mod pack {
+    od_macros::object_dictionary!("shared/physical.od.yaml");
+}
+
+use pack::Pack;
+use pack::units::{Bipolar, CelsiusAbove40, Decikelvin, Kelvin, Third, Volt};
+
+fn system() -> System {
+    compile_clean("tests/shared/physical.od.yaml").unwrap()
+}
+
+const fn id(index: u16) -> EntryId {
+    EntryId { index: Index(index), sub: SubIndex(0) }
+}
+
+fn eds() -> String {
+    let system = system();
+    String::from_utf8(od_gen::eds::write_eds(&system, &system.devices[0])).unwrap().replace("\r\n", "\n")
+}
+
+#[test]
+fn physical_values_become_raw_ones() {
+    let system = system();
+    let entry = |index| system.devices[0].entry(id(index)).unwrap();
+    let raw = |index| entry(index).default.clone();
+    assert_eq!(raw(0x2000), Some(Value::Integer(60)), "20 = 60 - 40");
+    assert_eq!((entry(0x2000).low, entry(0x2000).high), (Some(20), Some(100)));
+    assert_eq!(raw(0x2001), Some(Value::Integer(2932)), "20.05 = 293.2 - 273.15");
+    assert_eq!(raw(0x2002), Some(Value::Integer(350)), "2000 = 350 * 20 - 5000");
+    assert_eq!(entry(0x2002).low, Some(0));
+    assert_eq!(raw(0x2003), Some(Value::Integer(293)), "the same origin, ten times the step");
+}
+
+#[test]
+fn an_eds_holds_raw_values_and_says_where_they_count_from() {
+    let eds = eds();
+    let part = |section: &str| {
+        let (before, after) = eds.split_once(&format!("[{section}]\n")).unwrap();
+        let comments = before.rsplit_once("\n\n").unwrap().1;
+        format!("{comments}{}", after.split_once("\n\n").map_or(after, |(keys, _)| keys))
+    };
+    let cell = part("2000");
+    assert!(cell.contains("; unit 1 degC from -40 degC\n"), "{cell}");
+    assert!(cell.contains("DefaultValue=60\n") && cell.contains("LowLimit=20\nHighLimit=100"), "{cell}");
+    assert!(part("2001").contains("; unit 0.1 degC from -273.15 degC"), "{}", part("2001"));
+    assert!(part("2002").contains("; unit 20 mV from -5000 mV"), "{}", part("2002"));
+}
+
+#[test]
+fn an_eds_that_is_read_has_the_units() {
+    let mut sources = SourceMap::new();
+    let root = sources.add("pack.eds", eds());
+    let read = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+    let shown = |index, raw| read.devices[0].entry(id(index)).unwrap().unit.as_ref().unwrap().show(raw);
+    assert_eq!([shown(0x2000, 60), shown(0x2001, 2932)], ["20 °C", "20.05 °C"]);
+    assert_eq!([shown(0x2002, 0), shown(0x2005, 12)], ["-5000 mV", "12 V"]);
+    // And as a specification.
+    let written = od_gen::yaml::specification(&read, &read.devices[0], &od_gen::yaml::Options::default());
+    let text = written.unwrap().text;
+    for line in ["offset: -40", "offset: -5463/20", "default: 20 °C", "default: 20.05 °C", "default: 2000 mV"]
+    {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
+#[test]
+fn the_dump_has_the_offset() {
+    let system = system();
+    let dump: serde_json::Value = serde_json::from_slice(&od_gen::json::dump(&system, &[])).unwrap();
+    let offset = |name: &str| {
+        let units = dump["units"].as_array().unwrap();
+        units.iter().find(|unit| unit["name"] == name).unwrap()["offset"].clone()
+    };
+    assert_eq!(offset("celsius above -40"), serde_json::json!([-40, 1]));
+    assert_eq!(offset("decikelvin"), serde_json::json!([-5463, 20]));
+    assert!(offset("volt").is_null());
+}
+
+#[test]
+fn documents_show_what_is_measured() {
+    let system = system();
+    let page = |language: &str| {
+        let templates = [Templates::new(Some(Format::Markdown), &[]).unwrap()];
+        let options = docs::options(&system, &[], Some(language));
+        let artifacts = docs::artifacts(&system, "", "pack", &options, &templates).unwrap();
+        artifacts.into_iter().map(|one| String::from_utf8(one.bytes).unwrap()).collect::<String>()
+    };
+    let english = page("en");
+    for text in
+        ["20 °C (60)", "-20 °C (20) to 60 °C (100)", "1 °C from -40 °C", "20.05 °C (2932)", "2000 mV (350)"]
+    {
+        assert!(english.contains(text), "{text}: {english}");
+    }
+    let german = page("de");
+    assert!(german.contains("0,1 °C ab -273,15 °C") && german.contains("20,05 °C (2932)"), "{german}");
+}
+
+#[test]
+fn generated_code_converts_and_shows() {
+    let mut od = Pack::new(1);
+    assert_eq!(od.cell_temperature(), CelsiusAbove40(60));
+    assert_eq!(od.cell_temperature().to_string(), "20 °C");
+    assert_eq!(CelsiusAbove40(0u8).to_string(), "-40 °C");
+    assert_eq!(Decikelvin(0u16).to_string(), "-273.15 °C");
+    assert_eq!(Decikelvin(2732u16).to_string(), "0.05 °C");
+    assert_eq!(Decikelvin(2731u16).to_string(), "-0.05 °C");
+    assert_eq!(od.coolant_temperature(), Special::Value(Decikelvin(2932)));
+    assert_eq!(od.coolant_temperature_in_1_k().to_string(), "19.85 °C");
+    assert_eq!(od.shunt_voltage().to_string(), "2000 mV");
+    assert_eq!(od.odd().to_string(), "7 × 1/3 + -1/3 °C");
+    // Between units: exactly, downwards, or not at all.
+    assert_eq!(Kelvin(293u16).convert::<Decikelvin<u16>, u16>(), Ok(Decikelvin(2930)));
+    assert_eq!(Bipolar(350u16).convert::<Volt<u8>, u8>(), Ok(Volt(2)));
+    assert_eq!(Volt(-5i8).convert::<Bipolar<u16>, u16>(), Ok(Bipolar(0)));
+    assert_eq!(Bipolar(349u16).convert::<Volt<u8>, u8>(), Err(OutOfRange));
+    assert_eq!(Bipolar(349u16).convert_down::<Volt<u8>, u8>(), Ok(Volt(1)));
+    assert_eq!(Bipolar(0u16).convert::<Volt<u8>, u8>(), Err(OutOfRange), "no negative number");
+    assert_eq!(CelsiusAbove40(60u8).convert::<Decikelvin<u16>, u16>(), Err(OutOfRange), "between two steps");
+    assert_eq!(CelsiusAbove40(60u8).convert_down::<Decikelvin<u16>, u16>(), Ok(Decikelvin(2931)));
+    assert_eq!(Third(1u8).convert::<CelsiusAbove40<u8>, u8>(), Ok(CelsiusAbove40(40)), "both are 0 °C");
+    // Limits, writes and conditions.
+    assert_eq!(od.write(0x2000, 0, &[101], &mut ()), Err(AbortCode::TOO_HIGH));
+    assert!(od.write(0x2000, 0, &[40], &mut ()).is_ok());
+    assert_eq!(od.write(0x2004, 0, &[1], &mut ()), Err(AbortCode::DEVICE_STATE), "0 °C is not below 0 °C");
+    od.set_cell_temperature(CelsiusAbove40(39));
+    assert!(od.write(0x2004, 0, &[1], &mut ()).is_ok());
+    od.set_shunt_voltage(Bipolar(249));
+    assert_eq!(od.write(0x2004, 0, &[2], &mut ()), Err(AbortCode::DEVICE_STATE), "249 * 20 - 5000 = -20 mV");
+    assert!(od.broken_constraint().is_none());
+    od.set_cell_temperature(CelsiusAbove40(61));
+    assert!(od.broken_constraint().is_some(), "21 °C is not below 20.05 °C");
+}
+
+#[test]
+fn settings_are_written_as_they_are_measured() {
+    let system = system();
+    let mut sources = SourceMap::new();
+    let mut set = |text: &str| {
+        let file = sources.add("--set", text);
+        let setting = Spanned::new(text.to_owned(), sources.whole(file));
+        let mut diagnostics = Diagnostics::new();
+        let values = assign(&system, &system.devices[0], 5, &[setting], &mut diagnostics);
+        let said = diagnostics.iter().map(|found| format!("{}: {}", found.code.id, found.message)).next();
+        said.map_or_else(|| Ok(values.into_values().next().unwrap()), Err)
+    };
+    assert_eq!(set("coolant temperature=25.05 °C"), Ok(Value::Integer(2982)));
+    assert_eq!(set("0x2002=-5 V"), Ok(Value::Integer(0)));
+    assert_eq!(set("cell temperature=-20 °C"), Ok(Value::Integer(20)));
+    for (text, code) in [
+        ("cell temperature=-21 °C", "OD0406"),
+        ("coolant temperature=25 °C", "OD0412"),
+        ("0x2002=-5.02 V", "OD0404"),
+    ] {
+        assert!(set(text).is_err_and(|said| said.starts_with(code)), "{text}: {:?}", set(text));
+    }
+}
