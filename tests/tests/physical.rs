@@ -1,4 +1,4 @@
-//! Values in units that do not count from 0, in every output. What is expected is worked out by hand.
+//! Values in units that do not count from 0, and of REAL types, in every output. What is expected is worked out by hand.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -8,7 +8,7 @@ use od_spec::diag::Diagnostics;
 use od_spec::model::{EntryId, Index, SubIndex, System, Value};
 use od_spec::source::{SourceMap, Spanned};
 use od_spec::{NoFiles, assign, compile};
-use od_tests::compile_clean;
+use od_tests::{compile_clean, compile_with_sources};
 
 #[deny(warnings)]
 mod pack {
@@ -42,6 +42,10 @@ fn physical_values_become_raw_ones() {
     assert_eq!(raw(0x2002), Some(Value::Integer(350)), "2000 = 350 * 20 - 5000");
     assert_eq!(entry(0x2002).low, Some(0));
     assert_eq!(raw(0x2003), Some(Value::Integer(293)), "the same origin, ten times the step");
+    let real = |number: f64| Some(Value::Real(number.into()));
+    assert_eq!((raw(0x2010), entry(0x2010).limits()), (real(20.5), (real(-40.0), real(85.25))));
+    assert_eq!((raw(0x2011), entry(0x2011).limits()), (real(1500.0), (real(500.0), None)));
+    assert_eq!((raw(0x2013), entry(0x2013).limits()), (real(2932.0), (None, real(3731.5))));
 }
 
 #[test]
@@ -56,6 +60,15 @@ fn an_eds_holds_raw_values_and_says_where_they_count_from() {
     assert!(cell.contains("; unit 1 degC from -40 degC\n"), "{cell}");
     assert!(cell.contains("DefaultValue=60\n") && cell.contains("LowLimit=20\nHighLimit=100"), "{cell}");
     assert!(part("2001").contains("; unit 0.1 degC from -273.15 degC"), "{}", part("2001"));
+    let ambient = part("2010");
+    assert!(ambient.contains("DefaultValue=20.5\n"), "{ambient}");
+    assert!(ambient.contains("LowLimit=-40.0\nHighLimit=85.25"), "{ambient}");
+    assert!(
+        part("2011").contains("LowLimit=500.0\n") && !part("2011").contains("HighLimit"),
+        "{}",
+        part("2011")
+    );
+    assert!(part("2012").contains("HighLimit=0.1\n"), "{}", part("2012"));
     assert!(part("2002").contains("; unit 20 mV from -5000 mV"), "{}", part("2002"));
 }
 
@@ -67,11 +80,22 @@ fn an_eds_that_is_read_has_the_units() {
     let shown = |index, raw| read.devices[0].entry(id(index)).unwrap().unit.as_ref().unwrap().show(raw);
     assert_eq!([shown(0x2000, 60), shown(0x2001, 2932)], ["20 °C", "20.05 °C"]);
     assert_eq!([shown(0x2002, 0), shown(0x2005, 12)], ["-5000 mV", "12 V"]);
+    let limits = |system: &System, index| system.devices[0].entry(id(index)).unwrap().limits();
+    for index in 0x2010..=0x2014 {
+        assert_eq!(limits(&read, index), limits(&system(), index), "{index:04X}");
+    }
     // And as a specification.
     let written = od_gen::yaml::specification(&read, &read.devices[0], &od_gen::yaml::Options::default());
     let text = written.unwrap().text;
-    for line in ["offset: -40", "offset: -5463/20", "default: 20 °C", "default: 20.05 °C", "default: 2000 mV"]
-    {
+    for line in [
+        "offset: -40",
+        "offset: -5463/20",
+        "default: 20 °C",
+        "default: 20.05 °C",
+        "default: 2000 mV",
+        "min: -40.0",
+        "max: 85.25",
+    ] {
         assert!(text.contains(line), "{line}: {text}");
     }
 }
@@ -87,6 +111,10 @@ fn the_dump_has_the_offset() {
     assert_eq!(offset("celsius above -40"), serde_json::json!([-40, 1]));
     assert_eq!(offset("decikelvin"), serde_json::json!([-5463, 20]));
     assert!(offset("volt").is_null());
+    let ambient = dump["devices"][0]["objects"].as_array().unwrap();
+    let ambient = &ambient.iter().find(|object| object["index"] == "0x2010").unwrap()["entries"][0];
+    assert_eq!((ambient["low"].as_f64(), ambient["high"].as_f64()), (Some(-40.0), Some(85.25)));
+    assert_eq!(ambient["default"], serde_json::json!({"raw": 20.5, "text": "20.5 °C"}));
 }
 
 #[test]
@@ -99,9 +127,17 @@ fn documents_show_what_is_measured() {
         artifacts.into_iter().map(|one| String::from_utf8(one.bytes).unwrap()).collect::<String>()
     };
     let english = page("en");
-    for text in
-        ["20 °C (60)", "-20 °C (20) to 60 °C (100)", "1 °C from -40 °C", "20.05 °C (2932)", "2000 mV (350)"]
-    {
+    for text in [
+        "20 °C (60)",
+        "-20 °C (20) to 60 °C (100)",
+        "1 °C from -40 °C",
+        "20.05 °C (2932)",
+        "2000 mV (350)",
+        "-40.0 °C to 85.25 °C",
+        "20.05 °C (2932.0)",
+        "≤ 0.1",
+        "≥ 500.0 mV",
+    ] {
         assert!(english.contains(text), "{text}: {english}");
     }
     let german = page("de");
@@ -131,6 +167,32 @@ fn generated_code_converts_and_shows() {
     assert_eq!(CelsiusAbove40(60u8).convert::<Decikelvin<u16>, u16>(), Err(OutOfRange), "between two steps");
     assert_eq!(CelsiusAbove40(60u8).convert_down::<Decikelvin<u16>, u16>(), Ok(Decikelvin(2931)));
     assert_eq!(Third(1u8).convert::<CelsiusAbove40<u8>, u8>(), Ok(CelsiusAbove40(40)), "both are 0 °C");
+    // Limits of REAL: what is no number lies in none of them.
+    let single =
+        |od: &mut Pack, index, value: f32| od.write(index, 0, &value.to_le_bytes(), &mut ()).map(drop);
+    let double =
+        |od: &mut Pack, index, value: f64| od.write(index, 0, &value.to_le_bytes(), &mut ()).map(drop);
+    assert_eq!(od.ambient(), 20.5);
+    for (value, expected) in [
+        (-40.0, Ok(())),
+        (-40.000_004, Err(AbortCode::TOO_LOW)),
+        (85.25, Ok(())),
+        (85.250_01, Err(AbortCode::TOO_HIGH)),
+        (-0.0, Ok(())),
+        (f32::INFINITY, Err(AbortCode::TOO_HIGH)),
+        (f32::NAN, Err(AbortCode::TOO_HIGH)),
+        (-f32::NAN, Err(AbortCode::TOO_LOW)),
+    ] {
+        assert_eq!(single(&mut od, 0x2010, value), expected, "{value}");
+    }
+    assert_eq!(single(&mut od, 0x2012, 0.1), Ok(()), "the limit as a REAL32 has it");
+    assert_eq!(single(&mut od, 0x2012, 0.100_000_01), Err(AbortCode::TOO_HIGH), "the next number");
+    assert_eq!(double(&mut od, 0x2011, f64::INFINITY), Ok(()), "nothing limits that side");
+    assert_eq!(double(&mut od, 0x2011, 499.99), Err(AbortCode::TOO_LOW));
+    assert_eq!(double(&mut od, 0x2011, f64::NAN), Err(AbortCode::TOO_HIGH));
+    assert_eq!(single(&mut od, 0x2014, f32::NAN), Ok(()), "no limits");
+    assert_eq!(pack::limits::AMBIENT, -40.0..=85.25);
+    assert_eq!(pack::limits::PUMP_VOLTAGE, 500.0..=f64::INFINITY);
     // Limits, writes and conditions.
     assert_eq!(od.write(0x2000, 0, &[101], &mut ()), Err(AbortCode::TOO_HIGH));
     assert!(od.write(0x2000, 0, &[40], &mut ()).is_ok());
@@ -146,8 +208,7 @@ fn generated_code_converts_and_shows() {
 
 #[test]
 fn settings_are_written_as_they_are_measured() {
-    let system = system();
-    let mut sources = SourceMap::new();
+    let (system, mut sources) = compile_with_sources("tests/shared/physical.od.yaml").unwrap();
     let mut set = |text: &str| {
         let file = sources.add("--set", text);
         let setting = Spanned::new(text.to_owned(), sources.whole(file));
@@ -159,7 +220,12 @@ fn settings_are_written_as_they_are_measured() {
     assert_eq!(set("coolant temperature=25.05 °C"), Ok(Value::Integer(2982)));
     assert_eq!(set("0x2002=-5 V"), Ok(Value::Integer(0)));
     assert_eq!(set("cell temperature=-20 °C"), Ok(Value::Integer(20)));
+    assert_eq!(set("ambient=-12.25 °C"), Ok(Value::Real((-12.25).into())));
+    assert_eq!(set("pump voltage=2 V"), Ok(Value::Real(2000.0.into())));
     for (text, code) in [
+        ("ambient=85.26 °C", "OD0406"),
+        ("ambient=20 K", "OD0405"),
+        ("gain=0.2", "OD0406"),
         ("cell temperature=-21 °C", "OD0406"),
         ("coolant temperature=25 °C", "OD0412"),
         ("0x2002=-5.02 V", "OD0404"),

@@ -113,7 +113,7 @@ codes! {
     INEXACT_VALUE Error "OD0412" "a physical value between two steps":
         "The value cannot be expressed in whole steps of the unit's scale: 5.05 °C is 50.5 steps of 0.1 °C. Nothing is rounded silently."
     LIMIT_ON_TYPE Error "OD0408" "a limit on a type without order":
-        "Only integers have limits: strings, domains and BOOLEAN have none, and limits of REAL types are read differently by every tool."
+        "Only numbers have limits: strings, domains and BOOLEAN have none. Special values are those of integers."
     BAD_BASE_TYPE Error "OD0409" "a type that cannot carry values or bits":
         "Enums and bit fields are carried by an INTEGERn or UNSIGNEDn type."
     OVERLAPPING_BITS Error "OD0410" "overlapping bits":

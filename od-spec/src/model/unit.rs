@@ -75,6 +75,12 @@ impl Unit {
         quantity.checked_sub(self.offset_in(symbol)?)?.checked_div(self.step_in(symbol)?)
     }
 
+    /// A raw value that need not be whole in [`symbol`](Self::symbol), if a decimal writes it.
+    pub fn decimal(&self, raw: Ratio) -> Option<String> {
+        let value = raw.checked_mul(self.scale)?.checked_add(self.offset)?;
+        value.to_decimal(value.decimal_places()?.max(1))
+    }
+
     /// Whether a raw value is the number of symbols that it stands for.
     pub fn is_plain(&self) -> bool {
         self.scale == Ratio::ONE && self.offset == Ratio::ZERO
@@ -103,14 +109,15 @@ impl Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{FileId, Statement};
-    use crate::source::Span;
+    use crate::source::SourceMap;
 
     fn ratio(numerator: i128, denominator: i128) -> Ratio {
         Ratio::new(numerator, denominator).unwrap()
     }
 
     fn unit(scale: Ratio, offset: Ratio) -> Unit {
+        let mut sources = SourceMap::new();
+        let file = sources.add("unit.od.yaml", "");
         Unit {
             name: "unit".to_owned(),
             symbol: "mV".to_owned(),
@@ -119,7 +126,7 @@ mod tests {
             base: Some(Base { symbol: "V".to_owned(), factor: ratio(1, 1000) }),
             formula: None,
             about: Text::default(),
-            stated: Statement::written(Span::default(), FileId::default()),
+            stated: Statement::derived(sources.whole(file)),
         }
     }
 

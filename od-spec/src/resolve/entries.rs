@@ -9,8 +9,8 @@ use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, NamedType, PdoMapping, SpecialValue,
-    Storage, SubIndex, TypeKind,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, Family, NamedType, PdoMapping,
+    RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
 };
 use crate::source::{FileId, Spanned};
 
@@ -83,8 +83,12 @@ pub(super) fn resolve(
         locked,
         pdo: decl.pdo.map_or(PdoMapping::None, |pdo| pdo.value),
         default,
-        low,
-        high,
+        low: low.as_ref().and_then(Value::integer),
+        high: high.as_ref().and_then(Value::integer),
+        real_limits: RealLimits {
+            low: low.as_ref().and_then(Value::real).cloned(),
+            high: high.as_ref().and_then(Value::real).cloned(),
+        },
         special,
         stored,
         alias: None,
@@ -234,28 +238,29 @@ fn limits(
     decl: &EntryDecl,
     expected: Expected<'_>,
     diagnostics: &mut Diagnostics,
-) -> (Option<i128>, Option<i128>) {
+) -> (Option<Value>, Option<Value>) {
     let mut limit = |text: Option<&Name>| {
         let text = text?;
-        if !expected.data_type.is_integer() {
+        if !expected.data_type.is_integer() && expected.data_type.family() != Family::Real {
             diagnostics.push(
                 Diagnostic::new(
                     codes::LIMIT_ON_TYPE,
                     text.span,
                     format!("{} has no limits", expected.data_type),
                 )
-                .help("remove the limit; only integers have limits"),
+                .help("remove the limit; only numbers have limits"),
             );
             return None;
         }
         let value = values::read_into(Some(text), expected, diagnostics)?;
-        if value.integer().is_none() {
+        if matches!(value, Value::NodeId(_)) {
             diagnostics.push(
                 Diagnostic::new(codes::BAD_VALUE, text.span, "a limit cannot depend on the node-ID")
                     .help("write a number"),
             );
+            return None;
         }
-        value.integer()
+        Some(value)
     };
     (limit(decl.min.as_ref()), limit(decl.max.as_ref()))
 }

@@ -39,10 +39,13 @@ pub(crate) fn read(
         },
         DataType::Real32 | DataType::Real64 => match Real::read(text, expected.data_type) {
             Some(real) => Ok(Value::Real(real)),
-            None => refuse(
-                format!("found `{}`, expected a finite number", shown()),
-                "write a decimal number such as `0.5`",
-            ),
+            None => match split_physical(text).filter(|(_, symbol)| is_symbol(symbol)) {
+                Some((number, symbol)) => real(number, symbol, span, expected).map(Value::Real),
+                None => refuse(
+                    format!("found `{}`, expected a finite number", shown()),
+                    "write a decimal number such as `0.5`",
+                ),
+            },
         },
         DataType::VisibleString if text.bytes().all(|byte| (0x20..=0x7E).contains(&byte)) => {
             Ok(Value::Text(text.to_owned()))
@@ -207,7 +210,62 @@ fn split_physical(text: &str) -> Option<(Ratio, &str)> {
     Some((number, text[end..].trim())).filter(|(_, symbol)| !symbol.is_empty())
 }
 
+/// Whether what follows a number is neither its exponent, `e400`, nor a divisor.
+fn is_symbol(text: &str) -> bool {
+    let digits = text.strip_prefix(['e', 'E']).map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
+    let is_exponent = digits.is_some_and(|digits| digits.starts_with(|first: char| first.is_ascii_digit()));
+    !is_exponent && !text.starts_with('/')
+}
+
+/// The number of a REAL that a physical value is.
+fn real(number: Ratio, symbol: &str, span: Span, expected: Expected<'_>) -> Result<Real, Box<Diagnostic>> {
+    let Steps { steps, .. } = steps(number, symbol, span, expected.unit)?;
+    Real::of_ratio(steps, expected.data_type).ok_or_else(|| Box::new(too_large(span)))
+}
+
+fn too_large(span: Span) -> Diagnostic {
+    Diagnostic::new(rule_codes::VALUE_DOES_NOT_FIT, span, "the value is too large to be computed exactly")
+        .help("correct the value")
+}
+
+/// The whole number of raw steps that a physical value is.
 fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Result<i128, Box<Diagnostic>> {
+    let Steps { unit, step, offset, steps } = steps(number, symbol, span, unit)?;
+    steps.to_whole().ok_or_else(|| {
+        let below = steps.floor();
+        Box::new(
+            Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
+                .label(if offset == Ratio::ZERO {
+                    format!("{steps} steps of {step} {symbol}")
+                } else {
+                    format!("{steps} steps of {step} {symbol} from {offset} {symbol}")
+                })
+                .help(format!(
+                    "write {} (raw {below}) or {} (raw {}), or a raw value",
+                    unit.show(below),
+                    unit.show(below + 1),
+                    below + 1
+                )),
+        )
+    })
+}
+
+/// A physical value in raw steps.
+struct Steps<'a> {
+    unit: &'a Unit,
+    /// One step, and where they count from, in the symbol of the value.
+    step: Ratio,
+    offset: Ratio,
+    /// How many, which need not be a whole number.
+    steps: Ratio,
+}
+
+fn steps<'a>(
+    number: Ratio,
+    symbol: &str,
+    span: Span,
+    unit: Option<&'a Unit>,
+) -> Result<Steps<'a>, Box<Diagnostic>> {
     let Some(unit) = unit else {
         return Err(Box::new(
             Diagnostic::new(
@@ -237,33 +295,10 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
             .help(format!("write the value in `{}`{known}", unit.symbol)),
         ));
     };
-    let steps = unit.steps(number, symbol).ok_or_else(|| {
-        Box::new(
-            Diagnostic::new(
-                rule_codes::VALUE_DOES_NOT_FIT,
-                span,
-                "the value is too large to be computed exactly",
-            )
-            .help("correct the value"),
-        )
-    })?;
-    steps.to_whole().ok_or_else(|| {
-        let below = steps.floor();
-        Box::new(
-            Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
-                .label(if offset == Ratio::ZERO {
-                    format!("{steps} steps of {step} {symbol}")
-                } else {
-                    format!("{steps} steps of {step} {symbol} from {offset} {symbol}")
-                })
-                .help(format!(
-                    "write {} (raw {below}) or {} (raw {}), or a raw value",
-                    unit.show(below),
-                    unit.show(below + 1),
-                    below + 1
-                )),
-        )
-    })
+    match unit.steps(number, symbol) {
+        Some(steps) => Ok(Steps { unit, step, offset, steps }),
+        None => Err(Box::new(too_large(span))),
+    }
 }
 
 /// Reads a value and sends what is wrong to `diagnostics`.

@@ -126,11 +126,16 @@ impl Wording {
 
     /// The same with the raw value behind it, where that is another number and the reader has to send it: `50.0 °C (500)`.
     pub(super) fn physical_and_raw(self, unit: &Unit, raw: i128) -> String {
-        let physical = self.physical(unit, raw);
+        self.with_raw(unit, &self.decimal(&unit.amount(raw)), &raw.to_string())
+    }
+
+    /// An amount with its symbol, and the raw value where that is another number and the reader has to send it.
+    pub(super) fn with_raw(self, unit: &Unit, amount: &str, raw: &str) -> String {
+        let symbol = &unit.symbol;
         match self.notation {
-            Notation::Eds | Notation::Manual if !unit.is_plain() => format!("{physical} ({raw})"),
+            Notation::Eds | Notation::Manual if !unit.is_plain() => format!("{amount} {symbol} ({raw})"),
             Notation::Eds | Notation::Manual | Notation::Rust | Notation::Json | Notation::Diagnostic => {
-                physical
+                format!("{amount} {symbol}")
             }
         }
     }
