@@ -233,3 +233,13 @@ fn settings_are_written_as_they_are_measured() {
         assert!(set(text).is_err_and(|said| said.starts_with(code)), "{text}: {:?}", set(text));
     }
 }
+
+#[test]
+fn times_of_pdos_become_raw_ones() {
+    let system = compile_clean("tests/ui/ok_times.od.yaml").unwrap();
+    let device = &system.devices[0];
+    let times = device.pdos.iter().map(|pdo| (pdo.inhibit_time, pdo.event_timer)).collect::<Vec<_>>();
+    let expected = [(None, Some(100)), (Some(100), Some(100)), (Some(5), Some(20)), (Some(100), Some(250))];
+    assert_eq!(times, expected, "in 100 µs and in ms");
+    assert_eq!(device.entry(id(0x1017)).unwrap().default, Some(Value::Integer(1000)));
+}

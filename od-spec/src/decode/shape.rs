@@ -223,6 +223,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Ratio => "a fraction such as `1/10`",
         Shape::SignedRatio => "a number such as `-40` or `-273.15`, in the unit's symbol",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",
+        Shape::Time => "a time such as `10 ms`",
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
         Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",

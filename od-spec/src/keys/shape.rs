@@ -61,6 +61,8 @@ pub enum Shape {
     SignedRatio,
     /// A fraction and a symbol: `1/1000 V`.
     Base,
+    /// A time in steps of its key, 0 to 65535, or with its unit: `10 ms`.
+    Time,
     /// A condition between entries.
     Condition,
     /// A term of a condition: `0x6092.1 / 0x6092.2`.

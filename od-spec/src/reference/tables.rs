@@ -93,6 +93,7 @@ fn value(shape: Shape) -> String {
         Shape::Ratio => "fraction".to_owned(),
         Shape::SignedRatio => "fraction, which may be negative".to_owned(),
         Shape::Base => "fraction and symbol".to_owned(),
+        Shape::Time => "time".to_owned(),
         Shape::Condition => "condition".to_owned(),
         Shape::Formula => "formula".to_owned(),
         Shape::Pattern => "bit pattern".to_owned(),

@@ -16,6 +16,7 @@ mod numbers;
 mod objects;
 mod pdo_objects;
 mod pdo_parameters;
+mod pdo_times;
 mod pdos;
 mod places;
 mod refs;

@@ -219,8 +219,8 @@ fn is_symbol(text: &str) -> bool {
 
 /// The number of a REAL that a physical value is.
 fn real(number: Ratio, symbol: &str, span: Span, expected: Expected<'_>) -> Result<Real, Box<Diagnostic>> {
-    let Steps { steps, .. } = steps(number, symbol, span, expected.unit)?;
-    Real::of_ratio(steps, expected.data_type).ok_or_else(|| Box::new(too_large(span)))
+    let Steps { count, .. } = steps(number, symbol, span, expected.unit)?;
+    Real::of_ratio(count, expected.data_type).ok_or_else(|| Box::new(too_large(span)))
 }
 
 fn too_large(span: Span) -> Diagnostic {
@@ -230,15 +230,15 @@ fn too_large(span: Span) -> Diagnostic {
 
 /// The whole number of raw steps that a physical value is.
 fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Result<i128, Box<Diagnostic>> {
-    let Steps { unit, step, offset, steps } = steps(number, symbol, span, unit)?;
-    steps.to_whole().ok_or_else(|| {
-        let below = steps.floor();
+    let Steps { unit, step, offset, count } = steps(number, symbol, span, unit)?;
+    count.to_whole().ok_or_else(|| {
+        let below = count.floor();
         Box::new(
             Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
                 .label(if offset == Ratio::ZERO {
-                    format!("{steps} steps of {step} {symbol}")
+                    format!("{count} steps of {step} {symbol}")
                 } else {
-                    format!("{steps} steps of {step} {symbol} from {offset} {symbol}")
+                    format!("{count} steps of {step} {symbol} from {offset} {symbol}")
                 })
                 .help(format!(
                     "write {} (raw {below}) or {} (raw {}), or a raw value",
@@ -257,7 +257,7 @@ struct Steps<'a> {
     step: Ratio,
     offset: Ratio,
     /// How many, which need not be a whole number.
-    steps: Ratio,
+    count: Ratio,
 }
 
 fn steps<'a>(
@@ -296,7 +296,7 @@ fn steps<'a>(
         ));
     };
     match unit.steps(number, symbol) {
-        Some(steps) => Ok(Steps { unit, step, offset, steps }),
+        Some(count) => Ok(Steps { unit, step, offset, count }),
         None => Err(Box::new(too_large(span))),
     }
 }
