@@ -287,6 +287,7 @@ const SCALARS: &[Shape] = &[
     Shape::Access,
     Shape::Type,
     Shape::Value,
+    Shape::Default,
     Shape::Ratio,
     Shape::SignedRatio,
     Shape::Base,
@@ -315,6 +316,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Access => "access",
         Shape::Type => "type-name",
         Shape::Value => "value",
+        Shape::Default => "default",
         Shape::Ratio => "fraction",
         Shape::SignedRatio => "signed-fraction",
         Shape::Base => "fraction-and-symbol",
@@ -363,6 +365,14 @@ fn scalar(shape: Shape) -> Json {
             pattern(&["string"], format!("^({})\\s* locked$", writable_words().join("|"))),
         ]),
         Shape::Type => any_of([object([("enum", texts(DataType::ALL.map(DataType::name)))]), any_text()]),
+        Shape::Default => any_of([
+            any_text(),
+            object([
+                ("type", text("array")),
+                ("items", any_of([schema(Shape::Text), one_field(schema(Shape::Value))])),
+                ("minItems", Json::Number(1)),
+            ]),
+        ]),
         Shape::Ratio => object([
             ("type", texts(["number", "string"])),
             ("exclusiveMinimum", Json::Number(0)),
@@ -380,6 +390,16 @@ fn scalar(shape: Shape) -> Json {
         Shape::NumberedName(of) => pattern(&["string", "number", "boolean"], numbered_name(of)),
         _ => any_text(),
     }
+}
+
+/// A map with one key, whatever that is.
+fn one_field(value: Json) -> Json {
+    object([
+        ("type", text("object")),
+        ("additionalProperties", value),
+        ("minProperties", Json::Number(1)),
+        ("maxProperties", Json::Number(1)),
+    ])
 }
 
 /// A regular expression for names with placeholders.

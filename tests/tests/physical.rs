@@ -243,3 +243,18 @@ fn times_of_pdos_become_raw_ones() {
     assert_eq!(times, expected, "in 100 µs and in ms");
     assert_eq!(device.entry(id(0x1017)).unwrap().default, Some(Value::Integer(1000)));
 }
+
+#[test]
+fn bits_by_name_become_raw_values() {
+    let system = compile_clean("tests/ui/ok_bits_of_default.od.yaml").unwrap();
+    let raw = |index, sub| {
+        let entry = system.devices[0].entry(EntryId { index: Index(index), sub: SubIndex(sub) }).unwrap();
+        entry.default.as_ref().unwrap().integer().unwrap()
+    };
+    assert_eq!(raw(0x2000, 0), 0b11);
+    assert_eq!(raw(0x2001, 0), i128::from(0x8010_u16.cast_signed()), "the sign of an INTEGER16");
+    assert_eq!(raw(0x2002, 0), 0x0151);
+    assert_eq!([raw(0x2003, 1), raw(0x2003, 2)], [1, -0x8000]);
+    let eds = od_gen::eds::write_eds(&system, &system.devices[0]);
+    assert!(String::from_utf8(eds).unwrap().contains("DefaultValue=-32752\r\n"));
+}

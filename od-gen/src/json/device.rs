@@ -221,8 +221,8 @@ struct EdsView {
     flags: u32,
 }
 
-fn real(limit: &Option<Real>) -> Option<Json> {
-    limit.as_ref().map(|limit| json!(limit.number()))
+fn real(limit: Option<&Real>) -> Option<Json> {
+    limit.map(|limit| json!(limit.number()))
 }
 
 fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
@@ -237,8 +237,8 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
         locked: entry.locked,
         pdo: WORDING.mapping(entry.pdo),
         default: entry.default.as_ref().map(|default| value(place, entry, default)),
-        low: low.map(integer).or_else(|| real(&entry.real_limits.low)),
-        high: high.map(integer).or_else(|| real(&entry.real_limits.high)),
+        low: low.map(integer).or_else(|| real(entry.real_limits.low.as_ref())),
+        high: high.map(integer).or_else(|| real(entry.real_limits.high.as_ref())),
         min: entry.low.filter(|min| low != Some(*min)).map(integer),
         max: entry.high.filter(|max| high != Some(*max)).map(integer),
         unit: entry.unit.as_ref().map(|unit| unit.name.as_str()),

@@ -82,6 +82,33 @@ macro_rules! entry_decl {
 }
 entry_keys!(entry_decl);
 
+/// A default.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum DefaultDecl {
+    /// A number, a name or a text.
+    Value(String),
+    /// The fields of a bit field that are not 0.
+    Bits(Vec<SetBits>),
+}
+
+impl DefaultDecl {
+    /// The text of what is no list.
+    pub(crate) fn text(&self) -> Option<&str> {
+        match self {
+            Self::Value(text) => Some(text),
+            Self::Bits(_) => None,
+        }
+    }
+}
+
+/// A field of a bit field with a value.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SetBits {
+    pub name: Name,
+    /// Its value; 1 where none is written.
+    pub value: Option<Name>,
+}
+
 /// A raw value with a meaning of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SpecialDecl {

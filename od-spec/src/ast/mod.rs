@@ -16,7 +16,7 @@ use crate::model::{
 };
 use crate::source::{FileId, Span, Spanned};
 
-pub(crate) use entry::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+pub(crate) use entry::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SetBits, SpecialDecl};
 pub(crate) use pdos::{
     MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };

@@ -2,13 +2,14 @@
 
 use super::lexical;
 use super::numbered::by_integer;
-use super::read::{Field, FromNode, Reader};
-use crate::ast::{BitErrorDecl, EdsDecl, EntryDecl, SpecialDecl};
+use super::read::{Field, FromNode, Reader, owned};
+use crate::ast::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SetBits, SpecialDecl};
 use crate::diag::Diagnostics;
 use crate::keys::{Keys, entry_keys};
 use crate::model::Access;
 use crate::scalar;
 use crate::source::{Span, Spanned};
+use crate::yaml::NodeKind;
 
 macro_rules! entry_reader {
     ($($group:ident {
@@ -111,5 +112,24 @@ mod tests {
         assert_eq!(inherited, ["type", "unit", "access", "pdo", "stored", "writable-when", "eds"]);
         let about_one_value: Vec<&str> = decl.about_one_value().map(|key| key.value).collect();
         assert_eq!(about_one_value, ["default", "min", "max", "special", "bit-errors", "capacity"]);
+    }
+}
+
+/// A value, or the bits that are 1.
+impl FromNode for DefaultDecl {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        let NodeKind::List(items) = &reader.node.kind else {
+            return reader.scalar(|text| Some(Self::Value(text.to_owned()))).map(|value| value.value);
+        };
+        let bits: Vec<SetBits> = items.iter().filter_map(|item| set_bits(reader.at(item))).collect();
+        (bits.len() == items.len()).then_some(Self::Bits(bits))
+    }
+}
+
+fn set_bits(reader: Reader<'_>) -> Option<SetBits> {
+    let text = |reader: Reader<'_>| reader.scalar(|text| Some(text.to_owned()));
+    match reader.pairs().next() {
+        Some((name, value)) => Some(SetBits { name: owned(name), value: Some(text(value)?) }),
+        None => Some(SetBits { name: text(reader)?, value: None }),
     }
 }

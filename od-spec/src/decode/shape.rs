@@ -116,6 +116,19 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
             }
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
+        Shape::Default => match &node.kind {
+            NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one bit", diagnostics),
+            NodeKind::List(items) => {
+                for node in items {
+                    check_bit(node, diagnostics);
+                }
+            }
+            NodeKind::Scalar { .. } => {}
+            NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => {
+                let example = "a value, or the bits that are 1 as a list: `[enable, {mode: homing}]`";
+                wrong_kind_for(node, "a value", example, diagnostics);
+            }
+        },
         Shape::OneOrMore(item) => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
@@ -137,6 +150,28 @@ fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) 
             ),
             None => wrong_kind(node, expected(shape), diagnostics),
         },
+    }
+}
+
+/// A bit of a default: its name, or a map of one field and its value.
+fn check_bit(node: &Node, diagnostics: &mut Diagnostics) {
+    match node.entries() {
+        [] => match node.text() {
+            Some(text) => check_scalar(text, Shape::Text, diagnostics),
+            None => wrong_kind_for(
+                node,
+                "a bit",
+                "a bit by name, such as `enable`, or `{mode: homing}`",
+                diagnostics,
+            ),
+        },
+        [(name, value)] => check(value, Shape::Text, name.span, diagnostics),
+        [..] => wrong_kind_for(
+            node,
+            "one field and its value",
+            "each field as an element of the list: `[enable, {mode: homing}]`",
+            diagnostics,
+        ),
     }
 }
 
@@ -220,6 +255,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Access => "an access type such as `ro` or `rw locked`",
         Shape::Type => "a data type or the name of a type",
         Shape::Value => "a value",
+        Shape::Default => "a value, or a list of bits",
         Shape::Ratio => "a fraction such as `1/10`",
         Shape::SignedRatio => "a number such as `-40` or `-273.15`, in the unit's symbol",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",

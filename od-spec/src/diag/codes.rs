@@ -120,8 +120,8 @@ codes! {
         "Two fields of a bit field claim one bit."
     BITS_MISSING Error "OD0411" "bits without a meaning":
         "A bit field says something about every bit, and be it `reserved` or `unused`; otherwise a forgotten row of the manual would go unnoticed. `rest: reserved` covers what is not listed."
-    UNKNOWN_BIT Error "OD0413" "errors of a bit that does not exist":
-        "`bit-errors:` names bits of the entry's bit field type."
+    UNKNOWN_BIT Error "OD0413" "a bit that does not exist":
+        "`bit-errors:` and a `default:` that is a list name bits of the entry's bit field type."
     BAD_ALIAS Error "OD0418" "an alias that cannot show its target":
         "An alias is a second view of an integer entry: in a narrower type of the same sign, or in another unit of the same base."
     ALIAS_OF_ALIAS Error "OD0419" "an alias of an alias":

@@ -26,7 +26,7 @@ macro_rules! entry_keys {
                 "unit": Shape::Text => unit: String, Unit, Entries, "physical unit, by name", "decicelsius";
                 "access": Shape::Access => access: AccessRight, Access, Entries, "`ro`, `wo`, `rw`, `rwr`, `rww` or `const`; `rw locked`: writable only when unlocked for service", "rw locked", sub0 "access; `ro` unless given";
                 "pdo": Shape::Choice(PdoMapping::WORDS) => pdo: PdoMapping, Mapping, Entries, "PDOs it may be mapped into; none unless given", sub0 "PDOs it may be mapped into; none unless given";
-                "default": Shape::Value => default: String, Default, Value, "value after factory reset", "50.0 °C", sub0 "value; the highest sub-index unless given";
+                "default": Shape::Default => default: DefaultDecl, Default, Value, "value after factory reset; of a bit field also the bits that are 1, by name", "50.0 °C", sub0 "value; the highest sub-index unless given";
                 "min": Shape::Value => min: String, LowLimit, Value, "smallest allowed value", "-40.0 °C", sub0 "smallest allowed value";
                 "max": Shape::Value => max: String, HighLimit, Value, "largest allowed value", "85.0 °C", sub0 "largest allowed value";
                 "special": Shape::MapOf(KeyKind::Integer, &SPECIAL_VALUE) => special: Vec<SpecialDecl>, Special, Value, "raw values with a meaning of their own, allowed even outside the limits", "{-32768: short circuit, 32767: wire break}";

@@ -55,6 +55,8 @@ pub enum Shape {
     Type,
     /// A value of an entry: number, physical value, enum name, text or `$NODEID` formula.
     Value,
+    /// A value, or the bits of a bit field that are 1: `[enable, {mode: homing}]`.
+    Default,
     /// A fraction: `1/10`.
     Ratio,
     /// A fraction that may be negative or 0: `-40`.

@@ -90,6 +90,7 @@ fn value(shape: Shape) -> String {
         Shape::Access => "access".to_owned(),
         Shape::Type => "type".to_owned(),
         Shape::Value => "value".to_owned(),
+        Shape::Default => "value, or list of bits".to_owned(),
         Shape::Ratio => "fraction".to_owned(),
         Shape::SignedRatio => "fraction, which may be negative".to_owned(),
         Shape::Base => "fraction and symbol".to_owned(),

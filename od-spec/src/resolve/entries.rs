@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::bit_values;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
+use crate::ast::{BitErrorDecl, BitRange, DefaultDecl, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -73,7 +74,7 @@ pub(super) fn resolve(
     let readable = decl.unit.is_some() == unit.is_some();
     let (low, high) = if readable { limits(decl, expected, diagnostics) } else { (None, None) };
     let default = decl.default.as_ref().filter(|_| readable);
-    let default = values::read_into(default, expected, diagnostics);
+    let default = default.and_then(|default| read_default(default, expected, diagnostics));
     let stored = decl.stored.map_or(Storage::No, |stored| stored.value);
     let entry = Entry {
         sub,
@@ -116,6 +117,20 @@ pub(super) fn resolve(
         );
     }
     Some(Entry { eds: eds_policy(&entry, decl, around.eds), ..entry })
+}
+
+fn read_default(
+    default: &Spanned<DefaultDecl>,
+    expected: Expected<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Value> {
+    match &default.value {
+        DefaultDecl::Value(text) => {
+            let text = Spanned::new(text.clone(), default.span);
+            values::read_into(Some(&text), expected, diagnostics)
+        }
+        DefaultDecl::Bits(bits) => bit_values::read(bits, default.span, expected, diagnostics),
+    }
 }
 
 fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics) -> Option<u16> {

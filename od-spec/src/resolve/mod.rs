@@ -2,6 +2,7 @@
 
 mod aliases;
 mod assigned;
+mod bit_values;
 mod constraints;
 mod decls;
 mod device_info;

@@ -135,6 +135,9 @@ fn integer(
                         format!("found `{}`, expected a value of type {}", shown(), expected.data_type),
                     )
                     .help(match expected.unit {
+                        _ if is_bit(text, expected.named) => {
+                            format!("write the bits that are 1 as a list: `[{}]`", shown())
+                        }
                         Some(unit) => {
                             format!("write a raw number, or a physical value such as `{}`", unit.show(10))
                         }
@@ -165,8 +168,16 @@ fn integer(
     Ok(Value::Integer(raw))
 }
 
+/// Whether a text is the name of a bit.
+fn is_bit(text: &str, named: Option<&NamedType>) -> bool {
+    match named.map(|named| &named.kind) {
+        Some(TypeKind::Bits(fields)) => fields.iter().any(|field| field.name == text),
+        Some(TypeKind::Enum(_)) | None => false,
+    }
+}
+
 /// The first names of an enum, in backticks.
-fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+pub(super) fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     const MOST: usize = 10;
     let mut names: Vec<String> = names.take(MOST + 1).map(|name| format!("`{}`", shorten(name))).collect();
     if names.len() > MOST {

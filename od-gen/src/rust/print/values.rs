@@ -49,7 +49,7 @@ impl Plan<'_> {
         let constants: Vec<_> = self
             .stated()
             .filter(|entry| entry.entry.is_limited())
-            .filter_map(|entry| {
+            .map(|entry| {
                 let kind = ValueKind { special: None, ..entry.kind.clone() };
                 let end = |limit: &Value| {
                     let literal = values.literal_of(&kind, limit).unwrap_or_else(|| quote!(0));
@@ -68,7 +68,7 @@ impl Plan<'_> {
                 let value_type = values.value_type(&kind, &root);
                 let about = doc(&format!("Of `{}`.", entry.id));
                 let name = format_ident!("{}", entry.name.to_uppercase());
-                Some(quote!(#about pub const #name: RangeInclusive<#value_type> = #low..=#high;))
+                quote!(#about pub const #name: RangeInclusive<#value_type> = #low..=#high;)
             })
             .collect();
         if constants.is_empty() {

@@ -7,7 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use super::made;
-use crate::ast::{BitDecl, BitRange, EdsDecl, EntryDecl, Offset, SpecialDecl, TypeDecl, UnitDecl, ValueDecl};
+use crate::ast::{
+    BitDecl, BitRange, DefaultDecl, EdsDecl, EntryDecl, Offset, SpecialDecl, TypeDecl, UnitDecl, ValueDecl,
+};
 use crate::eds::number::{formula, lenient_integer};
 use crate::eds::owner::is_code;
 use crate::eds::view::Part;
@@ -126,7 +128,7 @@ impl Meanings {
         if names.len() < values.len() || values.keys().any(|value| !(low..=high).contains(value)) {
             return entry;
         }
-        let default = entry.default.as_ref().and_then(|text| scalar::integer(&text.value).ok());
+        let default = entry.default.as_ref().and_then(|default| scalar::integer(default.value.text()?).ok());
         let is_enum = entry.min.is_none()
             && entry.max.is_none()
             && entry.unit.is_none()
@@ -342,14 +344,18 @@ fn withheld(entry: EntryDecl, text: &str, data_type: DataType, place: Span) -> E
     };
     let eds = Some(Spanned::new(eds, place));
     if formula(text).is_some() && data_type.is_integer() {
-        return EntryDecl { default: Some(made(text, place)), eds, ..entry };
+        return EntryDecl {
+            default: Some(Spanned::new(DefaultDecl::Value(text.to_owned()), place)),
+            eds,
+            ..entry
+        };
     }
     let in_brackets = text.rsplit_once('(').and_then(|(_, rest)| rest.strip_suffix(')'));
     let first = text.split([' ', ':']).next().unwrap_or_default();
     let raw = in_brackets.and_then(lenient_integer).or_else(|| lenient_integer(first));
     let (low, high) = data_type.range().unwrap_or((0, -1));
     let Some(raw) = raw.filter(|raw| (low..=high).contains(raw)) else { return entry };
-    EntryDecl { default: Some(made(raw.to_string(), place)), eds, ..entry }
+    EntryDecl { default: Some(Spanned::new(DefaultDecl::Value(raw.to_string()), place)), eds, ..entry }
 }
 
 /// A bit field of bits with names; `None` where they are not those of one.

@@ -79,9 +79,9 @@ fn file(view: &View<'_>) -> FileDecl {
 /// The default of 1000h, as far as it is a plain number.
 fn device_type(objects: &[ObjectDecl]) -> Option<Spanned<i128>> {
     let object = objects.iter().find(|object| object.index.value == Index(0x1000))?;
-    let text = object.entry.default.as_ref()?;
-    let number = crate::scalar::integer(&text.value).ok()?;
-    (0..=0xFFFF_FFFF).contains(&number).then_some(Spanned::new(number, text.span))
+    let default = object.entry.default.as_ref()?;
+    let number = crate::scalar::integer(default.value.text()?).ok()?;
+    (0..=0xFFFF_FFFF).contains(&number).then_some(Spanned::new(number, default.span))
 }
 
 /// A key made from the name of a file: `Drive_V1.08.eds` gives `drive-v1-08`.

@@ -3,7 +3,7 @@
 use super::comments::Meanings;
 use super::node::NodeDecl;
 use super::{made, owned, value};
-use crate::ast::{EdsDecl, EntryDecl};
+use crate::ast::{DefaultDecl, EdsDecl, EntryDecl};
 use crate::diag::{Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
 use crate::eds::number;
@@ -74,7 +74,7 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
         type_name: Some(data_type.map(|data_type| data_type.name().to_owned())),
         access: Some(access.map(|access| AccessRight { access, locked: false })),
         pdo: mapping(part, id, access.value, context),
-        default,
+        default: default.map(|default| default.map(DefaultDecl::Value)),
         min,
         max,
         eds: flags(part, id, context),
@@ -236,7 +236,7 @@ pub(super) fn made_up(name: &str, data_type: DataType, access: Access, place: Sp
 /// A sub-index 0 that no section describes.
 pub(super) fn count_of(name: &str, count: u8, access: Access, place: Span) -> EntryDecl {
     EntryDecl {
-        default: Some(made(count.to_string(), place)),
+        default: Some(Spanned::new(DefaultDecl::Value(count.to_string()), place)),
         ..made_up(name, DataType::Unsigned8, access, place)
     }
 }

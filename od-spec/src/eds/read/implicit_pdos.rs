@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::entry;
 use super::made;
 use super::shape::{declaration, with_shape};
-use crate::ast::{EntryDecl, ObjectDecl};
+use crate::ast::{DefaultDecl, EntryDecl, ObjectDecl};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -66,7 +66,7 @@ fn communication(direction: Direction, at: u16, mask: i128, place: Span) -> Obje
     let highest = named.last().map_or(0, |(sub, ..)| *sub);
     let members = named.into_iter().map(|(sub, name, data_type)| {
         let entry = entry::made_up(&name, data_type, Access::Rw, place);
-        let default = (sub == 1).then(|| made(cob_id.clone(), place));
+        let default = (sub == 1).then(|| Spanned::new(DefaultDecl::Value(cob_id.clone()), place));
         (Spanned::new(SubIndex(sub), place), EntryDecl { default, ..entry })
     });
     let name = format!("{title} {} communication parameter", at + 1);
