@@ -148,7 +148,7 @@ pub fn show<Q: Quantity>(quantity: Q, f: &mut fmt::Formatter<'_>) -> fmt::Result
     let Fraction { numerator, denominator } = Q::SCALE;
     let SignedFraction { numerator: above, denominator: below } = Q::OFFSET;
     let raw = quantity.number();
-    let is_exact = |power: u64| power % denominator == 0 && power % below == 0;
+    let is_exact = |power: u64| power.is_multiple_of(denominator) && power.is_multiple_of(below);
     let places = (0u32..=12).find(|places| 10u64.checked_pow(*places).is_some_and(is_exact));
     let scaled = places.and_then(|places| {
         let power = 10u64.checked_pow(places)?;

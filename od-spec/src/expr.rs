@@ -1,7 +1,8 @@
 //! How conditions between entries are written: `0x30FC.2 < 0x30FC.1`, `bit(0x6041, 2) == 0`.
 //!
 //! ```text
-//! condition  = comparison { "and" comparison }
+//! condition  = both { "or" both }
+//! both       = comparison { "and" comparison }
 //! comparison = sum op sum { op sum }            op = "<" | "<=" | "==" | "!=" | ">=" | ">"
 //! sum        = product { ("+" | "-") product }
 //! product    = factor { ("*" | "/") factor }
@@ -40,15 +41,15 @@ impl Expr {
     /// What cannot be read: the place in `text`, what was found there and what was expected.
     pub fn parse(text: &str) -> Parsed<Expr> {
         let mut parser = Parser { text, at: 0, depth: 0, terms: 0, places: Vec::new() };
-        let mut comparisons = vec![parser.comparison()?];
-        while parser.word("and") {
-            comparisons.push(parser.comparison()?);
+        let mut alternatives = vec![parser.both()?];
+        while parser.word("or") {
+            alternatives.push(parser.both()?);
         }
         parser.blank();
         if parser.at < text.len() {
-            return Err(parser.unexpected("`and` or the end"));
+            return Err(parser.unexpected("`and`, `or` or the end"));
         }
-        Ok(Expr { text: text.to_owned(), comparisons, places: parser.places })
+        Ok(Expr { text: text.to_owned(), alternatives, places: parser.places })
     }
 
     /// Reads a term alone, such as `0x6092.1 / 0x6092.2`: a condition that compares it with nothing.
@@ -62,8 +63,8 @@ impl Expr {
         if parser.at < text.len() {
             return Err(parser.unexpected("an operator or the end"));
         }
-        let comparisons = vec![Comparison { first, rest: Vec::new() }];
-        Ok(Expr { text: text.to_owned(), comparisons, places: parser.places })
+        let alternatives = vec![vec![Comparison { first, rest: Vec::new() }]];
+        Ok(Expr { text: text.to_owned(), alternatives, places: parser.places })
     }
 }
 
@@ -131,6 +132,15 @@ impl<'a> Parser<'a> {
     fn unexpected_from(&mut self, start: usize, expected: &str) -> ConditionError {
         self.at = start;
         self.unexpected(expected)
+    }
+
+    /// Comparisons that all have to hold.
+    fn both(&mut self) -> Parsed<Vec<Comparison>> {
+        let mut comparisons = vec![self.comparison()?];
+        while self.word("and") {
+            comparisons.push(self.comparison()?);
+        }
+        Ok(comparisons)
     }
 
     fn comparison(&mut self) -> Parsed<Comparison> {
@@ -325,6 +335,20 @@ mod tests {
     }
 
     #[test]
+    fn one_of_several_has_to_hold() {
+        for text in ["1 < 0 or 0x1000.1 == 10", "1 < 2 and 2 < 1 or 3 < 4 and 4 < 5", "0x3000 < 1 or 1 < 2"] {
+            assert_eq!(outcome(text), Outcome::Holds, "{text}");
+        }
+        // `and` binds more strongly: brackets are those of terms alone.
+        assert!(
+            matches!(outcome("1 < 2 and 2 < 1 or 4 < 3"), Outcome::Fails { right: (_, value), .. } if value == Ratio::ONE)
+        );
+        assert_eq!(outcome("2 < 1 or 0x3000 < 1"), Outcome::Unknown);
+        assert_eq!(outcome("0x3000 < 1 and 2 < 1 or 1 / 0 < 1"), Outcome::Unknown);
+        assert!(matches!(outcome("0x3000 < 1 and 2 < 1 or 4 < 3"), Outcome::Fails { .. }));
+    }
+
+    #[test]
     fn mistakes_have_a_place() {
         for (text, start, expected) in [
             ("0x1000", 6, "a comparison"),
@@ -332,7 +356,8 @@ mod tests {
             ("0x1000 < controlword", 9, "an entry by index"),
             ("0x10000 < 1", 0, "at most four"),
             ("(0x1000 < 1", 8, "`)`"),
-            ("1 < 2 or", 6, "`and`"),
+            ("1 < 2 xor", 6, "`and`, `or`"),
+            ("1 < 2 or", 8, "a number"),
             ("bit(0x1000) == 1", 10, "`,`"),
             ("bit(0x1000, 64) == 1", 12, "below 64"),
         ] {

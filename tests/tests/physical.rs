@@ -140,6 +140,10 @@ fn documents_show_what_is_measured() {
     ] {
         assert!(english.contains(text), "{text}: {english}");
     }
+    assert!(
+        english.contains("> 50 °C and supply") && english.contains("10 V or bit 7 of heater"),
+        "{english}"
+    );
     let german = page("de");
     assert!(german.contains("0,1 °C ab -273,15 °C") && german.contains("20,05 °C (2932)"), "{german}");
 }
@@ -204,6 +208,33 @@ fn generated_code_converts_and_shows() {
     assert!(od.broken_constraint().is_none());
     od.set_cell_temperature(CelsiusAbove40(61));
     assert!(od.broken_constraint().is_some(), "21 °C is not below 20.05 °C");
+}
+
+#[test]
+fn one_of_two_conditions_is_enough() {
+    let mut od = Pack::new(1);
+    let mut fan = |cell: u8, supply: u8, heater: u8| {
+        od.set_cell_temperature(CelsiusAbove40(cell));
+        od.set_supply(Volt(supply));
+        od.set_heater(heater);
+        od.write(0x2015, 0, &[1], &mut ()).map(drop)
+    };
+    let refused = Err(AbortCode::DEVICE_STATE);
+    assert_eq!(fan(91, 11, 0), Ok(()), "51 °C and 11 V");
+    assert_eq!(fan(90, 11, 0), refused);
+    assert_eq!(fan(91, 10, 0), refused);
+    assert_eq!(fan(0, 0, 0x80), Ok(()), "bit 7");
+    // The fan is 1 by now, so that the other alternative counts, where it is asked for.
+    let mut breaks = |supply: u8, heater: u8, odd: u8| {
+        od.set_cell_temperature(CelsiusAbove40(0));
+        od.set_supply(Volt(supply));
+        od.set_heater(heater);
+        od.set_odd(Third(odd));
+        od.broken_constraint().map(|constraint| constraint.name)
+    };
+    let broken = Some("the fan or the heater");
+    assert_eq!([breaks(4, 1, 7), breaks(21, 1, 7), breaks(12, 1, 7)], [broken, broken, None]);
+    assert_eq!([breaks(4, 0, 7), breaks(4, 0, 0)], [None, broken], "both of an alternative");
 }
 
 #[test]

@@ -232,7 +232,7 @@ impl Pair<'_> {
 
     fn condition(&self) -> Option<Change> {
         let (before, after) = (self.old.writable_when.as_ref(), self.new.writable_when.as_ref());
-        let meaning = |condition: Option<&Expr>| condition.map(|one| one.comparisons.clone());
+        let meaning = |condition: Option<&Expr>| condition.map(|one| one.alternatives.clone());
         if meaning(before) == meaning(after) {
             return None;
         }

@@ -205,7 +205,7 @@ pub(super) fn unit(before: Option<&Unit>, after: Option<&Unit>) -> Consequences 
     };
     let meaning =
         |unit: &Unit| (unit.base_symbol().to_owned(), unit.step(), unit.offset_in(unit.base_symbol()));
-    let formula = |unit: &Unit| unit.formula.as_ref().map(|formula| formula.comparisons.clone());
+    let formula = |unit: &Unit| unit.formula.as_ref().map(|formula| formula.alternatives.clone());
     if meaning(before) == meaning(after) && formula(before) == formula(after) {
         return one(Class::Documents, "one raw step is worth the same");
     }

@@ -6,11 +6,11 @@
 use od_spec::expr::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Term};
 use od_spec::model::{Dictionary, EntryId, Ratio};
 
-/// A condition: all comparisons hold.
+/// A condition: of one alternative, all comparisons hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Condition {
     pub text: String,
-    pub comparisons: Vec<Compare>,
+    pub alternatives: Vec<Vec<Compare>>,
     /// Whether 64 bits are enough.
     pub narrow: bool,
 }
@@ -73,25 +73,31 @@ struct Fraction {
     scale: Ratio,
 }
 
-/// Turns a condition into comparisons of a device's own entries; links that name entries of other devices are left out.
+/// Turns a condition into comparisons of a device's own entries; links that name entries of other devices are left out, and count
+/// as met.
 pub(super) fn plan(condition: &Expr, device: &Dictionary) -> Result<Condition, Unusable> {
     let is_local = |term: &Term| own_entries_only(term, device);
-    let (mut comparisons, mut narrow) = (Vec::new(), true);
-    for Comparison { first, rest } in &condition.comparisons {
-        let mut left = first;
-        for (op, right) in rest {
-            if is_local(left) && is_local(right) {
-                let linked = link(left, *op, right, device).ok_or(Unusable::TooLarge)?;
-                narrow &= linked.bound <= i128::from(i64::MAX);
-                comparisons.push(linked.compare);
+    let (mut alternatives, mut narrow) = (Vec::new(), true);
+    for comparisons in &condition.alternatives {
+        let mut planned = Vec::new();
+        for Comparison { first, rest } in comparisons {
+            let mut left = first;
+            for (op, right) in rest {
+                if is_local(left) && is_local(right) {
+                    let linked = link(left, *op, right, device).ok_or(Unusable::TooLarge)?;
+                    narrow &= linked.bound <= i128::from(i64::MAX);
+                    planned.push(linked.compare);
+                }
+                left = right;
             }
-            left = right;
         }
+        alternatives.push(planned);
     }
-    if comparisons.is_empty() {
+    // What counts as met leaves nothing to be asked.
+    if alternatives.iter().any(Vec::is_empty) {
         return Err(Unusable::Elsewhere);
     }
-    Ok(Condition { text: condition.text.clone(), comparisons, narrow })
+    Ok(Condition { text: condition.text.clone(), alternatives, narrow })
 }
 
 fn own_entries_only(term: &Term, device: &Dictionary) -> bool {
@@ -266,7 +272,7 @@ objects:
   0x2004: {name: e, type: unsigned8, unit: above, access: rw}
 ";
 
-    const CONDITIONS: [&str; 16] = [
+    const CONDITIONS: [&str; 18] = [
         "0x2000 < 0x2001",
         "0x2000 <= 0x2001 < 0x2002",
         "0x2001 == 0x2002 and 0x2000 >= 0",
@@ -283,6 +289,8 @@ objects:
         "-5.0005 <= 0x2004 <= 0x2001 + 0x2004",
         "0x2004 * 0x2003 > 0x2001 / 0x2004",
         "0x2004 >= -0.0005",
+        "0x2000 < 0x2001 or 0x2003 == 0 and 0x2002 > 0 or bit(0x2004, 0) == 1",
+        "0x2001 > 0x2000 / 0x2003 or 0x2003 < 0",
     ];
 
     struct Raw<'a> {
@@ -338,11 +346,15 @@ objects:
                 let expr = Expr::parse(text).unwrap();
                 let planned = plan(&expr, &system.devices[0]).unwrap();
                 let mut most = 0;
-                let holds = planned.comparisons.iter().all(|compare| {
+                let mut link = |compare: &Compare| {
                     let mut value = |sum: &Sum| number(sum, &values, &mut most);
                     let (left, right) = (value(&compare.left), value(&compare.right));
                     compare.divisors.iter().any(|divisor| value(divisor) == 0) || compare.op.accepts(left.cmp(&right))
-                });
+                };
+                let mut holds = false;
+                for comparisons in &planned.alternatives {
+                    holds |= comparisons.iter().all(&mut link);
+                }
                 let expected = expr.evaluate(&Raw { system: &system, values: values.clone() });
                 prop_assert_eq!(holds, !matches!(expected, Outcome::Fails { .. }), "{} with {:?}", text, values);
                 prop_assert!(!planned.narrow || most <= i128::from(i64::MAX), "{}: {}", text, most);
@@ -357,11 +369,12 @@ objects:
         let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
         let planned = |text: &str| plan(&Expr::parse(text).unwrap(), &system.devices[0]);
         assert_eq!(planned("other:0x2000 < 0x2001"), Err(Unusable::Elsewhere));
-        assert_eq!(planned("other:0x2000 < 0x2001 < 0x2002").unwrap().comparisons.len(), 1);
+        assert_eq!(planned("other:0x2000 < 0x2001 < 0x2002").unwrap().alternatives[0].len(), 1);
+        assert_eq!(planned("other:0x2000 < 0x2001 or 0x2001 < 0x2002"), Err(Unusable::Elsewhere));
         let product = ["0x2002"; 5].join(" * ");
         assert_eq!(planned(&format!("{product} > 0")), Err(Unusable::TooLarge));
         // Reached only by the fifth power; the entry's own index counts.
         let id = EntryId { index: Index(0x2003), sub: SubIndex(0) };
-        assert_eq!(planned("0x2003 > 0").unwrap().comparisons[0].left, Sum::Entry(id));
+        assert_eq!(planned("0x2003 > 0").unwrap().alternatives[0][0].left, Sum::Entry(id));
     }
 }

@@ -160,7 +160,7 @@ fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics)
         let terms = comparison.rest.iter().map(|(_, term)| term).chain([&comparison.first]);
         terms.into_iter().any(Term::names_entry)
     };
-    if !condition.value.comparisons.iter().all(names_one) {
+    if !condition.value.comparisons().all(names_one) {
         diagnostics.push(
             Diagnostic::new(codes::BAD_NOTATION, condition.span, "a comparison names no entry, only numbers")
                 .help("write entries with `0x`, such as `0x607D.1`; without it, they are decimal numbers"),
@@ -190,7 +190,7 @@ fn check_units(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut
         let Term::Entry(entry) = term else { return None };
         devices.entry(entry)?.unit.clone().map(|unit| (term.to_string(), unit))
     };
-    for comparison in &condition.value.comparisons {
+    for comparison in condition.value.comparisons() {
         let mut left = unit(&comparison.first);
         for (_, term) in &comparison.rest {
             let right = unit(term);
