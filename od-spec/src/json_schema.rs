@@ -292,6 +292,7 @@ const SCALARS: &[Shape] = &[
     Shape::SignedRatio,
     Shape::Base,
     Shape::Time,
+    Shape::Numbers,
     Shape::Condition,
     Shape::Formula,
     Shape::Pattern,
@@ -321,6 +322,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::SignedRatio => "signed-fraction",
         Shape::Base => "fraction-and-symbol",
         Shape::Time => "time",
+        Shape::Numbers => "numbers",
         Shape::Condition => "condition",
         Shape::Formula => "formula",
         Shape::Pattern => "bit-pattern",
@@ -383,6 +385,10 @@ fn scalar(shape: Shape) -> Json {
         Shape::Time => any_of([
             integer(Some((0, 0xFFFF))),
             pattern(&["string"], "^[0-9]+(\\.[0-9]+)?\\s*(s|ms|us|µs)$".to_owned()),
+        ]),
+        Shape::Numbers => any_of([
+            integer(Some((0, 0xFF))),
+            pattern(&["string"], format!("^ *{0} *\\.\\. *{0} *$", unsigned(2, 3))),
         ]),
         Shape::Condition => pattern(&["string"], "[<=>]".to_owned()),
         Shape::Formula => pattern(&["string", "number"], "^[^<=>]+$".to_owned()),

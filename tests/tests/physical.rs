@@ -176,7 +176,7 @@ fn generated_code_converts_and_shows() {
         |od: &mut Pack, index, value: f32| od.write(index, 0, &value.to_le_bytes(), &mut ()).map(drop);
     let double =
         |od: &mut Pack, index, value: f64| od.write(index, 0, &value.to_le_bytes(), &mut ()).map(drop);
-    assert_eq!(od.ambient(), 20.5);
+    assert_eq!(od.ambient().to_bits(), 20.5f32.to_bits());
     for (value, expected) in [
         (-40.0, Ok(())),
         (-40.000_004, Err(AbortCode::TOO_LOW)),
@@ -235,6 +235,38 @@ fn one_of_two_conditions_is_enough() {
     let broken = Some("the fan or the heater");
     assert_eq!([breaks(4, 1, 7), breaks(21, 1, 7), breaks(12, 1, 7)], [broken, broken, None]);
     assert_eq!([breaks(4, 0, 7), breaks(4, 0, 0)], [None, broken], "both of an alternative");
+}
+
+#[test]
+fn names_in_conditions_stand_for_indices() {
+    let system = compile_clean("tests/ui/ok_conditions_by_name.od.yaml").unwrap();
+    let device = &system.devices[0];
+    let condition = |index, sub| {
+        let entry = device.entry(EntryId { index: Index(index), sub: SubIndex(sub) }).unwrap();
+        entry.writable_when.as_ref().unwrap().text.clone()
+    };
+    assert_eq!(condition(0x2004, 0), "0x2000 == 2 or 0x2000 == 1");
+    assert_eq!(condition(0x2005, 0), condition(0x2004, 0), "a view of it");
+    assert_eq!(condition(0x2006, 0), "bit(0x2001, 1) == 1 and lamp:0x2003 < 5");
+    assert_eq!([condition(0x2007, 1), condition(0x2007, 3)], ["0x2000 != 0", "0x2000 != 0"]);
+    let said = |constraint: &od_spec::model::Constraint| {
+        let when = constraint.when.as_ref().map_or_else(String::new, |when| format!(" when {}", when.text));
+        format!("{}: {}{when}", constraint.name, constraint.require.text)
+    };
+    let constraints: Vec<String> = system.constraints.iter().map(said).collect();
+    assert_eq!(
+        constraints[..5],
+        [
+            "limits in order: 0x2002.1 < 0x2002.2 when 0x2002.2 != 3276.7",
+            "difference: 0x2002.2 - 0x2002.1 >= 2",
+            "level 1 is below the dimmer: 0x2007.1 <= 0x2004 or 0x2007.1 == 0",
+            "level 2 is below the dimmer: 0x2007.2 <= 0x2004 or 0x2007.2 == 0",
+            "level 3 is below the dimmer: 0x2007.3 <= 0x2004 or 0x2007.3 == 0",
+        ]
+    );
+    assert_eq!(constraints[5..].len(), 8);
+    assert_eq!(constraints[12], "bit 15 stays 0: bit(0x2001, 15) == 0");
+    assert_eq!(system.constraints[3].about.get("en"), Some("Level 2."));
 }
 
 #[test]

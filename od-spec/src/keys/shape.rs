@@ -65,6 +65,8 @@ pub enum Shape {
     Base,
     /// A time in steps of its key, 0 to 65535, or with its unit: `10 ms`.
     Time,
+    /// A number from 0 to 255, or numbers that follow each other: `0..11`.
+    Numbers,
     /// A condition between entries.
     Condition,
     /// A term of a condition: `0x6092.1 / 0x6092.2`.

@@ -143,6 +143,16 @@ pub enum Outcome {
 }
 
 impl Expr {
+    /// A condition whose names are not looked up yet.
+    pub(crate) fn unresolved(text: &str) -> Self {
+        Self { text: text.to_owned(), alternatives: Vec::new(), places: Vec::new() }
+    }
+
+    /// Whether names have to be looked up in it.
+    pub(crate) const fn is_unresolved(&self) -> bool {
+        self.alternatives.is_empty()
+    }
+
     /// All comparisons, in order.
     pub fn comparisons(&self) -> impl Iterator<Item = &Comparison> {
         self.alternatives.iter().flatten()

@@ -95,6 +95,7 @@ fn value(shape: Shape) -> String {
         Shape::SignedRatio => "fraction, which may be negative".to_owned(),
         Shape::Base => "fraction and symbol".to_owned(),
         Shape::Time => "time".to_owned(),
+        Shape::Numbers => "number or numbers".to_owned(),
         Shape::Condition => "condition".to_owned(),
         Shape::Formula => "formula".to_owned(),
         Shape::Pattern => "bit pattern".to_owned(),

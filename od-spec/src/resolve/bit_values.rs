@@ -67,7 +67,11 @@ fn signed(raw: i128, data_type: DataType) -> i128 {
 }
 
 /// The field of a name, which may be one that it has in a mode of operation only.
-fn field<'a>(fields: &'a [BitField], name: &Name, diagnostics: &mut Diagnostics) -> Option<&'a BitField> {
+pub(super) fn field<'a>(
+    fields: &'a [BitField],
+    name: &Name,
+    diagnostics: &mut Diagnostics,
+) -> Option<&'a BitField> {
     let names = |field: &'a BitField| {
         let in_modes = field.modes.iter().map(|mode| mode.name.as_str());
         std::iter::once(field.name.as_str()).chain(in_modes).filter(|name| !name.is_empty())

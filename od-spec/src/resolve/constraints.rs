@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::ast::{ConstraintDecl, Name, Spec};
+use crate::ast::{ConditionDecl, ConstraintDecl, Name, Spec};
 use crate::decode::inside;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::{Comparison, EntryRef, Expr, Term};
-use crate::model::{Constraint, Devices, Dictionary, Entry, Index};
+use crate::model::{Constraint, Devices, Dictionary, Entry, Fact, Index};
 use crate::source::{Span, Spanned};
 
+use super::condition_names::{self, Described};
 use super::refs::Broken;
 use super::types::words;
 
@@ -107,13 +108,34 @@ fn check_write_conditions(
     let common = decl.array.iter().map(|array| &array.entry);
     let entries = members.chain(elements).map(|(_, entry)| entry).chain(common).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
+        let mut checked: Option<Expr> = None;
         for device in devices.with(decl.index.value) {
-            check_known(condition, Meant::One(device), broken, diagnostics);
+            let resolved = match &condition.value {
+                ConditionDecl::Plain(plain) => Some(plain),
+                ConditionDecl::Named(_) => named_write_condition(device, decl.index.value, condition.span),
+            };
+            // What names stand for was looked for already.
+            let Some(resolved) = resolved else { continue };
+            let resolved = Spanned::new(resolved.clone(), condition.span);
+            check_known(&resolved, Meant::One(device), broken, diagnostics);
+            checked = checked.or(Some(resolved.value));
         }
-        check_names_entries(condition, diagnostics);
-        check_operands(condition, devices, diagnostics);
-        check_units(condition, devices, diagnostics);
+        let plain = match &condition.value {
+            ConditionDecl::Plain(plain) => Some(plain.clone()),
+            ConditionDecl::Named(_) => checked,
+        };
+        let Some(plain) = plain else { continue };
+        let plain = Spanned::new(plain, condition.span);
+        check_names_entries(&plain, diagnostics);
+        check_operands(&plain, devices, diagnostics);
+        check_units(&plain, devices, diagnostics);
     }
+}
+
+/// A write condition with names, as it was understood on a device.
+fn named_write_condition(device: &Dictionary, index: Index, place: Span) -> Option<&Expr> {
+    let mut entries = device.objects.get(&index)?.entries.iter();
+    entries.find(|entry| entry.place(Fact::WriteCondition) == place)?.writable_when.as_ref()
 }
 
 /// Reports entries that none of the devices has; `true` when there are none such.
@@ -221,8 +243,9 @@ fn constraint(
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraint> {
-    let require = decl.require.as_ref()?;
-    let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
+    let understood = understood(decl, devices, broken, diagnostics)?;
+    let (require, when) = (&understood.require, understood.when.as_ref());
+    let conditions: Vec<&Spanned<Expr>> = [Some(require), when].into_iter().flatten().collect();
     if !conditions.iter().all(|condition| check_known(condition, Meant::Any(devices), broken, diagnostics)) {
         return None;
     }
@@ -247,6 +270,7 @@ fn constraint(
     let with_all_entries: Vec<&Dictionary> = may_have_all
         .into_iter()
         .filter(|device| on.as_ref().is_none_or(|on| on.contains(device.key.as_str())))
+        .filter(|device| understood.devices.as_ref().is_none_or(|keys| keys.contains(&device.key.as_str())))
         .filter(|device| unprefixed().all(|entry| device.entry(entry.id).is_some()))
         .collect();
     if with_all_entries.is_empty() && unprefixed().next().is_some() {
@@ -278,11 +302,86 @@ fn constraint(
         name: decl.name.value.clone(),
         about: words(&decl.about),
         require: require.value.clone(),
-        when: decl.when.as_ref().map(|when| when.value.clone()),
+        when: when.map(|when| when.value.clone()),
         devices: Devices::Only(keys),
         seen_from: seen_from.into_iter().map(|device| device.key.clone()).collect(),
         span: require.span,
         places: places(require),
+    })
+}
+
+/// The conditions of a constraint with indices and numbers instead of names.
+struct Understood<'a> {
+    require: Spanned<Expr>,
+    when: Option<Spanned<Expr>>,
+    /// The devices on which the names stand for these; all where there are no names.
+    devices: Option<Vec<&'a str>>,
+}
+
+/// Looks up the names of a constraint, on every device that it may be about.
+fn understood<'a>(
+    decl: &ConstraintDecl,
+    devices: &Known<'a>,
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<Understood<'a>> {
+    let (require, when) = (decl.require.as_ref()?, decl.when.as_ref());
+    let plain = |condition: &Spanned<ConditionDecl>| match &condition.value {
+        ConditionDecl::Plain(plain) => Some(Spanned::new(plain.clone(), condition.span)),
+        ConditionDecl::Named(_) => None,
+    };
+    if let Some(require) = plain(require)
+        && when.is_none_or(|when| plain(when).is_some())
+    {
+        return Some(Understood { require, when: when.and_then(plain), devices: None });
+    }
+    let all: Vec<Described<'_>> =
+        devices.devices.iter().map(|device| Described::new(&device.key, &device.objects)).collect();
+    let is_meant = |key: &str| decl.on.as_ref().is_none_or(|on| on.iter().any(|one| one.value == key));
+    let read = |condition: &Spanned<ConditionDecl>, own: &Described<'_>, diagnostics: &mut Diagnostics| {
+        match &condition.value {
+            ConditionDecl::Plain(plain) => Some(plain.clone()),
+            ConditionDecl::Named(text) => {
+                let text = Spanned::new(text.clone(), condition.span);
+                condition_names::resolve(&text, own, &all, broken, diagnostics)
+            }
+        }
+    };
+    let on_device = |own: &Described<'_>, diagnostics: &mut Diagnostics| {
+        let require = read(require, own, diagnostics);
+        let when = match when {
+            Some(when) => read(when, own, diagnostics).map(Some),
+            None => Some(None),
+        };
+        Some((require?, when?))
+    };
+    let mut found: Vec<(&str, (Expr, Option<Expr>))> = Vec::new();
+    let mut refused: Option<Diagnostics> = None;
+    for (device, own) in devices.devices.iter().zip(&all).filter(|(device, _)| is_meant(&device.key)) {
+        let mut said = Diagnostics::new();
+        match on_device(own, &mut said) {
+            Some(conditions) => found.push((device.key.as_str(), conditions)),
+            None if refused.as_ref().is_none_or(|least| said.count() < least.count()) => refused = Some(said),
+            None => {}
+        }
+    }
+    let Some((first, (plain_require, plain_when))) = found.first() else {
+        // Of the device that knows most of it.
+        diagnostics.append(refused.unwrap_or_default());
+        return None;
+    };
+    if let Some((other, _)) = found.iter().find(|(_, one)| one.0 != *plain_require || one.1 != *plain_when) {
+        let message = format!("the names stand for other entries on `{first}` than on `{other}`");
+        diagnostics.push(
+            Diagnostic::new(codes::CONSTRAINT_DEVICES, require.span, message)
+                .help("write indices, or `device:` before the names, or a constraint for each device"),
+        );
+        return None;
+    }
+    Some(Understood {
+        require: Spanned::new(plain_require.clone(), require.span),
+        when: when.zip(plain_when.clone()).map(|(when, plain)| Spanned::new(plain, when.span)),
+        devices: Some(found.iter().map(|(key, _)| *key).collect()),
     })
 }
 

@@ -9,7 +9,7 @@ use super::libraries::Libraries;
 use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
-use super::{aliases, device_info, objects, pdos};
+use super::{aliases, condition_names, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::{DEVICES, ENTRIES_OF_DEVICE, ENTRIES_OF_FILE, Room};
@@ -73,6 +73,12 @@ pub(super) fn resolve<'a>(
             let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
             let pdos =
                 pdos::resolve(decl, &info, written, &mut built.objects, &mut built.broken, diagnostics);
+            condition_names::write_conditions(
+                &device.key.value,
+                &mut built.objects,
+                &built.broken,
+                diagnostics,
+            );
             broken.append(built.broken);
             Dictionary {
                 key: device.key.value.clone(),
@@ -102,13 +108,15 @@ pub(super) fn of_library<'a>(
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));
+    let mut objects: BTreeMap<Index, Object> = objects.map(|object| (object.index, object)).collect();
+    condition_names::write_conditions(&profile.value, &mut objects, &Broken::default(), diagnostics);
     Some(Dictionary {
         key: profile.value.clone(),
         name: profile.value.clone(),
         info: device_info::none(),
         file: device_info::no_file(),
         about: Text::default(),
-        objects: objects.map(|object| (object.index, object)).collect(),
+        objects,
         pdos: Vec::new(),
         facts: Facts::none(),
         span: profile.span,

@@ -6,11 +6,11 @@ use super::bit_values;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{BitErrorDecl, BitRange, DefaultDecl, EntryDecl, Name, SpecialDecl};
+use crate::ast::{BitErrorDecl, BitRange, ConditionDecl, DefaultDecl, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, Family, NamedType, PdoMapping,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Expr, Fact, Family, NamedType, PdoMapping,
     RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
 };
 use crate::source::{FileId, Spanned};
@@ -95,7 +95,10 @@ pub(super) fn resolve(
         alias: None,
         category: decl.category.map(|category| category.value),
         since: decl.since.as_ref().map(|since| since.value.clone()),
-        writable_when: decl.writable_when.as_ref().map(|condition| condition.value.clone()),
+        writable_when: decl.writable_when.as_ref().map(|condition| match &condition.value {
+            ConditionDecl::Plain(condition) => condition.clone(),
+            ConditionDecl::Named(text) => Expr::unresolved(text),
+        }),
         capacity: capacity(decl, data_type, diagnostics),
         identifier: identifier(decl, diagnostics),
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),

@@ -3,6 +3,7 @@
 mod aliases;
 mod assigned;
 mod bit_values;
+mod condition_names;
 mod constraints;
 mod decls;
 mod device_info;

@@ -8,7 +8,8 @@ use std::fmt::Write as _;
 
 use super::made;
 use crate::ast::{
-    BitDecl, BitRange, DefaultDecl, EdsDecl, EntryDecl, Offset, SpecialDecl, TypeDecl, UnitDecl, ValueDecl,
+    BitDecl, BitRange, ConditionDecl, DefaultDecl, EdsDecl, EntryDecl, Offset, SpecialDecl, TypeDecl,
+    UnitDecl, ValueDecl,
 };
 use crate::eds::number::{formula, lenient_integer};
 use crate::eds::owner::is_code;
@@ -67,7 +68,7 @@ impl Meanings {
         }
         let is_writable = entry.access.is_some_and(|access| access.value.access.is_writable());
         if let Some(condition) = read.condition.filter(|_| is_writable) {
-            entry.writable_when = Some(Spanned::new(condition, place));
+            entry.writable_when = Some(Spanned::new(ConditionDecl::Plain(condition), place));
         }
         if let Some(text) = read.withheld.filter(|_| entry.default.is_none()) {
             entry = withheld(entry, &text, data_type, place);
