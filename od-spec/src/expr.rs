@@ -12,61 +12,16 @@
 //!
 //! In a specification, an entry, a bit and a value may stand there by name; see [`without_names`].
 
+mod names;
+
 use std::ops::Range;
 
+use self::names::NO_ENTRY;
+pub(crate) use self::names::{AnyName, Lookup, Named, Operand, PLACEHOLDER};
 use crate::diag::shorten;
 pub use crate::model::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outcome, Term, Values};
 use crate::model::{EntryId, Index, Ratio, SubIndex};
 use crate::scalar;
-
-/// A name in a condition.
-#[derive(Debug, Clone)]
-pub(crate) struct Named<'a> {
-    /// The device in front of it.
-    pub device: Option<&'a str>,
-    pub text: &'a str,
-    /// Where it stands in the condition.
-    pub range: Range<usize>,
-}
-
-/// What a name stands for where a number or an entry may stand.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Operand {
-    Entry(EntryId),
-    Number(Ratio),
-}
-
-/// Who knows the names of conditions. `None` for a name that nothing has, which is reported.
-pub(crate) trait Lookup {
-    /// The entry of a name.
-    fn entry(&mut self, name: &Named<'_>) -> Option<EntryId>;
-    /// What a name stands for that an entry is compared with: one of the entry's values, or another entry.
-    fn operand(&mut self, compared: &EntryRef, name: &Named<'_>) -> Option<Operand>;
-    /// The bit of an entry.
-    fn bit(&mut self, of: &EntryRef, name: &Named<'_>) -> Option<u8>;
-}
-
-/// Every name is one; for those who ask how a condition is written, and not what it says.
-pub(crate) struct AnyName;
-
-impl Lookup for AnyName {
-    fn entry(&mut self, _: &Named<'_>) -> Option<EntryId> {
-        Some(NO_ENTRY)
-    }
-
-    fn operand(&mut self, _: &EntryRef, _: &Named<'_>) -> Option<Operand> {
-        Some(Operand::Entry(NO_ENTRY))
-    }
-
-    fn bit(&mut self, _: &EntryRef, _: &Named<'_>) -> Option<u8> {
-        Some(0)
-    }
-}
-
-const NO_ENTRY: EntryId = EntryId { index: Index(0), sub: SubIndex(0) };
-
-/// What stands for the number of a constraint that is written once for several.
-pub(crate) const PLACEHOLDER: &str = "{n}";
 
 /// A condition in which indices, bits and numbers stand instead of names. Names have blanks and points (`drive data.error mask`), and
 /// none of the signs of a condition; a minus has a blank behind it.

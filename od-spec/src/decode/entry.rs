@@ -76,6 +76,25 @@ impl FromNode for EdsDecl {
     }
 }
 
+/// A value, or the bits that are 1.
+impl FromNode for DefaultDecl {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        let NodeKind::List(items) = &reader.node.kind else {
+            return reader.scalar(|text| Some(Self::Value(text.to_owned()))).map(|value| value.value);
+        };
+        let bits: Vec<SetBits> = items.iter().filter_map(|item| set_bits(reader.at(item))).collect();
+        (bits.len() == items.len()).then_some(Self::Bits(bits))
+    }
+}
+
+fn set_bits(reader: Reader<'_>) -> Option<SetBits> {
+    let text = |reader: Reader<'_>| reader.scalar(|text| Some(text.to_owned()));
+    match reader.pairs().next() {
+        Some((name, value)) => Some(SetBits { name: owned(name), value: Some(text(value)?) }),
+        None => Some(SetBits { name: text(reader)?, value: None }),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,24 +131,5 @@ mod tests {
         assert_eq!(inherited, ["type", "unit", "access", "pdo", "stored", "writable-when", "eds"]);
         let about_one_value: Vec<&str> = decl.about_one_value().map(|key| key.value).collect();
         assert_eq!(about_one_value, ["default", "min", "max", "special", "bit-errors", "capacity"]);
-    }
-}
-
-/// A value, or the bits that are 1.
-impl FromNode for DefaultDecl {
-    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
-        let NodeKind::List(items) = &reader.node.kind else {
-            return reader.scalar(|text| Some(Self::Value(text.to_owned()))).map(|value| value.value);
-        };
-        let bits: Vec<SetBits> = items.iter().filter_map(|item| set_bits(reader.at(item))).collect();
-        (bits.len() == items.len()).then_some(Self::Bits(bits))
-    }
-}
-
-fn set_bits(reader: Reader<'_>) -> Option<SetBits> {
-    let text = |reader: Reader<'_>| reader.scalar(|text| Some(text.to_owned()));
-    match reader.pairs().next() {
-        Some((name, value)) => Some(SetBits { name: owned(name), value: Some(text(value)?) }),
-        None => Some(SetBits { name: text(reader)?, value: None }),
     }
 }

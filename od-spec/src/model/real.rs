@@ -30,7 +30,9 @@ impl Real {
         }
         #[expect(clippy::cast_precision_loss, reason = "what no decimal writes, no binary number has either")]
         let number = ratio.numerator() as f64 / ratio.denominator() as f64;
-        Some(Self { number, departing: Some(ratio.to_string().into()) })
+        kept(number, data_type)
+            .is_finite()
+            .then(|| Self { number, departing: Some(ratio.to_string().into()) })
     }
 
     /// How the number compares with another one, as the type keeps both.

@@ -1,5 +1,6 @@
 //! Conditions between entries, tried on the defaults.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::ast::{ConditionDecl, ConstraintDecl, Name, Spec};
@@ -28,7 +29,16 @@ pub(super) fn resolve(
         check_known(&formula, Meant::Any(&known), broken, diagnostics);
         check_operands(&formula, &known, diagnostics);
     }
-    root.constraints.iter().filter_map(|decl| constraint(decl, &known, broken, diagnostics)).collect()
+    // What the devices call their entries; nobody asks where no condition has names.
+    let described = OnceCell::new();
+    let describe = || -> Vec<Described<'_>> {
+        devices.iter().map(|device| Described::new(&device.key, &device.objects)).collect()
+    };
+    let described = || described.get_or_init(describe).as_slice();
+    root.constraints
+        .iter()
+        .filter_map(|decl| constraint(decl, &known, &described, broken, diagnostics))
+        .collect()
 }
 
 /// The devices, by what conditions name.
@@ -237,13 +247,14 @@ fn check_units(condition: &Spanned<Expr>, devices: &Known<'_>, diagnostics: &mut
     }
 }
 
-fn constraint(
+fn constraint<'d>(
     decl: &ConstraintDecl,
     devices: &Known<'_>,
+    described: &dyn Fn() -> &'d [Described<'d>],
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraint> {
-    let understood = understood(decl, devices, broken, diagnostics)?;
+    let understood = understood(decl, devices, described, broken, diagnostics)?;
     let (require, when) = (&understood.require, understood.when.as_ref());
     let conditions: Vec<&Spanned<Expr>> = [Some(require), when].into_iter().flatten().collect();
     if !conditions.iter().all(|condition| check_known(condition, Meant::Any(devices), broken, diagnostics)) {
@@ -319,9 +330,10 @@ struct Understood<'a> {
 }
 
 /// Looks up the names of a constraint, on every device that it may be about.
-fn understood<'a>(
+fn understood<'a, 'd>(
     decl: &ConstraintDecl,
     devices: &Known<'a>,
+    described: &dyn Fn() -> &'d [Described<'d>],
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Understood<'a>> {
@@ -335,15 +347,14 @@ fn understood<'a>(
     {
         return Some(Understood { require, when: when.and_then(plain), devices: None });
     }
-    let all: Vec<Described<'_>> =
-        devices.devices.iter().map(|device| Described::new(&device.key, &device.objects)).collect();
+    let all = described();
     let is_meant = |key: &str| decl.on.as_ref().is_none_or(|on| on.iter().any(|one| one.value == key));
     let read = |condition: &Spanned<ConditionDecl>, own: &Described<'_>, diagnostics: &mut Diagnostics| {
         match &condition.value {
             ConditionDecl::Plain(plain) => Some(plain.clone()),
             ConditionDecl::Named(text) => {
                 let text = Spanned::new(text.clone(), condition.span);
-                condition_names::resolve(&text, own, &all, broken, diagnostics)
+                condition_names::resolve(&text, own, all, broken, diagnostics)
             }
         }
     };
@@ -357,7 +368,7 @@ fn understood<'a>(
     };
     let mut found: Vec<(&str, (Expr, Option<Expr>))> = Vec::new();
     let mut refused: Option<Diagnostics> = None;
-    for (device, own) in devices.devices.iter().zip(&all).filter(|(device, _)| is_meant(&device.key)) {
+    for (device, own) in devices.devices.iter().zip(all).filter(|(device, _)| is_meant(&device.key)) {
         let mut said = Diagnostics::new();
         match on_device(own, &mut said) {
             Some(conditions) => found.push((device.key.as_str(), conditions)),
