@@ -80,6 +80,7 @@ fn an_eds_that_is_read_has_the_units() {
     let shown = |index, raw| read.devices[0].entry(id(index)).unwrap().unit.as_ref().unwrap().show(raw);
     assert_eq!([shown(0x2000, 60), shown(0x2001, 2932)], ["20 °C", "20.05 °C"]);
     assert_eq!([shown(0x2002, 0), shown(0x2005, 12)], ["-5000 mV", "12 V"]);
+    assert_eq!(shown(0x2010, 3), "3 °C", "of a REAL");
     let limits = |system: &System, index| system.devices[0].entry(id(index)).unwrap().limits();
     for index in 0x2010..=0x2014 {
         assert_eq!(limits(&read, index), limits(&system(), index), "{index:04X}");

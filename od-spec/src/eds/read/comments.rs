@@ -15,7 +15,7 @@ use crate::eds::number::{formula, lenient_integer};
 use crate::eds::owner::is_code;
 use crate::eds::view::Part;
 use crate::expr::Expr;
-use crate::model::{Access, AccessRight, BitUsage, DataType, Ratio, Storage, Text};
+use crate::model::{Access, AccessRight, BitUsage, DataType, Family, Ratio, Storage, Text};
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::wording::{Notation, Wording};
@@ -57,7 +57,8 @@ impl Meanings {
             entry.about = Some(Spanned::new(Text::new([("en", text.as_str())]), place));
         }
         let Some(data_type) = data_type else { return entry };
-        if let Some(unit) = read.unit.filter(|_| data_type.is_integer()) {
+        let is_number = data_type.is_integer() || data_type.family() == Family::Real;
+        if let Some(unit) = read.unit.filter(|_| is_number) {
             entry.unit = Some(made(self.unit(&unit, place), place));
         }
         if let Some(storage) = read.storage {
