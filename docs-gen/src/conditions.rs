@@ -21,9 +21,15 @@ impl<'a> Source<'a> {
     /// A condition in words: names with links instead of bare indices, numbers with the unit they are compared in.
     pub(crate) fn condition(&self, condition: &Expr, devices: &Devices) -> Cell {
         let mut cell = Cell::default();
-        for (at, comparison) in condition.comparisons.iter().enumerate() {
+        let numbered = condition.alternatives.iter().enumerate();
+        let numbered = numbered.flat_map(|(alternative, all)| {
+            all.iter().enumerate().map(move |(at, comparison)| (alternative, at, comparison))
+        });
+        for (alternative, at, comparison) in numbered {
             if at > 0 {
                 cell = cell.text(format!(" {} ", self.word(Word::And)));
+            } else if alternative > 0 {
+                cell = cell.text(format!(" {} ", self.word(Word::Or)));
             }
             let rest = comparison.rest.iter().map(|(_, term)| term);
             let terms = std::iter::once(&comparison.first).chain(rest);

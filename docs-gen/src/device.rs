@@ -199,7 +199,12 @@ impl Source<'_> {
     /// An entry as plain facts.
     fn entry(&self, device: &Dictionary, object: &Object, entry: &Entry) -> EntryView {
         let id = EntryId { index: object.index, sub: entry.sub };
-        let limit = |limit: Option<i128>| limit.map_or_else(String::new, |raw| raw.to_string());
+        let limit = |limit: Option<Value>| match limit {
+            Some(Value::Integer(raw)) => raw.to_string(),
+            Some(limit) => self.wording.value(Some(object.index), entry, &limit),
+            None => String::new(),
+        };
+        let (low, high) = entry.limits();
         EntryView {
             index: object.index.to_string(),
             sub: entry.sub.0,
@@ -215,8 +220,8 @@ impl Source<'_> {
                 }
                 None => String::new(),
             },
-            low: limit(entry.low),
-            high: limit(entry.high),
+            low: limit(low),
+            high: limit(high),
             unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit)),
             stored: self.storage_word(entry.stored),
             path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),

@@ -41,6 +41,7 @@ words! {
     On "on": "Devices", "Geräte";
     Capacity "capacity": "At most {n} bytes.", "Höchstens {n} Byte.";
     And "and": "and", "und";
+    Or "or": "or", "oder";
     Abbreviation "abbreviation": "Abbreviation", "Abkürzung";
     Access "access": "Attr", "Zugriff";
     Action "action": "Action", "Aktion";

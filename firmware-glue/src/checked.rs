@@ -113,7 +113,8 @@ fn check_attributes(parts: &Parts<'_>, shared: &Attributes) -> Result<(), Fault>
     let is_limited = (!limited || usize::from(shared.limits) < parts.limits.len())
         && (!listed || usize::from(shared.values) < parts.values.len())
         && (listed || !shared.flags.has(Flags::ONLY_VALUES))
-        && (!limited && !listed || shared.data_type.is_integer());
+        && (!limited || shared.data_type.has_order())
+        && (!listed || shared.data_type.is_integer());
     if !is_sized {
         Err(Fault::AttributeSize)
     } else if !is_placed {

@@ -79,7 +79,12 @@ impl DataType {
         self.string().is_some()
     }
 
-    /// Whether it is a number that limits and lists of values are about: INTEGERn or UNSIGNEDn.
+    /// Whether limits can be about it: INTEGERn, UNSIGNEDn or REALn.
+    pub const fn has_order(self) -> bool {
+        self.is_integer() || matches!(self, Self::Real32 | Self::Real64)
+    }
+
+    /// Whether it is a number that lists of values are about: INTEGERn or UNSIGNEDn.
     pub const fn is_integer(self) -> bool {
         self.integer_bits().is_some()
     }

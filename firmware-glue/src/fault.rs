@@ -57,7 +57,7 @@ faults! {
     AttributeSize = "attributes", "the size is the one of the data type; of a UNICODE_STRING, it is even";
     AttributePlace = "attributes", "DOMAINs, and no others, are with the application; aliases are integers";
     AttributeAccess = "attributes", "constants cannot be written";
-    AttributeLimits = "attributes", "limits and values are in their lists, and only integers have them";
+    AttributeLimits = "attributes", "limits and values are in their lists; numbers have limits, integers values";
     SparseOrder = "sparse", "each is an object with as many entries as sub-indices, by ascending row";
     SparseSubs = "sparse", "the sub-indices ascend";
     SparseFlag = "entries", "an entry is marked as sparse if, and only if, its object is listed";

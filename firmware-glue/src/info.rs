@@ -75,7 +75,8 @@ impl<'t> Info<'t> {
         matches!(self.shared.place, Place::Alias)
     }
 
-    /// Smallest and largest value that can be written, where there are limits. Of UNSIGNED64, the numbers minus 2^63.
+    /// Smallest and largest value that can be written, where there are limits. Of UNSIGNED64, the numbers minus 2^63; of REAL, the bits
+    /// without the sign, negative where the number is.
     pub fn limits(&self) -> Option<Limits> {
         self.table.parts().limits.get(usize::from(self.shared.limits)).copied()
     }

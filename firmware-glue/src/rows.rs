@@ -146,7 +146,8 @@ pub struct Attributes {
     pub condition: u16,
 }
 
-/// Smallest and largest value that can be written. Of UNSIGNED64, the numbers minus 2^63.
+/// Smallest and largest value that can be written. Of UNSIGNED64, the numbers minus 2^63; of REAL, the bits without the sign,
+/// negative where the number is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits {

@@ -48,12 +48,46 @@ impl Deref for Value<'_> {
 }
 
 /// The number that stands for a value wherever values are compared: the value itself, but of UNSIGNED64 the value minus
-/// 2^63, which keeps the order and fits.
+/// 2^63, which keeps the order and fits, and of REAL the bits without the sign, negative where the value is. What is no number
+/// (NaN) lies beyond infinity.
 #[inline]
 pub(crate) fn number(data_type: DataType, bytes: &[u8]) -> i64 {
     if data_type.is_signed() {
         return signed(bytes);
     }
     let value = unsigned(bytes);
-    if data_type == DataType::Unsigned64 { (value ^ 1 << 63).cast_signed() } else { value.cast_signed() }
+    let real = |sign: u32| {
+        let magnitude = (value & !(1 << sign)).cast_signed();
+        if value >> sign & 1 == 1 { -magnitude } else { magnitude }
+    };
+    if data_type == DataType::Real32 {
+        real(31)
+    } else if data_type == DataType::Real64 {
+        real(63)
+    } else if data_type == DataType::Unsigned64 {
+        (value ^ 1 << 63).cast_signed()
+    } else {
+        value.cast_signed()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reals_are_ordered_by_their_bits() {
+        let single = |value: f32| number(DataType::Real32, &value.to_le_bytes());
+        let double = |value: f64| number(DataType::Real64, &value.to_le_bytes());
+        let ascending =
+            [f32::NEG_INFINITY, f32::MIN, -1.0, -f32::MIN_POSITIVE, 0.0, 1e-45, 0.5, 1.0, f32::INFINITY];
+        for pair in ascending.windows(2) {
+            assert!(single(pair[0]) < single(pair[1]) && double(pair[0].into()) < double(pair[1].into()));
+        }
+        assert_eq!((single(-0.0), double(-0.0)), (0, 0));
+        assert!(single(f32::NAN) > single(f32::INFINITY) && double(f64::NAN) > double(f64::INFINITY));
+        assert!(
+            single(-f32::NAN) < single(f32::NEG_INFINITY) && double(-f64::NAN) < double(f64::NEG_INFINITY)
+        );
+    }
 }

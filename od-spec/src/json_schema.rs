@@ -206,15 +206,7 @@ fn schema(shape: Shape) -> Json {
         Shape::List(item) => list(*item),
         Shape::OneOrMore(item) => any_of([schema(*item), at_least_one(*item)]),
         Shape::ShortOr(short, keys) => any_of([schema(*short), reference(&slug(keys.name))]),
-        Shape::Feature => any_of([
-            schema(Shape::Text),
-            object([
-                ("type", text("object")),
-                ("additionalProperties", integer(Some((1, CHANNELS)))),
-                ("minProperties", Json::Number(1)),
-                ("maxProperties", Json::Number(1)),
-            ]),
-        ]),
+        Shape::Feature => any_of([schema(Shape::Text), one_field(integer(Some((1, CHANNELS))))]),
         _ => reference(definition(shape).unwrap_or(TEXT)),
     }
 }
@@ -300,7 +292,10 @@ const SCALARS: &[Shape] = &[
     Shape::Value,
     Shape::Default,
     Shape::Ratio,
+    Shape::SignedRatio,
     Shape::Base,
+    Shape::Time,
+    Shape::Numbers,
     Shape::Condition,
     Shape::Formula,
     Shape::Pattern,
@@ -328,7 +323,10 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Value => "value",
         Shape::Default => "default-value",
         Shape::Ratio => "fraction",
+        Shape::SignedRatio => "signed-fraction",
         Shape::Base => "fraction-and-symbol",
+        Shape::Time => "time",
+        Shape::Numbers => "numbers",
         Shape::Condition => "condition",
         Shape::Formula => "formula",
         Shape::Pattern => "bit-pattern",
@@ -391,13 +389,32 @@ fn scalar(shape: Shape) -> Json {
             ("exclusiveMinimum", Json::Number(0)),
             ("pattern", text(format!("^{DECIMAL}(\\s*/\\s*{DECIMAL})?$"))),
         ]),
+        Shape::SignedRatio => pattern(&["number", "string"], format!("^{DECIMAL}(\\s*/\\s*{DECIMAL})?$")),
         Shape::Base => pattern(&["string"], format!("^{DECIMAL}(/{DECIMAL})? +\\S")),
+        Shape::Time => any_of([
+            integer(Some((0, 0xFFFF))),
+            pattern(&["string"], "^[0-9]+(\\.[0-9]+)?\\s*(s|ms|us|µs)$".to_owned()),
+        ]),
+        Shape::Numbers => any_of([
+            integer(Some((0, 0xFF))),
+            pattern(&["string"], format!("^ *{0} *\\.\\. *{0} *$", unsigned(2, 3))),
+        ]),
         Shape::Condition => pattern(&["string"], "[<=>]".to_owned()),
         Shape::Formula => pattern(&["string", "number"], "^[^<=>]+$".to_owned()),
         Shape::Pattern => pattern(&["string", "integer"], "^[01xrf\\s]+$".to_owned()),
         Shape::NumberedName(of) => pattern(&["string", "number", "boolean"], numbered_name(of)),
         _ => any_text(),
     }
+}
+
+/// A map with one key, whatever that is.
+fn one_field(value: Json) -> Json {
+    object([
+        ("type", text("object")),
+        ("additionalProperties", value),
+        ("minProperties", Json::Number(1)),
+        ("maxProperties", Json::Number(1)),
+    ])
 }
 
 /// A regular expression for names with placeholders.

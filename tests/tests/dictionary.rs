@@ -30,6 +30,15 @@ mod coarse {
     od_macros::object_dictionary!("shared/coarse.od.yaml");
 }
 
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    reason = "what users' lints say about generated code is tested with od-generated"
+)]
+mod special_values {
+    od_macros::object_dictionary!("shared/special-values.od.yaml");
+}
+
 /// An application that remembers what it was told.
 #[derive(Default)]
 struct Log<E> {
@@ -510,6 +519,29 @@ fn every_data_type_is_read_and_written() {
     assert_eq!(od.record_with_gaps().fifth(), 9);
     od.record_with_gaps_mut().set_fifth(-9);
     assert_eq!(od.record_with_gaps().fifth(), -9);
+}
+
+#[test]
+fn one_meaning_has_the_raw_value_of_each_entry() {
+    use special_values::{Probes, specials::WireBreak::WireBreak, units::Decicelsius};
+    const BROKEN: [u8; 2] = i16::MAX.to_le_bytes();
+    let mut od = Probes::new(1);
+    assert_eq!(od.torque(), Special::Special(WireBreak), "the default");
+    assert_eq!(od.level(), Special::Special(WireBreak), "a constant");
+    assert_eq!([od.pressure().special(), od.temperature().special()], [None, None]);
+    od.write(0x2000, 0, &BROKEN, &mut ()).unwrap();
+    assert_eq!(od.temperature(), Special::Special(WireBreak));
+    od.write(0x2001, 0, &BROKEN, &mut ()).unwrap();
+    assert_eq!(od.pressure(), Special::Value(0x7FFF), "elsewhere, the number means itself");
+    od.set_pressure(Special::Special(WireBreak));
+    assert_eq!(*od.read(0x2001, 0).unwrap(), [0xFF; 2]);
+    od.set_torque(Special::Value(300));
+    assert_eq!(od.write(0x2002, 0, &BROKEN, &mut ()), Err(AbortCode::TOO_HIGH));
+    od.write(0x2000, 0, &126i16.to_le_bytes(), &mut ()).unwrap();
+    assert_eq!(od.temperature_in_8_bits(), Special::Value(Decicelsius(126)));
+    od.flow_mut().set_mean(Special::Special(WireBreak));
+    od.speed_mut().set_mean(Special::Special(WireBreak));
+    assert_eq!([read(&od, 0x2005, 1), read(&od, 0x2006, 1)], [Ok(255), Ok(254)], "types of their own");
 }
 
 #[test]

@@ -39,6 +39,32 @@ fn a_bit_field_on_a_signed_number_shows_its_bits() {
 }
 
 #[test]
+fn what_is_written_by_name_or_counted_from_elsewhere_is_code() {
+    let mut od = Nasty::new(1);
+    assert_eq!((od.last_bit().0, od.f32()), (0x8000, -0.0));
+    assert_eq!(
+        od.write(0x2019, 0, &f32::from_bits(0x8000_0002).to_le_bytes(), &mut ()),
+        Err(AbortCode::TOO_LOW)
+    );
+    assert_eq!(od.above().to_string(), "1 × 1/3 + -1/7 w");
+    assert_eq!(od.above_view().to_string(), "0 × 1/1 + -1/7 w");
+    od.set_above(nasty::units::W(0xFF_FFFF_FFFF)).unwrap();
+    assert_eq!(od.above_view().0, u32::MAX);
+    // -1/7 is below -0.1, and 1/3 - 1/7 above it.
+    for (huge, word, broken) in [(1, -1, None), (0, -1, Some("super")), (1, -2, Some("super"))] {
+        od.set_huge(nasty::units::W(huge));
+        od.set_word(word);
+        assert_eq!(od.broken_constraint().map(|constraint| constraint.name), broken, "{huge} {word}");
+    }
+    od.set_word(-1);
+    od.set_huge(nasty::units::W(1));
+    od.set_last_bit(types::SignedBits(0));
+    assert_eq!(od.broken_constraint().map(|constraint| constraint.name), None, "100 is below 120");
+    od.write(0x2012, 2, &[121], &mut ()).unwrap();
+    assert_eq!(od.broken_constraint().map(|constraint| constraint.name), Some("self 2"));
+}
+
+#[test]
 fn elements_in_several_places_are_read_where_they_lie() {
     let od = Nasty::new(7);
     for (sub, value) in [(1, 12), (2, 0x2222_2222), (3, 0x3333_3333u32)] {

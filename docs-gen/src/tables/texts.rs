@@ -48,7 +48,16 @@ impl Source<'_> {
     /// The entries of an ordering constraint, from the lowest to the highest, with their defaults.
     pub(crate) fn ladder_rows(&self, constraint: &Constraint) -> Grid {
         let mut rows = Vec::new();
-        for comparison in &constraint.require.comparisons {
+        let alternatives = constraint.require.alternatives.iter().enumerate();
+        let comparisons = alternatives.flat_map(|(alternative, all)| {
+            all.iter().enumerate().map(move |(at, comparison)| (alternative > 0 && at == 0, comparison))
+        });
+        for (is_alternative, comparison) in comparisons {
+            if is_alternative {
+                let mut cells = vec![Cell::plain(self.word(Word::Or))];
+                cells.extend(vec![Cell::default(); 4]);
+                rows.push(Row::of(cells));
+            }
             for (relation, term) in steps(comparison) {
                 let mut cells = vec![Cell::plain(relation)];
                 if let Term::Entry(entry) = term {
@@ -126,7 +135,8 @@ impl Source<'_> {
 
     /// The constraint as a picture: a chain of at least three entries of one unit that all have defaults.
     pub(crate) fn ladder(&self, constraint: &Constraint) -> Option<Ladder> {
-        let [comparison] = constraint.require.comparisons.as_slice() else { return None };
+        let [comparisons] = constraint.require.alternatives.as_slice() else { return None };
+        let [comparison] = comparisons.as_slice() else { return None };
         let steps = steps(comparison);
         if steps.len() < 3 || steps.iter().any(|(relation, _)| !matches!(*relation, "" | "<" | "≤")) {
             return None;
@@ -149,7 +159,7 @@ impl Source<'_> {
             if *symbol.get_or_insert_with(|| unit.base_symbol().to_owned()) != unit.base_symbol() {
                 return None;
             }
-            values.push(Ratio::whole(raw).checked_mul(unit.step()?)?);
+            values.push(unit.quantity(raw)?);
             rungs.push(Rung {
                 value: self.wording.physical(unit, raw),
                 position: 0,

@@ -1,8 +1,7 @@
 //! The facts of an entry before and after.
 
 use od_spec::model::{
-    Access, Alias, BitErrors, EdsPolicy, Entry, EntryId, Expr, Fact, NamedType, Ratio, SpecialValue, Unit,
-    Value,
+    Access, Alias, BitErrors, EdsPolicy, Entry, EntryId, Expr, Fact, NamedType, SpecialValue, Unit, Value,
 };
 
 use super::change::{Change, Class, Place};
@@ -161,18 +160,23 @@ impl Pair<'_> {
     fn is_rescaled(&self, (before, after): (Option<i128>, Option<i128>)) -> bool {
         let amount = |entry: &Entry, raw: Option<i128>| {
             let unit = entry.unit.as_ref()?;
-            Some((unit.base_symbol().to_owned(), Ratio::whole(raw?).checked_mul(unit.step()?)?))
+            Some((unit.base_symbol().to_owned(), unit.quantity(raw?)?))
         };
         before != after && amount(self.old, before).is_some_and(|old| Some(old) == amount(self.new, after))
     }
 
     fn limits(&self) -> Vec<Change> {
         let (old, new) = (self.scope.limits(self.old), self.scope.limits(self.new));
-        let ends = |entry: &Entry| entry.data_type.range().unwrap_or_default();
-        let shown = |entry: &Entry, raw: Option<i128>| {
-            raw.map(|raw| words::value(self.id.index, entry, &Value::Integer(raw)))
+        let ends = |entry: &Entry| entry.data_type.range().unwrap_or((-i128::MAX, i128::MAX));
+        let shown = |entry: &Entry, limit: &Option<Value>| {
+            limit.as_ref().map(|limit| words::value(self.id.index, entry, limit))
         };
-        let side = |fact, before: Option<i128>, after: Option<i128>, reach: (i128, i128)| {
+        let reach = |entry: &Entry, limit: &Option<Value>| match limit {
+            Some(Value::Integer(raw)) => Some(*raw),
+            Some(Value::Real(real)) => Some(real.order(entry.data_type).into()),
+            Some(Value::NodeId(_) | Value::Text(_) | Value::Bytes(_)) | None => None,
+        };
+        let side = |fact, before: &Option<Value>, after: &Option<Value>, reach: (i128, i128)| {
             if before == after {
                 return None;
             }
@@ -182,9 +186,11 @@ impl Pair<'_> {
         // Each side reaches as far as the limit or, without one, the data type; downwards that is the negative number.
         let (low_ends, high_ends) =
             ((ends(self.old).0, ends(self.new).0), (ends(self.old).1, ends(self.new).1));
-        let low_reach = (-old.0.unwrap_or(low_ends.0), -new.0.unwrap_or(low_ends.1));
-        let high_reach = (old.1.unwrap_or(high_ends.0), new.1.unwrap_or(high_ends.1));
-        [side(Fact::LowLimit, old.0, new.0, low_reach), side(Fact::HighLimit, old.1, new.1, high_reach)]
+        let low_reach =
+            (-reach(self.old, &old.0).unwrap_or(low_ends.0), -reach(self.new, &new.0).unwrap_or(low_ends.1));
+        let high_reach =
+            (reach(self.old, &old.1).unwrap_or(high_ends.0), reach(self.new, &new.1).unwrap_or(high_ends.1));
+        [side(Fact::LowLimit, &old.0, &new.0, low_reach), side(Fact::HighLimit, &old.1, &new.1, high_reach)]
             .into_iter()
             .flatten()
             .collect()
@@ -226,7 +232,7 @@ impl Pair<'_> {
 
     fn condition(&self) -> Option<Change> {
         let (before, after) = (self.old.writable_when.as_ref(), self.new.writable_when.as_ref());
-        let meaning = |condition: Option<&Expr>| condition.map(|one| one.comparisons.clone());
+        let meaning = |condition: Option<&Expr>| condition.map(|one| one.alternatives.clone());
         if meaning(before) == meaning(after) {
             return None;
         }

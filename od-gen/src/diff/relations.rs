@@ -283,7 +283,7 @@ fn effects(place: &Place, old: &StateMachine, new: &StateMachine) -> Vec<Change>
 }
 
 fn shape(condition: &Expr) -> impl PartialEq + use<> {
-    condition.comparisons.clone()
+    condition.alternatives.clone()
 }
 
 /// A constraint as it is written.

@@ -20,7 +20,7 @@
 //! | | wider on a writable entry | addition | |
 //! | | wider on a read-only entry | behaviour | it may have values that it could not have before |
 //! | | narrower on a read-only entry | documents | each value was possible before |
-//! | unit | another scale or quantity | plc | the same raw value means something else, and no tool notices |
+//! | unit | another scale, offset or quantity | plc | the same raw value means something else, and no tool notices |
 //! | | said first, or no longer | documents | the value is what it was |
 //! | special value | gone, or another meaning | plc | the raw value means something else |
 //! | | added where it was an ordinary value | behaviour | |
@@ -203,8 +203,9 @@ pub(super) fn unit(before: Option<&Unit>, after: Option<&Unit>) -> Consequences 
     let (Some(before), Some(after)) = (before, after) else {
         return one(Class::Documents, "the value itself is the same");
     };
-    let meaning = |unit: &Unit| (unit.base_symbol().to_owned(), unit.step());
-    let formula = |unit: &Unit| unit.formula.as_ref().map(|formula| formula.comparisons.clone());
+    let meaning =
+        |unit: &Unit| (unit.base_symbol().to_owned(), unit.step(), unit.offset_in(unit.base_symbol()));
+    let formula = |unit: &Unit| unit.formula.as_ref().map(|formula| formula.alternatives.clone());
     if meaning(before) == meaning(after) && formula(before) == formula(after) {
         return one(Class::Documents, "one raw step is worth the same");
     }

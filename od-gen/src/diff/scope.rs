@@ -52,14 +52,14 @@ impl Scope {
 
     /// Smallest and largest value. An EDS has one range, which takes the special values in; the ends of the data type are
     /// none of its limits, as some tools write them and others do not.
-    pub(super) fn limits(self, entry: &Entry) -> (Option<i128>, Option<i128>) {
-        if self.is_everything() {
-            return (entry.low, entry.high);
+    pub(super) fn limits(self, entry: &Entry) -> (Option<Value>, Option<Value>) {
+        if self.is_everything() || entry.data_type.range().is_none() {
+            return entry.limits();
         }
         let ((low, high), ends) = (entry.hull(), entry.data_type.range());
         (
-            low.filter(|low| ends.is_none_or(|(lowest, _)| *low > lowest)),
-            high.filter(|high| ends.is_none_or(|(_, highest)| *high < highest)),
+            low.filter(|low| ends.is_none_or(|(lowest, _)| *low > lowest)).map(Value::Integer),
+            high.filter(|high| ends.is_none_or(|(_, highest)| *high < highest)).map(Value::Integer),
         )
     }
 

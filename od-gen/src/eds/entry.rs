@@ -26,6 +26,11 @@ pub(super) fn write(
     if let Some(high) = high {
         section.key("HighLimit", high);
     }
+    for (key, limit) in [("LowLimit", &entry.real_limits.low), ("HighLimit", &entry.real_limits.high)] {
+        if let Some(limit) = limit {
+            section.key(key, format_args!("{:?}", limit.number()));
+        }
+    }
     section.text("AccessType", entry.eds.access.word());
     let notation = value::Notation { object, entry, node: node.map(|commissioning| commissioning.node) };
     if let Some(default) = entry.default.as_ref().filter(|_| entry.eds.default && !is_domain) {

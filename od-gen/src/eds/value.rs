@@ -21,7 +21,9 @@ impl Notation<'_> {
             (Value::NodeId(offset), Some(node)) => format!("0x{:0width$X}", offset + u64::from(node)),
             (Value::Integer(raw), _) if self.is_hexadecimal() => format!("0x{raw:0width$X}"),
             (Value::Integer(raw), _) => raw.to_string(),
-            (Value::Real(_) | Value::Bytes(_), _) => format_value(self.entry, value),
+            // With a decimal point even where the number is whole.
+            (Value::Real(real), _) => format!("{:?}", real.number()),
+            (Value::Bytes(_), _) => format_value(self.entry, value),
             (Value::Text(text), _) => text.clone(),
         }
     }

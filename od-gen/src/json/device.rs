@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use od_spec::ascii::in_ascii;
 use od_spec::model::{
-    self, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Value,
+    self, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Real, Value,
 };
 use od_spec::wording::{Notation, Wording};
 use serde::{Serialize, Serializer};
@@ -221,6 +221,10 @@ struct EdsView {
     flags: u32,
 }
 
+fn real(limit: Option<&Real>) -> Option<Json> {
+    limit.map(|limit| json!(limit.number()))
+}
+
 fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
     let (low, high) = entry.hull();
     EntryView {
@@ -233,8 +237,8 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
         locked: entry.locked,
         pdo: WORDING.mapping(entry.pdo),
         default: entry.default.as_ref().map(|default| value(place, entry, default)),
-        low: low.map(integer),
-        high: high.map(integer),
+        low: low.map(integer).or_else(|| real(entry.real_limits.low.as_ref())),
+        high: high.map(integer).or_else(|| real(entry.real_limits.high.as_ref())),
         min: entry.low.filter(|min| low != Some(*min)).map(integer),
         max: entry.high.filter(|max| high != Some(*max)).map(integer),
         unit: entry.unit.as_ref().map(|unit| unit.name.as_str()),

@@ -1,6 +1,6 @@
 //! Units and named types.
 
-use od_spec::model::{self, BitField, BitUsage, EnumValue, NamedType, TypeKind, Unit};
+use od_spec::model::{self, BitField, BitUsage, EnumValue, NamedType, Ratio, TypeKind, Unit};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -12,6 +12,9 @@ pub(super) struct UnitView<'a> {
     symbol: &'a str,
     /// One raw step in `symbol`, as numerator and denominator.
     scale: [Json; 2],
+    /// What the raw value 0 stands for, where that is not 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    offset: Option<[Json; 2]>,
     base: Option<Json>,
     #[serde(skip_serializing_if = "Option::is_none")]
     formula: Option<&'a str>,
@@ -23,6 +26,7 @@ pub(super) fn unit_view(unit: &Unit) -> UnitView<'_> {
         name: &unit.name,
         symbol: &unit.symbol,
         scale: ratio(unit.scale),
+        offset: (unit.offset != Ratio::ZERO).then(|| ratio(unit.offset)),
         base: unit.base.as_ref().map(|base| json!({"symbol": base.symbol, "factor": ratio(base.factor)})),
         formula: unit.formula.as_ref().map(|formula| formula.text.as_str()),
         about: words(&unit.about),

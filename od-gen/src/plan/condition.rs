@@ -1,16 +1,16 @@
 //! Conditions between entries as integer comparisons.
 //!
-//! A condition is about physical values, raw × scale. Scales are exact fractions, so every comparison can be multiplied out
+//! A condition is about physical values, raw × scale + offset. Scales are exact fractions, so every comparison can be multiplied out
 //! until both sides are integers; how large they can become is known from the types, which decides the width to compute in.
 
 use od_spec::expr::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Term};
 use od_spec::model::{Dictionary, EntryId, Ratio};
 
-/// A condition: all comparisons hold.
+/// A condition: of one alternative, all comparisons hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Condition {
     pub text: String,
-    pub comparisons: Vec<Compare>,
+    pub alternatives: Vec<Vec<Compare>>,
     /// Whether 64 bits are enough.
     pub narrow: bool,
 }
@@ -73,25 +73,31 @@ struct Fraction {
     scale: Ratio,
 }
 
-/// Turns a condition into comparisons of a device's own entries; links that name entries of other devices are left out.
+/// Turns a condition into comparisons of a device's own entries; links that name entries of other devices are left out, and count
+/// as met.
 pub(super) fn plan(condition: &Expr, device: &Dictionary) -> Result<Condition, Unusable> {
     let is_local = |term: &Term| own_entries_only(term, device);
-    let (mut comparisons, mut narrow) = (Vec::new(), true);
-    for Comparison { first, rest } in &condition.comparisons {
-        let mut left = first;
-        for (op, right) in rest {
-            if is_local(left) && is_local(right) {
-                let linked = link(left, *op, right, device).ok_or(Unusable::TooLarge)?;
-                narrow &= linked.bound <= i128::from(i64::MAX);
-                comparisons.push(linked.compare);
+    let (mut alternatives, mut narrow) = (Vec::new(), true);
+    for comparisons in &condition.alternatives {
+        let mut planned = Vec::new();
+        for Comparison { first, rest } in comparisons {
+            let mut left = first;
+            for (op, right) in rest {
+                if is_local(left) && is_local(right) {
+                    let linked = link(left, *op, right, device).ok_or(Unusable::TooLarge)?;
+                    narrow &= linked.bound <= i128::from(i64::MAX);
+                    planned.push(linked.compare);
+                }
+                left = right;
             }
-            left = right;
         }
+        alternatives.push(planned);
     }
-    if comparisons.is_empty() {
+    // What counts as met leaves nothing to be asked.
+    if alternatives.iter().any(Vec::is_empty) {
         return Err(Unusable::Elsewhere);
     }
-    Ok(Condition { text: condition.text.clone(), comparisons, narrow })
+    Ok(Condition { text: condition.text.clone(), alternatives, narrow })
 }
 
 fn own_entries_only(term: &Term, device: &Dictionary) -> bool {
@@ -187,9 +193,15 @@ fn fraction(term: &Term, device: &Dictionary) -> Option<Fraction> {
         Term::Entry(reference) => {
             let entry = device.entry(reference.id)?;
             let (low, high) = entry.data_type.range()?;
-            let scale = entry.unit.as_ref().map_or(Some(Ratio::ONE), |unit| unit.step())?;
             let bound = low.checked_abs()?.max(high);
-            whole(Bounded { sum: Sum::Entry(reference.id), bound }, scale)
+            let raw = Bounded { sum: Sum::Entry(reference.id), bound };
+            let Some(unit) = entry.unit.as_deref() else { return whole(raw, Ratio::ONE) };
+            let above = whole(raw, unit.step()?)?;
+            let offset = unit.offset_in(unit.base_symbol())?;
+            if offset == Ratio::ZERO {
+                return Some(above);
+            }
+            sum(above, ArithmeticOp::Add, fraction(&Term::Number(offset), device)?)
         }
         Term::Binary(left, op, right) => {
             let (left, right) = (fraction(left, device)?, fraction(right, device)?);
@@ -250,15 +262,17 @@ devices: {d: {name: D, bit-rates: [125]}}
 units:
   millivolt: {symbol: mV, base: 1/1000 V}
   third: {symbol: V, scale: 1/3}
+  above: {symbol: mV, scale: 20, offset: -5000.5, base: 1/1000 V}
   volt: {symbol: V}
 objects:
   0x2000: {name: a, type: unsigned16, unit: millivolt, access: rw}
   0x2001: {name: b, type: integer16, unit: volt, access: rw}
   0x2002: {name: c, type: integer32, unit: third, access: rw}
   0x2003: {name: d, type: integer8, access: rw}
+  0x2004: {name: e, type: unsigned8, unit: above, access: rw}
 ";
 
-    const CONDITIONS: [&str; 12] = [
+    const CONDITIONS: [&str; 18] = [
         "0x2000 < 0x2001",
         "0x2000 <= 0x2001 < 0x2002",
         "0x2001 == 0x2002 and 0x2000 >= 0",
@@ -271,6 +285,12 @@ objects:
         "-0x2001 < 2.5 and 0x2003 / 3 >= -10",
         "(0x2000 + 1) * (0x2001 - 2) / 4 > 0x2002",
         "0x2001 / (0x2003 + 1) > 0",
+        "0x2004 < 0x2000",
+        "-5.0005 <= 0x2004 <= 0x2001 + 0x2004",
+        "0x2004 * 0x2003 > 0x2001 / 0x2004",
+        "0x2004 >= -0.0005",
+        "0x2000 < 0x2001 or 0x2003 == 0 and 0x2002 > 0 or bit(0x2004, 0) == 1",
+        "0x2001 > 0x2000 / 0x2003 or 0x2003 < 0",
     ];
 
     struct Raw<'a> {
@@ -280,8 +300,10 @@ objects:
 
     impl Values for Raw<'_> {
         fn value(&self, entry: &EntryRef) -> Option<Ratio> {
-            let unit = self.system.devices[0].entry(entry.id)?.unit.as_ref();
-            Ratio::whole(self.raw(entry)?).checked_mul(unit.map_or(Some(Ratio::ONE), |unit| unit.step())?)
+            let raw = Ratio::whole(self.raw(entry)?);
+            let Some(unit) = &self.system.devices[0].entry(entry.id)?.unit else { return Some(raw) };
+            let (factor, offset) = (unit.base.as_ref().map_or(Ratio::ONE, |base| base.factor), unit.offset);
+            raw.checked_mul(unit.scale)?.checked_add(offset)?.checked_mul(factor)
         }
         fn raw(&self, entry: &EntryRef) -> Option<i128> {
             self.values.get(&entry.id.index.0).copied()
@@ -314,20 +336,25 @@ objects:
             b in prop_oneof![Just(-32_768), Just(32_767), -32_768..=32_767i128, -20..20i128],
             c in prop_oneof![Just(-2_147_483_648i128), Just(2_147_483_647), -100..100i128],
             d in prop_oneof![Just(-128), Just(127), -5..5i128],
+            e in prop_oneof![Just(0), Just(255), 245..255i128],
         ) {
             let mut sources = SourceMap::new();
             let root = sources.add("random.od.yaml", SPECIFICATION);
             let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
-            let values = BTreeMap::from([(0x2000, a), (0x2001, b), (0x2002, c), (0x2003, d)]);
+            let values = BTreeMap::from([(0x2000, a), (0x2001, b), (0x2002, c), (0x2003, d), (0x2004, e)]);
             for text in CONDITIONS {
                 let expr = Expr::parse(text).unwrap();
                 let planned = plan(&expr, &system.devices[0]).unwrap();
                 let mut most = 0;
-                let holds = planned.comparisons.iter().all(|compare| {
+                let mut link = |compare: &Compare| {
                     let mut value = |sum: &Sum| number(sum, &values, &mut most);
                     let (left, right) = (value(&compare.left), value(&compare.right));
                     compare.divisors.iter().any(|divisor| value(divisor) == 0) || compare.op.accepts(left.cmp(&right))
-                });
+                };
+                let mut holds = false;
+                for comparisons in &planned.alternatives {
+                    holds |= comparisons.iter().all(&mut link);
+                }
                 let expected = expr.evaluate(&Raw { system: &system, values: values.clone() });
                 prop_assert_eq!(holds, !matches!(expected, Outcome::Fails { .. }), "{} with {:?}", text, values);
                 prop_assert!(!planned.narrow || most <= i128::from(i64::MAX), "{}: {}", text, most);
@@ -342,11 +369,12 @@ objects:
         let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
         let planned = |text: &str| plan(&Expr::parse(text).unwrap(), &system.devices[0]);
         assert_eq!(planned("other:0x2000 < 0x2001"), Err(Unusable::Elsewhere));
-        assert_eq!(planned("other:0x2000 < 0x2001 < 0x2002").unwrap().comparisons.len(), 1);
+        assert_eq!(planned("other:0x2000 < 0x2001 < 0x2002").unwrap().alternatives[0].len(), 1);
+        assert_eq!(planned("other:0x2000 < 0x2001 or 0x2001 < 0x2002"), Err(Unusable::Elsewhere));
         let product = ["0x2002"; 5].join(" * ");
         assert_eq!(planned(&format!("{product} > 0")), Err(Unusable::TooLarge));
         // Reached only by the fifth power; the entry's own index counts.
         let id = EntryId { index: Index(0x2003), sub: SubIndex(0) };
-        assert_eq!(planned("0x2003 > 0").unwrap().comparisons[0].left, Sum::Entry(id));
+        assert_eq!(planned("0x2003 > 0").unwrap().alternatives[0][0].left, Sum::Entry(id));
     }
 }

@@ -1,7 +1,9 @@
 //! Objects and entries: their names, and their rows in the table.
 
 use od_spec::diag::Diagnostics;
-use od_spec::model::{Alias, DataType, Direction, Entry, EntryId, Object, SubIndex, TypeKind};
+use od_spec::model::{
+    Alias, DataType, Direction, Entry, EntryId, Family, Object, Real, RealLimits, SubIndex, TypeKind,
+};
 
 use super::condition::{self, Condition, Unusable};
 use super::language::{Companion, Role, ScopeKind};
@@ -279,8 +281,15 @@ fn ordered(data_type: DataType, value: i128) -> i64 {
 }
 
 fn limits(entry: &Entry) -> Option<(i64, i64)> {
-    if entry.low.is_none() && entry.high.is_none() {
+    if !entry.is_limited() {
         return None;
+    }
+    if entry.data_type.family() == Family::Real {
+        let RealLimits { low, high, .. } = &entry.real_limits;
+        let order = |real: &Real| real.order(entry.data_type);
+        // Without a limit, up to infinity; beyond it there is what is no number.
+        let infinity = Real::from(f64::INFINITY).order(entry.data_type);
+        return Some((low.as_ref().map_or(-infinity, order), high.as_ref().map_or(infinity, order)));
     }
     let (low, high) = entry.data_type.range()?;
     Some((

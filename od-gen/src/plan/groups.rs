@@ -93,6 +93,6 @@ fn member<'p>(planned: &'p PlannedEntry<'_>, language: &str) -> Option<Member<'p
         about,
         kind,
         size: *size,
-        limited: entry.low.is_some() || entry.high.is_some(),
+        limited: entry.is_limited(),
     })
 }

@@ -169,6 +169,24 @@ pub(crate) struct PlannedUnit<'a> {
     pub scale: Fraction,
     /// One raw step in the base.
     pub step: Fraction,
+    /// What the raw value 0 stands for, where that is not 0.
+    pub offset: Option<PlannedOffset>,
+}
+
+/// What the raw value 0 of a unit stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PlannedOffset {
+    /// In the unit's symbol.
+    pub in_symbol: SignedFraction,
+    /// In its base.
+    pub in_base: SignedFraction,
+}
+
+/// A fraction that code computes with, which may be negative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct SignedFraction {
+    pub numerator: i64,
+    pub denominator: u64,
 }
 
 /// A positive fraction that code computes with.
@@ -209,11 +227,21 @@ pub(crate) struct PlannedBits<'a> {
     pub values: Vec<PlannedValue<'a>>,
 }
 
-/// A set of special values that entries share.
+/// A set of special values that entries share. Sets of one name have the same meanings, and one type in code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct PlannedSpecial {
     pub name: String,
     pub values: Vec<PlannedSpecialValue>,
+}
+
+impl PlannedSpecial {
+    /// Whether both say the same, be it with other raw values.
+    pub(crate) fn has_meanings_of(&self, other: &Self) -> bool {
+        fn meanings(set: &PlannedSpecial) -> impl Iterator<Item = (&str, &str)> {
+            set.values.iter().map(|value| (value.name.as_str(), value.text.as_str()))
+        }
+        meanings(self).eq(meanings(other))
+    }
 }
 
 /// A special value.

@@ -10,8 +10,8 @@ use od_spec::model::{
 use super::language::{Companion, Role, ScopeKind};
 use super::names::Scope;
 use super::{
-    Fraction, Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit,
-    PlannedValue, ValueKind, too_large,
+    Fraction, Members, Plan, PlannedBits, PlannedOffset, PlannedSpecial, PlannedSpecialValue, PlannedType,
+    PlannedUnit, PlannedValue, SignedFraction, ValueKind, too_large,
 };
 
 impl<'a> Plan<'a> {
@@ -40,7 +40,17 @@ impl<'a> Plan<'a> {
                 diagnostics.push(too_large(span, &format!("the scale of unit `{}`", unit.name)));
                 continue;
             };
-            self.units.push(PlannedUnit { unit, name, scale, step });
+            let offset = match unit.offset {
+                Ratio::ZERO => None,
+                _ => match planned_offset(unit) {
+                    Some(offset) => Some(offset),
+                    None => {
+                        diagnostics.push(too_large(span, &format!("the offset of unit `{}`", unit.name)));
+                        continue;
+                    }
+                },
+            };
+            self.units.push(PlannedUnit { unit, name, scale, step, offset });
         }
     }
 
@@ -67,7 +77,8 @@ impl<'a> Plan<'a> {
         ValueKind { data_type: entry.data_type, named, unit, special }
     }
 
-    /// The set of special values of an entry; equal sets are one type.
+    /// The set of special values of an entry. Sets with the same meanings are one type in code, whatever their raw values: a
+    /// broken wire is 32767 on one entry and 65535 on another, and the accessors of each know which.
     fn special(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> usize {
         let values: Vec<_> = entry
             .special
@@ -83,14 +94,18 @@ impl<'a> Plan<'a> {
         if let Some(at) = self.specials.iter().position(|planned| *planned == set) {
             return at;
         }
-        if self.specials.iter().any(|planned| planned.name == set.name) {
+        let mut of_name = self.specials.iter().filter(|planned| planned.name == set.name);
+        let one_type = of_name.next();
+        if one_type.is_some_and(|other| !set.has_meanings_of(other)) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::IDENTIFIER_CLASH,
                     entry.span,
                     format!("`{}` would name two sets of special values", set.name),
                 )
-                .help("give special values that differ different names"),
+                .help(
+                    "spell what means the same in the same way, and give different meanings different names",
+                ),
             );
         }
         let mut scope = self.scope(ScopeKind::SpecialValues);
@@ -160,6 +175,19 @@ impl<'a> Plan<'a> {
         });
         planned.collect()
     }
+}
+
+fn planned_offset(unit: &Unit) -> Option<PlannedOffset> {
+    let in_base = signed_fraction(unit.offset_in(unit.base_symbol())?)?;
+    Some(PlannedOffset { in_symbol: signed_fraction(unit.offset)?, in_base })
+}
+
+/// A ratio in 64 bits, where it fits.
+fn signed_fraction(ratio: Ratio) -> Option<SignedFraction> {
+    Some(SignedFraction {
+        numerator: i64::try_from(ratio.numerator()).ok()?,
+        denominator: u64::try_from(ratio.denominator()).ok()?,
+    })
 }
 
 /// A positive ratio in 64 bits, where it fits.

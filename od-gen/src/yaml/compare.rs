@@ -72,7 +72,7 @@ fn same_entry(wanted: &Entry, found: &Entry, likeness: Likeness) -> bool {
         && same_named(wanted, found)
         && (wanted.access, wanted.locked, wanted.pdo) == (found.access, found.locked, found.pdo)
         && wanted.default == found.default
-        && (wanted.low, wanted.high) == (found.low, found.high)
+        && wanted.limits() == found.limits()
         && wanted.hull() == found.hull()
         && wanted.unit.as_ref().is_none_or(|unit| found.unit.as_ref().is_some_and(|one| same_unit(one, unit)))
         && (wanted.special.is_empty() || wanted.special == found.special)

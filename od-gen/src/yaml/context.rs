@@ -183,6 +183,7 @@ pub(super) fn same_unit(one: &Unit, other: &Unit) -> bool {
     (one.name == other.name || other.name == other.symbol)
         && one.symbol == other.symbol
         && one.scale == other.scale
+        && one.offset == other.offset
         && one.base == other.base
         && text(one) == text(other)
         && (one.about == other.about || other.about.is_empty())

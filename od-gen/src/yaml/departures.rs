@@ -199,8 +199,8 @@ fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) 
         }
         Fact::Access => (own.access, own.locked) != (below.access, below.locked),
         Fact::Default => own.default.as_ref() != stated,
-        Fact::LowLimit => own.low != below.low,
-        Fact::HighLimit => own.high != below.high,
+        Fact::LowLimit => own.limits().0 != below.limits().0,
+        Fact::HighLimit => own.limits().1 != below.limits().1,
         Fact::WriteCondition => condition(own) != condition(below),
         Fact::About => own.about != below.about,
         other => fold::get(&theirs, *other) != fold::get(&keys, *other),

@@ -5,6 +5,7 @@ use od_spec::model::{
     Dictionary, Entry, EntryId, Fact, Index, Mapped, ObjectKind, PdoMapping, Role, Storage, SubIndex, System,
     Text, Value,
 };
+use od_spec::wording::format_value;
 
 use super::emit::Written;
 use super::names::{apart, readable, shortened};
@@ -112,10 +113,19 @@ impl Draft {
             Fact::Default => {
                 let original = entry.default.clone().filter(|default| derived.as_ref() != Some(default))?;
                 entry.default = derived;
-                od_spec::wording::format_value(entry, &original)
+                format_value(entry, &original)
             }
-            Fact::LowLimit => entry.low.take()?.to_string(),
-            Fact::HighLimit => entry.high.take()?.to_string(),
+            Fact::LowLimit | Fact::HighLimit => {
+                let limits = entry.limits();
+                let limit = if fact == Fact::LowLimit { limits.0 } else { limits.1 }?;
+                let (raw, real) = if fact == Fact::LowLimit {
+                    (&mut entry.low, &mut entry.real_limits.low)
+                } else {
+                    (&mut entry.high, &mut entry.real_limits.high)
+                };
+                (*raw, *real) = (None, None);
+                limit.integer().map_or_else(|| format_value(entry, &limit), |raw| raw.to_string())
+            }
             Fact::Mapping => {
                 let mapping = std::mem::replace(&mut entry.pdo, PdoMapping::None);
                 (mapping != PdoMapping::None).then(|| mapping.word().to_owned())?

@@ -14,6 +14,9 @@ pub(super) fn units(context: &Context<'_>) -> Vec<Item> {
         if unit.scale != Ratio::ONE {
             items.push(Item::new("scale", Node::Plain(fraction(unit.scale))));
         }
+        if unit.offset != Ratio::ZERO {
+            items.push(Item::new("offset", Node::Plain(fraction(unit.offset))));
+        }
         if let Some(base) = &unit.base {
             items.push(Item::new("base", Node::Text(format!("{} {}", fraction(base.factor), base.symbol))));
         }

@@ -84,6 +84,6 @@ fn physical(unit: &Unit, raw: i128) -> Option<String> {
     let symbol = &unit.symbol;
     let readable = symbol.trim() == symbol
         && !symbol.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-'));
-    let steps = number.checked_div(unit.step_in(symbol)?)?;
+    let steps = unit.steps(number, symbol)?;
     (readable && !symbol.is_empty() && steps == Ratio::whole(raw)).then(|| unit.show(raw))
 }

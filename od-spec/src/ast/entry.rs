@@ -1,7 +1,6 @@
 //! What is written about an entry.
 
-use super::{BitRange, Name, Words};
-use crate::expr::Expr;
+use super::{BitRange, ConditionDecl, Name, Words};
 use crate::keys::entry_keys;
 use crate::model::{Access, AccessRight, Category, Fact, Facts, PdoMapping, Statement, Storage, Text};
 use crate::source::{FileId, Span, Spanned};

@@ -5,7 +5,7 @@ mod pdos;
 
 use std::ops::RangeInclusive;
 
-use crate::expr::Expr;
+use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
     channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys,
     machine_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
@@ -173,11 +173,39 @@ unit_keys! { declaration
     }
 }
 
+/// What the raw value 0 of a unit stands for, in its symbol.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Offset(pub Ratio);
+
 /// One symbol of a unit in a more basic one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BaseDecl {
     pub factor: Ratio,
     pub symbol: String,
+}
+
+/// A condition.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ConditionDecl {
+    /// Entries stand by index in it.
+    Plain(Expr),
+    /// Names stand in it that have to be looked up.
+    Named(String),
+}
+
+impl ConditionDecl {
+    /// Reads a condition.
+    pub(crate) fn read(text: &str) -> Option<Self> {
+        let named = || without_names(text, &mut AnyName).ok().map(|_| Self::Named(text.to_owned()));
+        Expr::parse(text).ok().map(Self::Plain).or_else(named)
+    }
+}
+
+/// Numbers that follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NumberRange {
+    pub first: u8,
+    pub last: u8,
 }
 
 /// A term of a condition that stands alone.

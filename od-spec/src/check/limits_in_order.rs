@@ -31,8 +31,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         {
             continue;
         }
-        let Some((low, high)) = entry.low.zip(entry.high).filter(|(low, high)| low > high) else { continue };
-        let show = |raw| format_value(entry, &Value::Integer(raw));
+        let are_swapped = entry.low.zip(entry.high).is_some_and(|(low, high)| low > high)
+            || entry.real_limits.are_swapped(entry.data_type);
+        let (Some(low), Some(high)) = entry.limits() else { continue };
+        if !are_swapped {
+            continue;
+        }
+        let show = |limit: Value| format_value(entry, &limit);
         let message = format!(
             "{id} ({}): the low limit {} is above the high limit {}",
             entry.name,

@@ -13,9 +13,10 @@ const CODE: &Code = &Code {
     id: "OD0807",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a default of a REAL type",
-    explanation: "Tools read `DefaultValue` of REAL32 and REAL64 differently: some as decimal text, some as the bit pattern of IEEE 754. It is written as \
-        decimal text. Withhold it from the EDS, or scale the value to an integer.",
+    title: "a default or limit of a REAL type",
+    explanation: "Tools read `DefaultValue`, `LowLimit` and `HighLimit` of REAL32 and REAL64 differently: some as decimal text, some as the bit pattern of \
+        IEEE 754, and some only as integers. They are written as decimal text. Withhold the default from the EDS, or scale the value to an integer; who \
+        knows that the tools in use read decimal text may allow this with `allow:`.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: gain, type: real32, access: rw, default: 0.5}",
@@ -23,18 +24,34 @@ const CODE: &Code = &Code {
     )),
 };
 
+const OF_LIMITS: Help<'_> = Help {
+    specification: "scale the value to an integer, or say with `allow:` why this is right",
+    eds: "leave them out, or scale the value to an integer",
+    setting: "the device has to scale the value to an integer",
+};
+
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for (id, entry, value) in subject.values() {
+    for (id, _, entry) in subject.device.entries() {
+        let limits = &entry.real_limits;
         // What is set was wished for, in this notation.
-        if matches!(value, Value::Real(_)) && entry.eds.default && !entry.is_set() {
-            findings.push(
-                Diagnostic::new(CODE, subject.place(entry, Fact::Default), format!("PLC tools may misread the default of {id}"))
-                    .help(subject.help(Help {
-                        specification: "withhold it from the EDS with `eds: {default: withheld}`, or scale the value to an integer",
-                        eds: "leave `DefaultValue` out, or scale the value to an integer",
-                        setting: "the device has to scale the value to an integer",
-                    })),
-            );
-        }
+        let has_default =
+            matches!(entry.default, Some(Value::Real(_))) && entry.eds.default && !entry.is_set();
+        let (what, fact, help) = match (has_default, &limits.low, &limits.high) {
+            (true, None, None) => (
+                "default",
+                Fact::Default,
+                Help {
+                    specification: "withhold it from the EDS with `eds: {default: withheld}`, or scale the value to an integer",
+                    eds: "leave `DefaultValue` out, or scale the value to an integer",
+                    setting: "the device has to scale the value to an integer",
+                },
+            ),
+            (true, _, _) => ("default and the limits", Fact::Default, OF_LIMITS),
+            (false, Some(_), _) => ("limits", Fact::LowLimit, OF_LIMITS),
+            (false, None, Some(_)) => ("limits", Fact::HighLimit, OF_LIMITS),
+            (false, None, None) => continue,
+        };
+        let message = format!("PLC tools may misread the {what} of {id}");
+        findings.push(Diagnostic::new(CODE, subject.place(entry, fact), message).help(subject.help(help)));
     }
 }

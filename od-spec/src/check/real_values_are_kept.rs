@@ -25,8 +25,17 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    for (id, entry, value) in subject.values() {
-        let Value::Real(real) = value else { continue };
+    let values = subject.device.entries().flat_map(|(id, _, entry)| {
+        let limits = &entry.real_limits;
+        let default = entry.default.as_ref().and_then(Value::real);
+        let of_fact = [
+            (Fact::Default, default),
+            (Fact::LowLimit, limits.low.as_ref()),
+            (Fact::HighLimit, limits.high.as_ref()),
+        ];
+        of_fact.into_iter().filter_map(move |(fact, real)| Some((id, entry, fact, real?)))
+    });
+    for (id, entry, fact, real) in values {
         let Some(written) = real.departing() else { continue };
         let kept = kept(real.number(), entry.data_type);
         let message =
@@ -36,7 +45,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let help = subject
             .help(Help { specification: &format!("{write}{or_wider}"), eds: &write, setting: &write })
             .to_owned();
-        findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help));
+        findings.push(Diagnostic::new(CODE, subject.place(entry, fact), message).help(help));
     }
 }
 

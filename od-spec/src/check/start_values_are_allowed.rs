@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{DataType, Dictionary, Entry, EntryId, Fact, SystemSource, TypeKind};
+use crate::model::{DataType, Dictionary, Entry, EntryId, Fact, Family, Real, SystemSource, TypeKind, Value};
 use crate::wording::allowed;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -31,9 +31,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
     for (id, entry) in starting_wrong(subject.device) {
         let message = format!("{id} ({}) starts with 0, which is {}", entry.name, problem(entry));
-        findings.push(Diagnostic::new(CODE, subject.place(entry, limit(entry).fact()), message).help(
-            "add `default:`, with `eds: {default: withheld}` where it is no promise; or make 0 a `special` value",
-        ));
+        let diagnostic = Diagnostic::new(CODE, subject.place(entry, limit(entry).fact()), message);
+        findings.push(diagnostic.help(if entry.data_type.family() == Family::Real {
+            "add `default:`, with `eds: {default: withheld}` where it is no promise"
+        } else {
+            "add `default:`, with `eds: {default: withheld}` where it is no promise; or make 0 a `special` value"
+        }));
     }
 }
 
@@ -74,6 +77,9 @@ fn problem(entry: &Entry) -> String {
 
 /// Whether an entry can have the value 0; one that has no numbers starts empty.
 fn starts_right(entry: &Entry) -> bool {
+    if entry.data_type.family() == Family::Real {
+        return entry.real_limits.allow(&Real::from(0.0), entry.data_type);
+    }
     let is_number = entry.data_type.is_integer() || entry.data_type == DataType::Boolean;
     !is_number
         || entry.special.iter().any(|special| special.value == 0)
@@ -107,9 +113,17 @@ impl Limit {
 }
 
 fn limit(entry: &Entry) -> Limit {
-    match (entry.low, entry.high) {
-        (Some(low), _) if low > 0 => Limit::Low,
-        (_, Some(high)) if high < 0 => Limit::High,
-        (Some(_) | None, Some(_) | None) => Limit::Type,
+    let sign = |limit: &Value| match limit {
+        Value::Real(real) => i128::from(real.order(entry.data_type)),
+        Value::Integer(raw) => *raw,
+        Value::NodeId(_) | Value::Text(_) | Value::Bytes(_) => 0,
+    };
+    let (low, high) = entry.limits();
+    if low.is_some_and(|low| sign(&low) > 0) {
+        Limit::Low
+    } else if high.is_some_and(|high| sign(&high) < 0) {
+        Limit::High
+    } else {
+        Limit::Type
     }
 }

@@ -50,6 +50,11 @@ fn view_counts(subject: &Subject<'_>, view: &Entry) -> bool {
 /// The first node on which the value is outside.
 fn outside(subject: &Subject<'_>, entry: &Entry, value: &Value) -> Option<u8> {
     // Limits in the wrong order allow nothing; that is said by itself.
+    if let Value::Real(real) = value {
+        let limits = &entry.real_limits;
+        let is_outside = !limits.are_swapped(entry.data_type) && !limits.allow(real, entry.data_type);
+        return subject.nodes_of(value).next().filter(|_| is_outside);
+    }
     let has_order = entry.low.zip(entry.high).is_none_or(|(low, high)| low <= high);
     let (low, high) = entry.data_type.range().filter(|_| has_order)?;
     let is_outside = |raw: i128| (low..=high).contains(&raw) && !entry.allows(raw);
@@ -57,11 +62,15 @@ fn outside(subject: &Subject<'_>, entry: &Entry, value: &Value) -> Option<u8> {
 }
 
 fn finding(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value, node: u8) -> Diagnostic {
-    let raw = value.integer_for(node).unwrap_or_default();
-    let (shown, on_node) = (format_value(entry, &Value::Integer(raw)), subject.on_node(value, node));
+    let of_node = value.integer_for(node).map_or_else(|| value.clone(), Value::Integer);
+    let (shown, on_node) = (format_value(entry, &of_node), subject.on_node(value, node));
     let message = format!("{id} ({}): {shown} is outside {}{on_node}", entry.name, allowed(entry));
     let help = subject.help(Help {
-        specification: "correct the value or the limits, or make the value `special`",
+        specification: if of_node.integer().is_some() {
+            "correct the value or the limits, or make the value `special`"
+        } else {
+            "correct the value or the limits"
+        },
         eds: "correct the value or the limits",
         setting: "write a value within the limits; the device refuses any other",
     });

@@ -1,6 +1,6 @@
 //! Notations inside scalars: indices, entries, bits, dates, access, patterns.
 
-use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange, SubIndexRange};
+use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange, NumberRange, SubIndexRange};
 use crate::model::{
     Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
 };
@@ -138,6 +138,14 @@ pub(crate) fn bits(text: &str) -> Option<BitRange> {
     let (first, last) = text.split_once("..").unwrap_or((text, text));
     let (first, last) = (number(first)?, number(last)?);
     (first <= last).then_some(BitRange { first, last })
+}
+
+/// `4`, or `0..11`.
+pub(crate) fn numbers(text: &str) -> Option<NumberRange> {
+    let number = |text: &str| u8::try_from(scalar::integer(text.trim()).ok()?).ok();
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let (first, last) = (number(first)?, number(last)?);
+    (first <= last).then_some(NumberRange { first, last })
 }
 
 /// `0x3280` or `0x3281..0x3288`.

@@ -1,6 +1,6 @@
 //! Typed reading of nodes whose shape was checked: what does not fit is left out without a word.
 
-use crate::ast::{BaseDecl, Formula, MappingKind, Name, Words};
+use crate::ast::{BaseDecl, ConditionDecl, Formula, MappingKind, Name, NumberRange, Offset, Words};
 use crate::diag::Diagnostics;
 use crate::expr::Expr;
 use crate::keys::Keys;
@@ -163,8 +163,10 @@ scalars! {
     ErratumKind = ErratumKind::from_word,
     MappingKind = MappingKind::from_word,
     Ratio = lexical::positive_ratio,
+    Offset = |text| scalar::ratio(text).map(Offset),
     BaseDecl = lexical::base,
-    Expr = |text| Expr::parse(text).ok(),
+    ConditionDecl = ConditionDecl::read,
+    NumberRange = lexical::numbers,
     Formula = |text| Expr::parse_term(text).ok().map(Formula),
     BitPattern = lexical::pattern,
     NamePattern = |text| NamePattern::parse(text).ok(),

@@ -2,7 +2,7 @@
 
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::expr::{ConditionError, Expr, Parsed};
+use crate::expr::{AnyName, ConditionError, Expr, Parsed, without_names};
 use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
@@ -299,7 +299,10 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Type => "a data type or the name of a type",
         Shape::Value | Shape::Default => "a value",
         Shape::Ratio => "a fraction such as `1/10`",
+        Shape::SignedRatio => "a number such as `-40` or `-273.15`, in the unit's symbol",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",
+        Shape::Time => "a time such as `10 ms`",
+        Shape::Numbers => "a number from 0 to 255 or a run such as `0..11`",
         Shape::Formula => "a formula such as `0x6092.1 / 0x6092.2`",
         Shape::Condition => "a condition such as `0x607D.1 < 0x607D.2`",
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
@@ -313,9 +316,9 @@ const fn expected(shape: Shape) -> &'static str {
 }
 
 /// Reports what cannot be read in a condition or formula.
-fn unreadable(
+fn unreadable<T>(
     text: Spanned<&str>,
-    read: Parsed<Expr>,
+    read: Parsed<T>,
     what: &str,
     help: &str,
     diagnostics: &mut Diagnostics,
@@ -384,9 +387,9 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         Shape::Access if lexical::access(value).is_none() => unknown_word(text, Access::WORDS, diagnostics),
         Shape::Condition => unreadable(
             text,
-            Expr::parse(value),
+            without_names(value, &mut AnyName),
             "condition",
-            "conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`",
+            "conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`; entries and bits may stand by name",
             diagnostics,
         ),
         Shape::Formula => unreadable(
@@ -412,8 +415,10 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                     lexical::entry_by_index(value).is_some() || !lexical::looks_like_index(value)
                 }
                 Shape::Ratio => lexical::positive_ratio(value).is_some(),
+                Shape::SignedRatio => scalar::ratio(value).is_some(),
                 Shape::Base => lexical::base(value).is_some(),
                 Shape::Pattern => lexical::pattern(value).is_some(),
+                Shape::Numbers => lexical::numbers(value).is_some(),
                 _ => true,
             };
             if !fits {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::constraints;
 use super::devices::device;
 use super::lexical;
 use super::machines::machine;
@@ -59,7 +60,12 @@ pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
         machines: top.entries("state-machines").map(|(name, r)| machine(name, r, diagnostics)).collect(),
         constraints: top
             .entries("constraints")
-            .map(|(name, r)| constraint(owned(name), r, diagnostics))
+            .flat_map(|(name, r)| {
+                let decl = constraint(owned(name), r, diagnostics);
+                // Numbers that cannot be read were reported.
+                let is_broken = r.child("n").is_some() && decl.numbers.is_empty();
+                if is_broken { Vec::new() } else { constraints::numbered(decl, diagnostics) }
+            })
             .collect(),
         errata: top.items("errata").map(|r| erratum(r, diagnostics)).collect(),
         sections: top.items("document").map(section).collect(),

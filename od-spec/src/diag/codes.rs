@@ -117,15 +117,15 @@ codes! {
     INEXACT_VALUE Error "OD0412" "a physical value between two steps":
         "The value cannot be expressed in whole steps of the unit's scale: 5.05 °C is 50.5 steps of 0.1 °C. Nothing is rounded silently."
     LIMIT_ON_TYPE Error "OD0408" "a limit on a type without order":
-        "Only integers have limits: strings, domains and BOOLEAN have none, and limits of REAL types are read differently by every tool."
+        "Only numbers have limits: strings, domains and BOOLEAN have none. Special values are those of integers."
     BAD_BASE_TYPE Error "OD0409" "a type that cannot carry values or bits":
         "Enums and bit fields are carried by an INTEGERn or UNSIGNEDn type."
     OVERLAPPING_BITS Error "OD0410" "overlapping bits":
         "Two fields of a bit field claim one bit."
     BITS_MISSING Error "OD0411" "bits without a meaning":
         "A bit field says something about every bit, and be it `reserved` or `unused`; otherwise a forgotten row of the manual would go unnoticed. `rest: reserved` covers what is not listed."
-    UNKNOWN_BIT Error "OD0413" "errors of a bit that does not exist":
-        "`bit-errors:` names bits of the entry's bit field type."
+    UNKNOWN_BIT Error "OD0413" "a bit that does not exist":
+        "`bit-errors:` and a `default:` that is a list name bits of the entry's bit field type."
     BAD_ALIAS Error "OD0418" "an alias that cannot show its target":
         "An alias is a second view of an integer entry: in a narrower type of the same sign, or in another unit of the same base."
     ALIAS_OF_ALIAS Error "OD0419" "an alias of an alias":

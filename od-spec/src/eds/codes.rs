@@ -77,7 +77,7 @@ codes! {
     TEXT_NOT_ASCII Error Warning "EDS511" "CiA 301 7.1.6.3" "a VISIBLE_STRING with other characters":
         "A VISIBLE_STRING holds the printable characters of ASCII. The value is left out, as nobody knows which bytes the device has."
     NO_PLACE Note Note "EDS512" "CiA 306 4.6.3.2" "a value that has no place in the dictionary":
-        "Values and limits of DOMAIN, time and text entries, limits of REAL entries, limits that depend on the node-ID and reference designations (`ParamRefd`) are not kept: the dictionary has no place for them. Parameter values, application names (`Denotation`) and the files of DOMAINs belong to a node, and have a place in a DCF only. What has none is left out of what is made from the file."
+        "Values and limits of DOMAIN, time and text entries, limits that depend on the node-ID and reference designations (`ParamRefd`) are not kept: the dictionary has no place for them. Parameter values, application names (`Denotation`) and the files of DOMAINs belong to a node, and have a place in a DCF only. What has none is left out of what is made from the file."
     LIMIT_ON_TYPE Warning Warning "EDS513" "CiA 306 4.6.3.2" "a limit where none can be":
         "Only numbers have limits. Those of texts, byte blocks and BOOLEANs are left out."
 }

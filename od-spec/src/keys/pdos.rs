@@ -1,6 +1,6 @@
 //! PDOs.
 
-use super::shape::{Key, KeyKind, Keys, NumberedName, Shape, U8, U16, U32};
+use super::shape::{Key, KeyKind, Keys, NumberedName, Shape, U8, U32};
 use super::table::keys;
 
 keys! {
@@ -119,8 +119,8 @@ macro_rules! pdo_keys {
             "valid": Shape::YesNo => valid: Option<Spanned<bool>>, "whether the PDO exists after start-up; yes unless given";
             "no-rtr": Shape::YesNo => no_rtr: Option<Spanned<bool>>, "TPDO: remote frames are not answered (bit 30); no unless given";
             "transmission": U8 => transmission: Option<Spanned<i128>>, "transmission type; 255 unless given";
-            "inhibit-time": U16 => inhibit_time: Option<Spanned<i128>>, "inhibit time in multiples of 100 µs; the device has no such entry unless given";
-            "event-timer": U16 => event_timer: Option<Spanned<i128>>, "event timer in ms; the device has no such entry unless given";
+            "inhibit-time": Shape::Time => inhibit_time: Option<Name>, "inhibit time, as a number in multiples of 100 µs; the device has no such entry unless given", "10 ms";
+            "event-timer": Shape::Time => event_timer: Option<Name>, "event timer, as a number in ms; the device has no such entry unless given", "100 ms";
             "sync-start": Shape::Integer(0, 240) => sync_start: Option<Spanned<i128>>, "SYNC start value; the device has no such entry unless given";
             "mapping": Shape::Choice(&["variable", "fixed"]) => mapping: Option<Spanned<MappingKind>>, "whether the mapping can be changed over the bus; variable unless given";
             "capacity": Shape::Integer(0, 64) => capacity: Option<Spanned<i128>>, "mapping entries the device offers; 64 / granularity unless given (granularity 0 counts as 1); only where the mapping is variable";

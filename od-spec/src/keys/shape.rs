@@ -57,12 +57,19 @@ pub enum Shape {
     Type,
     /// A value of an entry: number, physical value, enum name, text or `$NODEID` formula.
     Value,
-    /// A value; a list of values, one for each element of an array; or a map from device to one of these.
+    /// A value; a list of values, one for each element of an array, or of the bits of a bit field that are 1,
+    /// `[enable, {mode: homing}]`; or a map from device to one of these.
     Default,
     /// A fraction: `1/10`.
     Ratio,
+    /// A fraction that may be negative or 0: `-40`.
+    SignedRatio,
     /// A fraction and a symbol: `1/1000 V`.
     Base,
+    /// A time in steps of its key, 0 to 65535, or with its unit: `10 ms`.
+    Time,
+    /// A number from 0 to 255, or numbers that follow each other: `0..11`.
+    Numbers,
     /// A condition between entries.
     Condition,
     /// A term of a condition: `0x6092.1 / 0x6092.2`.

@@ -8,6 +8,7 @@ macro_rules! unit_keys {
         $then! { $($head)* {
             "symbol" required: Shape::Text => symbol: Option<Name>, "symbol, such as `°C`", "mV";
             "scale": Shape::Ratio => scale: Option<Spanned<Ratio>>, "one raw step in `symbol`; 1 unless given", "1/10";
+            "offset": Shape::SignedRatio => offset: Option<Spanned<Offset>>, "what the raw value 0 stands for, in `symbol`; 0 unless given", "-40";
             "base": Shape::Base => base: Option<Spanned<BaseDecl>>, "one `symbol` in a more basic one, such as `1/1000 V`; units of one base convert into each other", "1/1000 V";
             "formula": Shape::Formula => formula: Option<Spanned<Formula>>, "what other entries make of one raw step, for the documentation", "0x6092.1 / 0x6092.2 / 65536";
             "about": Shape::Words => about: Words, "meaning";

@@ -21,7 +21,7 @@ const BEFORE_COMMENT: usize = 2;
 /// ```
 /// let text = "objects:\n    0x2000:   {name: level,type: unsigned8}   # of the tank\n";
 /// let laid_out = od_spec::layout("tank.od.yaml", text.into()).expect("it is YAML");
-/// assert_eq!(laid_out, "objects:\n  0x2000: {name: level, type: unsigned8}   # of the tank\n");
+/// assert_eq!(laid_out, "objects:\n  0x2000: {name: level, type: unsigned8}      # of the tank\n");
 /// ```
 ///
 /// # Errors

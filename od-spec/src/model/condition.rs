@@ -1,5 +1,5 @@
 //! Conditions between entries: `0x30FC.2 < 0x30FC.1`, `bit(0x6041, 2) == 0`. Values are compared in physical units: raw value
-//! × scale, in the unit's base symbol.
+//! × scale + offset, in the unit's base symbol.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -11,8 +11,8 @@ use super::{EntryId, Ratio};
 pub struct Expr {
     /// The condition as written.
     pub text: String,
-    /// All must hold.
-    pub comparisons: Vec<Comparison>,
+    /// Comparisons that all must hold, for one of these at least: `a and b or c`.
+    pub alternatives: Vec<Vec<Comparison>>,
     /// Where in the text the entries are named, in the order of [`Expr::entries`].
     pub places: Vec<std::ops::Range<usize>>,
 }
@@ -143,6 +143,21 @@ pub enum Outcome {
 }
 
 impl Expr {
+    /// A condition whose names are not looked up yet.
+    pub(crate) fn unresolved(text: &str) -> Self {
+        Self { text: text.to_owned(), alternatives: Vec::new(), places: Vec::new() }
+    }
+
+    /// Whether names have to be looked up in it.
+    pub(crate) const fn is_unresolved(&self) -> bool {
+        self.alternatives.is_empty()
+    }
+
+    /// All comparisons, in order.
+    pub fn comparisons(&self) -> impl Iterator<Item = &Comparison> {
+        self.alternatives.iter().flatten()
+    }
+
     /// All entries that the condition names.
     pub fn entries(&self) -> Vec<&EntryRef> {
         self.operands().into_iter().map(|(entry, _)| entry).collect()
@@ -151,7 +166,7 @@ impl Expr {
     /// All entries that the condition names, with the bit that it asks for.
     pub fn operands(&self) -> Vec<(&EntryRef, Option<u8>)> {
         let mut operands = Vec::new();
-        for comparison in &self.comparisons {
+        for comparison in self.comparisons() {
             comparison.first.operands(&mut operands);
             for (_, term) in &comparison.rest {
                 term.operands(&mut operands);
@@ -160,31 +175,45 @@ impl Expr {
         operands
     }
 
-    /// Whether the condition holds for these values. A failing link is reported also where an earlier link is unknown.
+    /// Whether the condition holds for these values. Of alternatives that all fail, the first is reported.
     pub fn evaluate(&self, values: &dyn Values) -> Outcome {
-        let mut outcome = Outcome::Holds;
-        for comparison in &self.comparisons {
-            let mut left = &comparison.first;
-            for (op, right) in &comparison.rest {
-                match (left.evaluate(values), right.evaluate(values)) {
-                    (Some(a), Some(b)) => match a.compare(b) {
-                        Some(order) if op.accepts(order) => {}
-                        Some(_) => {
-                            return Outcome::Fails {
-                                left: (left.to_string(), a),
-                                op: *op,
-                                right: (right.to_string(), b),
-                            };
-                        }
-                        None => outcome = Outcome::Unknown,
-                    },
-                    _ => outcome = Outcome::Unknown,
-                }
-                left = right;
-            }
+        let mut outcomes = self.alternatives.iter().map(|comparisons| all_hold(comparisons, values));
+        let mut outcome = outcomes.next().unwrap_or(Outcome::Holds);
+        for other in outcomes {
+            outcome = match (outcome, other) {
+                (Outcome::Holds, _) | (_, Outcome::Holds) => Outcome::Holds,
+                (Outcome::Unknown, _) | (_, Outcome::Unknown) => Outcome::Unknown,
+                (first @ Outcome::Fails { .. }, Outcome::Fails { .. }) => first,
+            };
         }
         outcome
     }
+}
+
+/// Whether comparisons all hold. A failing link is reported also where an earlier link is unknown.
+fn all_hold(comparisons: &[Comparison], values: &dyn Values) -> Outcome {
+    let mut outcome = Outcome::Holds;
+    for comparison in comparisons {
+        let mut left = &comparison.first;
+        for (op, right) in &comparison.rest {
+            match (left.evaluate(values), right.evaluate(values)) {
+                (Some(a), Some(b)) => match a.compare(b) {
+                    Some(order) if op.accepts(order) => {}
+                    Some(_) => {
+                        return Outcome::Fails {
+                            left: (left.to_string(), a),
+                            op: *op,
+                            right: (right.to_string(), b),
+                        };
+                    }
+                    None => outcome = Outcome::Unknown,
+                },
+                _ => outcome = Outcome::Unknown,
+            }
+            left = right;
+        }
+    }
+    outcome
 }
 
 impl Term {

@@ -38,10 +38,10 @@ impl<'a> Held<'a> {
 /// In physical units.
 impl Values for Held<'_> {
     fn value(&self, entry: &EntryRef) -> Option<Ratio> {
-        let raw = Ratio::whole(self.raw(entry)?);
+        let raw = self.raw(entry)?;
         match self.named(entry)?.entry(entry.id)?.unit.as_ref() {
-            Some(unit) => raw.checked_mul(unit.step()?),
-            None => Some(raw),
+            Some(unit) => unit.quantity(raw),
+            None => Some(Ratio::whole(raw)),
         }
     }
 

@@ -42,7 +42,7 @@ pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transiti
 pub use named_type::{
     BitErrors, BitField, BitUsage, Edge, EnumValue, EnumValues, ModeMeaning, NamedType, TypeKind,
 };
-pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, SpecialValue};
+pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, RealLimits, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names, usual_pdo_storage};
 pub use ratio::Ratio;

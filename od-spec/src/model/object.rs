@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::{
     Access, Author, BitErrors, BitField, Category, DataType, Departure, EntryId, Expr, Fact, Facts, Index,
-    NamedType, Outside, PdoMapping, Ratio, Rounding, Statement, Storage, SubIndex, Text, TypeKind, Unit,
-    Value,
+    NamedType, Outside, PdoMapping, Ratio, Real, Rounding, Statement, Storage, SubIndex, Text, TypeKind,
+    Unit, Value,
 };
 use crate::source::{Span, Spanned};
 
@@ -154,6 +154,8 @@ pub struct Entry {
     pub low: Option<i128>,
     /// Largest allowed value (raw), beside the special values.
     pub high: Option<i128>,
+    /// Smallest and largest allowed value of a REAL.
+    pub real_limits: RealLimits,
     /// Physical unit and scale.
     pub unit: Option<Arc<Unit>>,
     /// Raw values with a meaning of their own; allowed even outside the limits.
@@ -198,6 +200,7 @@ impl Entry {
             default: None,
             low: None,
             high: None,
+            real_limits: RealLimits::default(),
             unit: None,
             special: Vec::new(),
             stored: Storage::No,
@@ -222,6 +225,22 @@ impl Entry {
         let low = self.low.map(|low| special.clone().fold(low, i128::min));
         let high = self.high.map(|high| special.fold(high, i128::max));
         (low, high)
+    }
+
+    /// The declared limits, beside the special values. `None` where nothing limits that side.
+    pub fn limits(&self) -> (Option<Value>, Option<Value>) {
+        let of = |raw: Option<i128>, real: &Option<Real>| {
+            raw.map(Value::Integer).or_else(|| real.clone().map(Value::Real))
+        };
+        (of(self.low, &self.real_limits.low), of(self.high, &self.real_limits.high))
+    }
+
+    /// Whether anything limits its values beyond their type.
+    pub const fn is_limited(&self) -> bool {
+        self.low.is_some()
+            || self.high.is_some()
+            || self.real_limits.low.is_some()
+            || self.real_limits.high.is_some()
     }
 
     /// Lowest bits of the fields that are set together with an error code.
@@ -265,6 +284,32 @@ impl Entry {
     pub fn allows(&self, value: i128) -> bool {
         self.special.iter().any(|special| special.value == value)
             || (self.low.is_none_or(|low| value >= low) && self.high.is_none_or(|high| value <= high))
+    }
+}
+
+/// Smallest and largest allowed value of a REAL. `None` where nothing limits that side.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct RealLimits {
+    /// Smallest.
+    pub low: Option<Real>,
+    /// Largest.
+    pub high: Option<Real>,
+}
+
+impl RealLimits {
+    /// Whether a number lies within them, all as the type keeps them.
+    pub fn allow(&self, number: &Real, data_type: DataType) -> bool {
+        let is_below = self.low.as_ref().is_some_and(|low| number.compare(low, data_type).is_lt());
+        !is_below && !self.high.as_ref().is_some_and(|high| number.compare(high, data_type).is_gt())
+    }
+
+    /// Whether nothing lies within them.
+    pub fn are_swapped(&self, data_type: DataType) -> bool {
+        self.low
+            .as_ref()
+            .zip(self.high.as_ref())
+            .is_some_and(|(low, high)| low.compare(high, data_type).is_gt())
     }
 }
 

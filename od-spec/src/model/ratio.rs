@@ -11,6 +11,9 @@ pub struct Ratio {
 }
 
 impl Ratio {
+    /// The number zero.
+    pub const ZERO: Ratio = Ratio { numerator: 0, denominator: 1 };
+
     /// The number one.
     pub const ONE: Ratio = Ratio { numerator: 1, denominator: 1 };
 

@@ -2,7 +2,9 @@
 
 use std::fmt::{self, Debug, Formatter};
 
-use super::DataType;
+use std::cmp::Ordering;
+
+use super::{DataType, Ratio};
 
 /// A number of REAL32 or REAL64.
 #[derive(Clone)]
@@ -19,6 +21,37 @@ impl Real {
         let kept = kept(number, data_type);
         (number.is_finite() && kept.is_finite())
             .then(|| Self { number, departing: (!is_kept(text, kept, data_type)).then(|| text.into()) })
+    }
+
+    /// The number of a fraction, for a type; `None` if it is too large.
+    pub fn of_ratio(ratio: Ratio, data_type: DataType) -> Option<Self> {
+        if let Some(text) = ratio.decimal_places().and_then(|places| ratio.to_decimal(places)) {
+            return Self::read(&text, data_type);
+        }
+        #[expect(clippy::cast_precision_loss, reason = "what no decimal writes, no binary number has either")]
+        let number = ratio.numerator() as f64 / ratio.denominator() as f64;
+        kept(number, data_type)
+            .is_finite()
+            .then(|| Self { number, departing: Some(ratio.to_string().into()) })
+    }
+
+    /// How the number compares with another one, as the type keeps both.
+    pub fn compare(&self, other: &Self, data_type: DataType) -> Ordering {
+        self.order(data_type).cmp(&other.order(data_type))
+    }
+
+    /// A whole number that stands for the one that the type keeps wherever numbers of the type are compared: its bits without
+    /// the sign, and negative where the number is.
+    pub fn order(&self, data_type: DataType) -> i64 {
+        let kept = kept(self.number, data_type);
+        let magnitude = if data_type == DataType::Real32 {
+            #[expect(clippy::cast_possible_truncation, reason = "a number that the type has")]
+            let bits = (kept as f32).abs().to_bits();
+            i64::from(bits)
+        } else {
+            kept.abs().to_bits().cast_signed()
+        };
+        if kept.is_sign_negative() { -magnitude } else { magnitude }
     }
 
     /// The number, as exactly as 64 bits have it.
@@ -152,6 +185,29 @@ mod tests {
             assert_eq!(is_kept(DataType::Real32), single, "{shown} as REAL32");
             assert_eq!(is_kept(DataType::Real64), double, "{shown} as REAL64");
         }
+    }
+
+    #[test]
+    fn numbers_are_ordered_as_their_type_keeps_them() {
+        let real = |number: f64| Real::from(number);
+        let ascending = [-1e38, -1.5, -1e-45, 0.0, 1e-45, 0.1, 1.0, 16_777_216.0, 3e38];
+        for data_type in [DataType::Real32, DataType::Real64] {
+            assert!(
+                ascending.windows(2).all(|pair| real(pair[0]).compare(&real(pair[1]), data_type).is_lt())
+            );
+            assert_eq!(real(-0.0).order(data_type), 0);
+        }
+        assert_eq!(real(16_777_217.0).compare(&real(16_777_216.0), DataType::Real32), Ordering::Equal);
+        assert_eq!(real(16_777_217.0).compare(&real(16_777_216.0), DataType::Real64), Ordering::Greater);
+        assert_eq!(real(1.0).order(DataType::Real32), 0x3F80_0000);
+        assert_eq!(real(-1.0).order(DataType::Real64), -0x3FF0_0000_0000_0000);
+    }
+
+    #[test]
+    fn fractions_are_the_nearest_number() {
+        let of = |upper, lower| Real::of_ratio(Ratio::new(upper, lower).unwrap(), DataType::Real32).unwrap();
+        assert_eq!((of(41, 2).number(), of(41, 2).departing()), (20.5, None));
+        assert_eq!((of(1, 3).number(), of(1, 3).departing()), (1.0 / 3.0, Some("1/3")));
     }
 
     #[test]

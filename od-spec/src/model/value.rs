@@ -37,7 +37,7 @@ impl Value {
                 let raw = self.integer_for(node).filter(|raw| (low..=high).contains(raw))?;
                 raw.to_le_bytes().get(..size).map(<[u8]>::to_vec)
             }
-            Family::Real => self.real().map(|number| real_bytes(number, data_type)),
+            Family::Real => self.real().map(|real| real_bytes(real.number(), data_type)),
             Family::VisibleString => self.text().map(|text| text.as_bytes().to_vec()),
             Family::UnicodeString => {
                 self.text().map(|text| text.encode_utf16().flat_map(u16::to_le_bytes).collect())
@@ -56,9 +56,10 @@ impl Value {
         }
     }
 
-    const fn real(&self) -> Option<f64> {
+    /// The floating-point number, if the value is one.
+    pub const fn real(&self) -> Option<&Real> {
         match self {
-            Value::Real(real) => Some(real.number()),
+            Value::Real(real) => Some(real),
             Value::Integer(_) | Value::NodeId(_) | Value::Text(_) | Value::Bytes(_) => None,
         }
     }

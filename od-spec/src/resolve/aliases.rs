@@ -303,12 +303,23 @@ fn factor(
     if !rescaled {
         return Some(Ratio::ONE);
     }
-    let factor = match (entries::step(alias.unit.as_ref()), entries::step(shown.unit.as_ref())) {
-        (Some((symbol, step)), Some((target_symbol, target_step))) if symbol == target_symbol => {
-            target_step.checked_div(step)
-        }
-        _ => None,
-    };
+    let units = alias.unit.as_deref().zip(shown.unit.as_deref());
+    let units = units.filter(|(unit, of_target)| unit.base_symbol() == of_target.base_symbol());
+    if let Some((unit, of_target)) = units
+        && unit.offset_in(unit.base_symbol()) != of_target.offset_in(of_target.base_symbol())
+    {
+        return refuse(
+            format!(
+                "{} counts from {}, {} from {}: a view multiplies, and adds nothing",
+                unit_name(alias),
+                unit.show(0),
+                unit_name(shown),
+                of_target.show(0)
+            ),
+            "give the alias a unit with the `offset` of its target's, or leave out its unit",
+        );
+    }
+    let factor = units.and_then(|(unit, of_target)| of_target.step()?.checked_div(unit.step()?));
     factor.or_else(|| {
         refuse(
             format!(

@@ -1,14 +1,16 @@
 //! Conditions between entries, tried on the defaults.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::ast::{ConstraintDecl, Name, Spec};
+use crate::ast::{ConditionDecl, ConstraintDecl, Name, Spec};
 use crate::decode::inside;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::expr::{Comparison, EntryRef, Expr, Term};
-use crate::model::{Constraint, Devices, Dictionary, Entry, Index};
+use crate::model::{Constraint, Devices, Dictionary, Entry, Fact, Index};
 use crate::source::{Span, Spanned};
 
+use super::condition_names::{self, Described};
 use super::refs::Broken;
 use super::types::words;
 use super::varied::Varied;
@@ -33,9 +35,15 @@ pub(super) fn resolve(
             varied.is_refused(entry.id.index, place, keys(), help, diagnostics);
         }
     }
+    // What the devices call their entries; nobody asks where no condition has names.
+    let described = OnceCell::new();
+    let describe = || -> Vec<Described<'_>> {
+        devices.iter().map(|device| Described::new(&device.key, &device.objects)).collect()
+    };
+    let described = || described.get_or_init(describe).as_slice();
     root.constraints
         .iter()
-        .filter_map(|decl| constraint(decl, &known, &varied, broken, diagnostics))
+        .filter_map(|decl| constraint(decl, &known, &varied, &described, broken, diagnostics))
         .collect()
 }
 
@@ -121,16 +129,32 @@ fn check_write_conditions(
     let common = decl.array.iter().map(|array| &array.entry);
     let entries = members.chain(elements).map(|(_, entry)| entry).chain(common).chain([&decl.entry]);
     for condition in entries.filter_map(|entry| entry.writable_when.as_ref()) {
-        check_names_entries(condition, diagnostics);
+        if let ConditionDecl::Plain(plain) = &condition.value {
+            check_names_entries(&Spanned::new(plain.clone(), condition.span), diagnostics);
+        }
         let has = |device: &&&Dictionary| {
             decl.devices.as_ref().is_none_or(|on| on.iter().any(|key| key.value == device.key))
         };
         for device in devices.with(decl.index.value).iter().filter(has) {
-            check_known(condition, Meant::One(device), broken, diagnostics);
-            check_operands(condition, Meant::One(device), diagnostics);
-            check_units(condition, Meant::One(device), diagnostics);
+            let understood = match &condition.value {
+                ConditionDecl::Plain(plain) => Some(plain),
+                ConditionDecl::Named(_) => named_write_condition(device, decl.index.value, condition.span),
+            };
+            // What names stand for was looked for already.
+            let Some(understood) = understood else { continue };
+            let understood = Spanned::new(understood.clone(), condition.span);
+            check_known(&understood, Meant::One(device), broken, diagnostics);
+            check_names_entries(&understood, diagnostics);
+            check_operands(&understood, Meant::One(device), diagnostics);
+            check_units(&understood, Meant::One(device), diagnostics);
         }
     }
+}
+
+/// A write condition with names, as it was understood on a device.
+fn named_write_condition(device: &Dictionary, index: Index, place: Span) -> Option<&Expr> {
+    let mut entries = device.objects.get(&index)?.entries.iter();
+    entries.find(|entry| entry.place(Fact::WriteCondition) == place)?.writable_when.as_ref()
 }
 
 /// Reports entries that none of the devices has; `true` when there are none such.
@@ -177,7 +201,7 @@ fn check_names_entries(condition: &Spanned<Expr>, diagnostics: &mut Diagnostics)
         let terms = comparison.rest.iter().map(|(_, term)| term).chain([&comparison.first]);
         terms.into_iter().any(Term::names_entry)
     };
-    if !condition.value.comparisons.iter().all(names_one) {
+    if !condition.value.comparisons().all(names_one) {
         diagnostics.push(
             Diagnostic::new(codes::BAD_NOTATION, condition.span, "a comparison names no entry, only numbers")
                 .help("write entries with `0x`, such as `0x607D.1`; without it, they are decimal numbers"),
@@ -207,7 +231,7 @@ fn check_units(condition: &Spanned<Expr>, devices: Meant<'_>, diagnostics: &mut 
         let Term::Entry(entry) = term else { return None };
         devices.entry(entry)?.unit.clone().map(|unit| (term.to_string(), unit))
     };
-    for comparison in &condition.value.comparisons {
+    for comparison in condition.value.comparisons() {
         let mut left = unit(&comparison.first);
         for (_, term) in &comparison.rest {
             let right = unit(term);
@@ -232,15 +256,17 @@ fn check_units(condition: &Spanned<Expr>, devices: Meant<'_>, diagnostics: &mut 
     }
 }
 
-fn constraint(
+fn constraint<'d>(
     decl: &ConstraintDecl,
     devices: &Known<'_>,
     varied: &Varied<'_>,
+    described: &dyn Fn() -> &'d [Described<'d>],
     broken: &Broken,
     diagnostics: &mut Diagnostics,
 ) -> Option<Constraint> {
-    let require = decl.require.as_ref()?;
-    let conditions: Vec<&Spanned<Expr>> = [Some(require), decl.when.as_ref()].into_iter().flatten().collect();
+    let understood = understood(decl, devices, described, broken, diagnostics)?;
+    let (require, when) = (&understood.require, understood.when.as_ref());
+    let conditions: Vec<&Spanned<Expr>> = [Some(require), when].into_iter().flatten().collect();
     if !conditions.iter().all(|condition| check_known(condition, Meant::Any(devices), broken, diagnostics)) {
         return None;
     }
@@ -256,6 +282,7 @@ fn constraint(
     let with_all_entries: Vec<&Dictionary> = may_have_all
         .into_iter()
         .filter(|device| on.as_ref().is_none_or(|on| on.contains(device.key.as_str())))
+        .filter(|device| understood.devices.as_ref().is_none_or(|keys| keys.contains(&device.key.as_str())))
         .filter(|device| unprefixed().all(|entry| device.entry(entry.id).is_some()))
         .collect();
     if with_all_entries.is_empty() && unprefixed().next().is_some() {
@@ -305,7 +332,7 @@ fn constraint(
         name: decl.name.value.clone(),
         about: words(&decl.about),
         require: require.value.clone(),
-        when: decl.when.as_ref().map(|when| when.value.clone()),
+        when: when.map(|when| when.value.clone()),
         devices: Devices::Only(keys),
         seen_from: seen_from.into_iter().map(|device| device.key.clone()).collect(),
         span: require.span,
@@ -317,6 +344,81 @@ fn constraint(
 fn unprefixed_in(condition: &Spanned<Expr>) -> impl Iterator<Item = (&EntryRef, Span)> {
     let named = condition.value.entries().into_iter().zip(places(condition));
     named.filter(|(entry, _)| entry.device.is_none())
+}
+
+/// The conditions of a constraint with indices and numbers instead of names.
+struct Understood<'a> {
+    require: Spanned<Expr>,
+    when: Option<Spanned<Expr>>,
+    /// The devices on which the names stand for these; all where there are no names.
+    devices: Option<Vec<&'a str>>,
+}
+
+/// Looks up the names of a constraint, on every device that it may be about.
+fn understood<'a, 'd>(
+    decl: &ConstraintDecl,
+    devices: &Known<'a>,
+    described: &dyn Fn() -> &'d [Described<'d>],
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> Option<Understood<'a>> {
+    let (require, when) = (decl.require.as_ref()?, decl.when.as_ref());
+    let plain = |condition: &Spanned<ConditionDecl>| match &condition.value {
+        ConditionDecl::Plain(plain) => Some(Spanned::new(plain.clone(), condition.span)),
+        ConditionDecl::Named(_) => None,
+    };
+    if let Some(require) = plain(require)
+        && when.is_none_or(|when| plain(when).is_some())
+    {
+        return Some(Understood { require, when: when.and_then(plain), devices: None });
+    }
+    let all = described();
+    let is_meant = |key: &str| decl.devices.as_ref().is_none_or(|on| on.iter().any(|one| one.value == key));
+    let read = |condition: &Spanned<ConditionDecl>, own: &Described<'_>, diagnostics: &mut Diagnostics| {
+        match &condition.value {
+            ConditionDecl::Plain(plain) => Some(plain.clone()),
+            ConditionDecl::Named(text) => {
+                let text = Spanned::new(text.clone(), condition.span);
+                condition_names::resolve(&text, own, all, broken, diagnostics)
+            }
+        }
+    };
+    let on_device = |own: &Described<'_>, diagnostics: &mut Diagnostics| {
+        let require = read(require, own, diagnostics);
+        let when = match when {
+            Some(when) => read(when, own, diagnostics).map(Some),
+            None => Some(None),
+        };
+        Some((require?, when?))
+    };
+    let mut found: Vec<(&str, (Expr, Option<Expr>))> = Vec::new();
+    let mut refused: Option<Diagnostics> = None;
+    for (device, own) in devices.devices.iter().zip(all).filter(|(device, _)| is_meant(&device.key)) {
+        let mut said = Diagnostics::new();
+        match on_device(own, &mut said) {
+            Some(conditions) => found.push((device.key.as_str(), conditions)),
+            None if refused.as_ref().is_none_or(|least| said.count() < least.count()) => refused = Some(said),
+            None => {}
+        }
+    }
+    let Some((first, (plain_require, plain_when))) = found.first() else {
+        // Of the device that knows most of it.
+        diagnostics.append(refused.unwrap_or_default());
+        return None;
+    };
+    if let Some((other, _)) = found.iter().find(|(_, one)| one.0 != *plain_require || one.1 != *plain_when) {
+        let message = format!("the names stand for other entries on `{first}` than on `{other}`");
+        diagnostics.push(
+            Diagnostic::new(codes::CONSTRAINT_DEVICES, require.span, message)
+                .help("write indices, or `device:` before the names, or a constraint for each device"),
+        );
+        return None;
+    }
+    Some(Understood {
+        require: Spanned::new(plain_require.clone(), require.span),
+        when: when.zip(plain_when.clone()).map(|(when, plain)| Spanned::new(plain, when.span)),
+        devices: Some(found.iter().map(|(key, _)| *key).collect()),
+    })
 }
 
 /// Where a condition names entries.

@@ -11,7 +11,7 @@ use super::libraries::Libraries;
 use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::types::words;
-use super::{aliases, device_info, objects, pdos};
+use super::{aliases, condition_names, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::{DEVICES, ENTRIES_OF_DEVICE, ENTRIES_OF_FILE, Room};
@@ -86,6 +86,12 @@ pub(super) fn resolve<'a>(
             let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
             let pdos =
                 pdos::resolve(decl, &info, written, &mut built.objects, &mut built.broken, diagnostics);
+            condition_names::write_conditions(
+                &device.key.value,
+                &mut built.objects,
+                &built.broken,
+                diagnostics,
+            );
             broken.append(built.broken);
             Dictionary {
                 key: device.key.value.clone(),
@@ -115,13 +121,15 @@ pub(super) fn of_library<'a>(
     let declared = decls::of_library(root, libraries, scope, diagnostics);
     let plain = declared.into_values().filter(|declared| declared.decl.alias.is_none());
     let objects = plain.filter_map(|declared| objects::resolve(&declared, around, diagnostics));
+    let mut objects: BTreeMap<Index, Object> = objects.map(|object| (object.index, object)).collect();
+    condition_names::write_conditions(&profile.value, &mut objects, &Broken::default(), diagnostics);
     Some(Dictionary {
         key: profile.value.clone(),
         name: profile.value.clone(),
         info: device_info::none(),
         file: device_info::no_file(),
         about: Text::default(),
-        objects: objects.map(|object| (object.index, object)).collect(),
+        objects,
         pdos: Vec::new(),
         facts: Facts::none(),
         span: profile.span,
@@ -148,7 +156,7 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
         let otherwise = if consumers::is_key(&key.value) {
             "`node` and `time` are for the consumers of 1016h; write one value, or one for each device"
         } else {
-            "define it under `devices:`, or write one value for all"
+            "define it under `devices:`, or write one value for all; the bits of a bit field are a list"
         };
         unknown(codes::UNKNOWN_DEVICE, key, "device", names, otherwise, diagnostics);
     };

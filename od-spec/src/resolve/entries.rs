@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
+use super::bit_values;
 use super::defaults;
 use super::scope::{Scope, unknown};
 use super::types::words;
 use super::values::{self, Expected};
-use crate::ast::{BitErrorDecl, BitRange, EntryDecl, Name, SpecialDecl};
+use crate::ast::{BitErrorDecl, BitRange, ConditionDecl, DefaultDecl, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Fact, Index, NamedType, PdoMapping,
-    SpecialValue, Storage, SubIndex, TypeKind, Unit,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Expr, Fact, Family, Index, NamedType,
+    PdoMapping, RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
 };
 use crate::source::{FileId, Spanned};
 
@@ -78,8 +79,8 @@ pub(super) fn resolve(
     // Values in a unit that is broken or unknown cannot be read; that was said already.
     let readable = decl.unit.is_some() == unit.is_some();
     let (low, high) = if readable { limits(decl, expected, diagnostics) } else { (None, None) };
-    let default = defaults::one(decl.default.as_ref().filter(|_| readable), around, diagnostics);
-    let default = values::read_into(default.as_ref(), expected, diagnostics);
+    let default = decl.default.as_ref().filter(|_| readable);
+    let default = read_default(default, expected, around, diagnostics);
     let stored = decl.stored.map_or(Storage::No, |stored| stored.value);
     let entry = Entry {
         sub,
@@ -89,14 +90,21 @@ pub(super) fn resolve(
         locked,
         pdo: decl.pdo.map_or(PdoMapping::None, |pdo| pdo.value),
         default,
-        low,
-        high,
+        low: low.as_ref().and_then(Value::integer),
+        high: high.as_ref().and_then(Value::integer),
+        real_limits: RealLimits {
+            low: low.as_ref().and_then(Value::real).cloned(),
+            high: high.as_ref().and_then(Value::real).cloned(),
+        },
         special,
         stored,
         alias: None,
         category: decl.category.map(|category| category.value),
         since: decl.since.as_ref().map(|since| since.value.clone()),
-        writable_when: decl.writable_when.as_ref().map(|condition| condition.value.clone()),
+        writable_when: decl.writable_when.as_ref().map(|condition| match &condition.value {
+            ConditionDecl::Plain(condition) => condition.clone(),
+            ConditionDecl::Named(text) => Expr::unresolved(text),
+        }),
         capacity: capacity(decl, data_type, diagnostics),
         identifier: identifier(decl, diagnostics),
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
@@ -118,6 +126,22 @@ pub(super) fn resolve(
         );
     }
     Some(Entry { eds: eds_policy(&entry, decl, around.eds), ..entry })
+}
+
+/// A default: one value, or the bits of a bit field that are 1.
+fn read_default(
+    default: Option<&Spanned<DefaultDecl>>,
+    expected: Expected<'_>,
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Value> {
+    if let Some(Spanned { value: DefaultDecl::Each(bits), .. }) = default
+        && let Some(TypeKind::Bits(fields)) = expected.named.map(|named| &named.kind)
+    {
+        return bit_values::read(bits, fields, expected.data_type, diagnostics);
+    }
+    let default = defaults::one(default, around, diagnostics);
+    values::read_into(default.as_ref(), expected, diagnostics)
 }
 
 fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics) -> Option<u16> {
@@ -240,28 +264,29 @@ fn limits(
     decl: &EntryDecl,
     expected: Expected<'_>,
     diagnostics: &mut Diagnostics,
-) -> (Option<i128>, Option<i128>) {
+) -> (Option<Value>, Option<Value>) {
     let mut limit = |text: Option<&Name>| {
         let text = text?;
-        if !expected.data_type.is_integer() {
+        if !expected.data_type.is_integer() && expected.data_type.family() != Family::Real {
             diagnostics.push(
                 Diagnostic::new(
                     codes::LIMIT_ON_TYPE,
                     text.span,
                     format!("{} has no limits", expected.data_type),
                 )
-                .help("remove the limit; only integers have limits"),
+                .help("remove the limit; only numbers have limits"),
             );
             return None;
         }
         let value = values::read_into(Some(text), expected, diagnostics)?;
-        if value.integer().is_none() {
+        if matches!(value, Value::NodeId(_)) {
             diagnostics.push(
                 Diagnostic::new(codes::BAD_VALUE, text.span, "a limit cannot depend on the node-ID")
                     .help("write a number"),
             );
+            return None;
         }
-        value.integer()
+        Some(value)
     };
     (limit(decl.min.as_ref()), limit(decl.max.as_ref()))
 }
@@ -345,9 +370,4 @@ pub(super) fn alias_policy(
     let as_target = Entry { locked: target.locked, stored: target.stored, facts, ..alias.clone() };
     let policy = eds_policy(&as_target, decl, defaults);
     EdsPolicy { no_write: policy.no_write || target.eds.no_write, ..policy }
-}
-
-/// The unit of an entry, for messages and alias factors.
-pub(super) fn step(unit: Option<&Arc<Unit>>) -> Option<(String, crate::model::Ratio)> {
-    unit.and_then(|unit| Some((unit.base_symbol().to_owned(), unit.step()?)))
 }

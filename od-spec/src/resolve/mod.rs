@@ -2,7 +2,9 @@
 
 mod aliases;
 mod assigned;
+mod bit_values;
 mod channels;
+mod condition_names;
 mod constraints;
 mod consumers;
 mod decls;
@@ -20,6 +22,7 @@ mod numbers;
 mod objects;
 mod pdo_objects;
 mod pdo_parameters;
+mod pdo_times;
 mod pdos;
 mod places;
 mod refs;

@@ -93,7 +93,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
             }
             Kind::InhibitTime => {
                 let value = number(pdo.inhibit_time);
-                (value.is_some(), value, decl.inhibit_time.map(|value| value.span))
+                (value.is_some(), value, decl.inhibit_time.as_ref().map(|value| value.span))
             }
             Kind::Reserved => {
                 let value = said.default.map(|value| Value::Integer(value.value));
@@ -101,7 +101,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
             }
             Kind::EventTimer => {
                 let value = number(pdo.event_timer);
-                (value.is_some(), value, decl.event_timer.map(|value| value.span))
+                (value.is_some(), value, decl.event_timer.as_ref().map(|value| value.span))
             }
             Kind::SyncStart => {
                 let value = number(pdo.sync_start.map(u16::from));

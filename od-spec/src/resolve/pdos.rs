@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::numbers::{to_u8, to_u16};
+use super::numbers::to_u8;
 use super::pdo_objects::{communication_object, mapping_object};
 use super::pdo_parameters::{Described, check_limits};
+use super::pdo_times::{self, Step};
 use super::refs::{Broken, Names};
 use super::types::words;
 use super::values::{self, Expected};
@@ -128,8 +129,8 @@ fn pdo(
         cob_id: Some(cob_id(decl, valid, diagnostics)?),
         valid,
         transmission: Some(decl.transmission.map_or(255, |value| to_u8(value.value))),
-        inhibit_time: decl.inhibit_time.map(|value| to_u16(value.value)),
-        event_timer: decl.event_timer.map(|value| to_u16(value.value)),
+        inhibit_time: pdo_times::read(decl.inhibit_time.as_ref(), Step::HundredMicroseconds, diagnostics),
+        event_timer: pdo_times::read(decl.event_timer.as_ref(), Step::Millisecond, diagnostics),
         sync_start: decl.sync_start.map(|value| to_u8(value.value)),
         variable_mapping: !decl.is_fixed(),
         capacity,

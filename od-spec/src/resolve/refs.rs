@@ -162,7 +162,7 @@ impl<'a> Names<'a> {
     }
 
     /// The entry of a name.
-    fn get(&self, name: &str) -> Option<EntryId> {
+    pub(super) fn get(&self, name: &str) -> Option<EntryId> {
         let whole = || Some(EntryId { index: self.named(name).next()?.index, sub: SubIndex(0) });
         let member = || {
             name.match_indices('.').find_map(|(dot, _)| {

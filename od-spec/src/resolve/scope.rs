@@ -136,6 +136,7 @@ fn unit(decl: &UnitDecl, maker: FileId) -> Option<Unit> {
         name: decl.name.value.clone(),
         symbol: decl.symbol.as_ref()?.value.clone(),
         scale: decl.scale.as_ref().map_or(Ratio::ONE, |scale| scale.value),
+        offset: decl.offset.as_ref().map_or(Ratio::ZERO, |offset| offset.value.0),
         base: decl
             .base
             .as_ref()

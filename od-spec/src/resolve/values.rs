@@ -39,10 +39,13 @@ pub(crate) fn read(
         },
         DataType::Real32 | DataType::Real64 => match Real::read(text, expected.data_type) {
             Some(real) => Ok(Value::Real(real)),
-            None => refuse(
-                format!("found `{}`, expected a finite number", shown()),
-                "write a decimal number such as `0.5`",
-            ),
+            None => match split_physical(text).filter(|(_, symbol)| is_symbol(symbol)) {
+                Some((number, symbol)) => real(number, symbol, span, expected).map(Value::Real),
+                None => refuse(
+                    format!("found `{}`, expected a finite number", shown()),
+                    "write a decimal number such as `0.5`",
+                ),
+            },
         },
         DataType::VisibleString if text.bytes().all(|byte| (0x20..=0x7E).contains(&byte)) => {
             Ok(Value::Text(text.to_owned()))
@@ -132,6 +135,9 @@ fn integer(
                         format!("found `{}`, expected a value of type {}", shown(), expected.data_type),
                     )
                     .help(match expected.unit {
+                        _ if is_bit(text, expected.named) => {
+                            format!("write the bits that are 1 as a list: `[{}]`", shown())
+                        }
                         Some(unit) => {
                             format!("write a raw number, or a physical value such as `{}`", unit.show(10))
                         }
@@ -162,8 +168,16 @@ fn integer(
     Ok(Value::Integer(raw))
 }
 
+/// Whether a text is the name of a bit.
+fn is_bit(text: &str, named: Option<&NamedType>) -> bool {
+    match named.map(|named| &named.kind) {
+        Some(TypeKind::Bits(fields)) => fields.iter().any(|field| field.name == text),
+        Some(TypeKind::Enum(_)) | None => false,
+    }
+}
+
 /// The first names of an enum, in backticks.
-fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+pub(super) fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     const MOST: usize = 10;
     let mut names: Vec<String> = names.take(MOST + 1).map(|name| format!("`{}`", shorten(name))).collect();
     if names.len() > MOST {
@@ -207,7 +221,62 @@ fn split_physical(text: &str) -> Option<(Ratio, &str)> {
     Some((number, text[end..].trim())).filter(|(_, symbol)| !symbol.is_empty())
 }
 
+/// Whether what follows a number is neither its exponent, `e400`, nor a divisor.
+fn is_symbol(text: &str) -> bool {
+    let digits = text.strip_prefix(['e', 'E']).map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
+    let is_exponent = digits.is_some_and(|digits| digits.starts_with(|first: char| first.is_ascii_digit()));
+    !is_exponent && !text.starts_with('/')
+}
+
+/// The number of a REAL that a physical value is.
+fn real(number: Ratio, symbol: &str, span: Span, expected: Expected<'_>) -> Result<Real, Box<Diagnostic>> {
+    let Steps { count, .. } = steps(number, symbol, span, expected.unit)?;
+    Real::of_ratio(count, expected.data_type).ok_or_else(|| Box::new(too_large(span)))
+}
+
+fn too_large(span: Span) -> Diagnostic {
+    Diagnostic::new(rule_codes::VALUE_DOES_NOT_FIT, span, "the value is too large to be computed exactly")
+        .help("correct the value")
+}
+
+/// The whole number of raw steps that a physical value is.
 fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Result<i128, Box<Diagnostic>> {
+    let Steps { unit, step, offset, count } = steps(number, symbol, span, unit)?;
+    count.to_whole().ok_or_else(|| {
+        let below = count.floor();
+        Box::new(
+            Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
+                .label(if offset == Ratio::ZERO {
+                    format!("{count} steps of {step} {symbol}")
+                } else {
+                    format!("{count} steps of {step} {symbol} from {offset} {symbol}")
+                })
+                .help(format!(
+                    "write {} (raw {below}) or {} (raw {}), or a raw value",
+                    unit.show(below),
+                    unit.show(below + 1),
+                    below + 1
+                )),
+        )
+    })
+}
+
+/// A physical value in raw steps.
+struct Steps<'a> {
+    unit: &'a Unit,
+    /// One step, and where they count from, in the symbol of the value.
+    step: Ratio,
+    offset: Ratio,
+    /// How many, which need not be a whole number.
+    count: Ratio,
+}
+
+fn steps<'a>(
+    number: Ratio,
+    symbol: &str,
+    span: Span,
+    unit: Option<&'a Unit>,
+) -> Result<Steps<'a>, Box<Diagnostic>> {
     let Some(unit) = unit else {
         return Err(Box::new(
             Diagnostic::new(
@@ -225,7 +294,7 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
                 .help(format!("write `{}`", shorten(&with_dot))),
         ));
     }
-    let Some(step) = unit.step_in(symbol) else {
+    let (Some(step), Some(offset)) = (unit.step_in(symbol), unit.offset_in(symbol)) else {
         let base = unit.base_symbol();
         let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };
         return Err(Box::new(
@@ -237,29 +306,10 @@ fn physical(number: Ratio, symbol: &str, span: Span, unit: Option<&Unit>) -> Res
             .help(format!("write the value in `{}`{known}", unit.symbol)),
         ));
     };
-    let steps = number.checked_div(step).ok_or_else(|| {
-        Box::new(
-            Diagnostic::new(
-                rule_codes::VALUE_DOES_NOT_FIT,
-                span,
-                "the value is too large to be computed exactly",
-            )
-            .help("correct the value"),
-        )
-    })?;
-    steps.to_whole().ok_or_else(|| {
-        let below = steps.floor();
-        Box::new(
-            Diagnostic::new(codes::INEXACT_VALUE, span, "the value does not fit the unit's scale")
-                .label(format!("{steps} steps of {step} {symbol}"))
-                .help(format!(
-                    "write {} (raw {below}) or {} (raw {}), or a raw value",
-                    unit.show(below),
-                    unit.show(below + 1),
-                    below + 1
-                )),
-        )
-    })
+    match unit.steps(number, symbol) {
+        Some(count) => Ok(Steps { unit, step, offset, count }),
+        None => Err(Box::new(too_large(span))),
+    }
 }
 
 /// Reads a value and sends what is wrong to `diagnostics`.

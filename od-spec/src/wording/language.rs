@@ -65,6 +65,8 @@ macro_rules! words {
 words! {
     /// Between the ends of a range.
     ToRange "to_range": "to", "bis";
+    /// Between a raw step and what the raw value 0 stands for.
+    From "counted_from": "from", "ab";
     /// The node-ID in a formula.
     NodeId "node_id": "node-ID", "Node-ID";
     /// Kept with the communication parameters, in a table.

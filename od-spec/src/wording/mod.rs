@@ -28,7 +28,8 @@
 //!   with blanks for people, without where a tool may copy them.
 //! - **Access.** The specification's word. A lock is `r(w)` or `(w)` in the manual, `rw locked` in Rust and a sentence in the
 //!   EDS, whose own access says `ro` then.
-//! - **Unit.** One raw step with the symbol, `0.1 °C`; a step of 1 is the symbol alone.
+//! - **Unit.** One raw step with the symbol, `0.1 °C`; a step of 1 is the symbol alone. Where the raw value 0 is not 0, what it is
+//!   follows: `0.1 °C from -40 °C`.
 //! - **Storage, PDO mapping.** A word in the documents' tables, a phrase elsewhere; see [`storage`](Wording::storage) and
 //!   [`mapping`](Wording::mapping).
 //! - **Facts.** The words for facts themselves (`default`, `special`), which stand in departures from a standard and kinds of

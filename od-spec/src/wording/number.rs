@@ -126,23 +126,34 @@ impl Wording {
 
     /// The same with the raw value behind it, where that is another number and the reader has to send it: `50.0 °C (500)`.
     pub(super) fn physical_and_raw(self, unit: &Unit, raw: i128) -> String {
-        let physical = self.physical(unit, raw);
+        self.with_raw(unit, &self.decimal(&unit.amount(raw)), &raw.to_string())
+    }
+
+    /// An amount with its symbol, and the raw value where that is another number and the reader has to send it.
+    pub(super) fn with_raw(self, unit: &Unit, amount: &str, raw: &str) -> String {
+        let symbol = &unit.symbol;
         match self.notation {
-            Notation::Eds | Notation::Manual if unit.scale != Ratio::ONE => format!("{physical} ({raw})"),
+            Notation::Eds | Notation::Manual if !unit.is_plain() => format!("{amount} {symbol} ({raw})"),
             Notation::Eds | Notation::Manual | Notation::Rust | Notation::Json | Notation::Diagnostic => {
-                physical
+                format!("{amount} {symbol}")
             }
         }
     }
 
-    /// What one raw step is worth, as a heading says it: `0.1 °C`; of a step of 1 the symbol alone.
+    /// What one raw step is worth, as a heading says it: `0.1 °C`; of a step of 1 the symbol alone. An offset follows:
+    /// `0.1 °C from -40 °C`.
     pub fn step(self, unit: &Unit) -> String {
-        if unit.scale == Ratio::ONE { unit.symbol.clone() } else { self.counted_step(unit) }
+        if unit.is_plain() { unit.symbol.clone() } else { self.counted_step(unit) }
     }
 
-    /// What one raw step is worth, as a sentence says it: `1 mV`.
+    /// What one raw step is worth, and what it is counted from, as a sentence says it: `1 mV`, `0.1 °C from -40 °C`.
     pub fn counted_step(self, unit: &Unit) -> String {
-        format!("{} {}", self.decimal(&unit.scale.to_string()), unit.symbol)
+        let amount = |number: Ratio| format!("{} {}", self.decimal(&number.to_string()), unit.symbol);
+        let step = amount(unit.scale);
+        if unit.offset == Ratio::ZERO {
+            return step;
+        }
+        format!("{step} {} {}", self.word(Word::From), amount(unit.offset))
     }
 
     /// A number that was written with a decimal point, as the language writes it.

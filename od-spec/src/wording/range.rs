@@ -1,7 +1,7 @@
 //! Ranges.
 
 use super::{Notation, Word, Wording};
-use crate::model::{Entry, Index, TypeKind};
+use crate::model::{Entry, Index, Real, TypeKind};
 
 /// The limits of an entry that say something: raw values, `None` where nothing limits that side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,18 +30,27 @@ impl Limits {
 impl Wording {
     /// The range of an entry: `0 to 100`, `≤ 90.0 °C (900)`; `None` where nothing narrows the data type.
     pub fn range(self, index: Index, entry: &Entry) -> Option<String> {
+        let Limits { low, high } = Limits::of(entry);
         let end = |raw: i128| self.ordinary(Some(index), entry, raw);
+        self.between(low.map(end), high.map(end)).or_else(|| self.real_range(entry))
+    }
+
+    /// The range of a REAL; `None` where it has no limits.
+    pub(super) fn real_range(self, entry: &Entry) -> Option<String> {
+        let end = |real: &Real| self.real(entry, real);
+        self.between(entry.real_limits.low.as_ref().map(end), entry.real_limits.high.as_ref().map(end))
+    }
+
+    fn between(self, low: Option<String>, high: Option<String>) -> Option<String> {
         let (at_least, at_most) = match self.notation {
             Notation::Eds => ("at least", "at most"),
             Notation::Manual | Notation::Rust | Notation::Json | Notation::Diagnostic => ("≥", "≤"),
         };
-        match Limits::of(entry) {
-            Limits { low: Some(low), high: Some(high) } => {
-                Some(format!("{} {} {}", end(low), self.word(Word::ToRange), end(high)))
-            }
-            Limits { low: Some(low), high: None } => Some(format!("{at_least} {}", end(low))),
-            Limits { low: None, high: Some(high) } => Some(format!("{at_most} {}", end(high))),
-            Limits { low: None, high: None } => None,
+        match (low, high) {
+            (Some(low), Some(high)) => Some(format!("{low} {} {high}", self.word(Word::ToRange))),
+            (Some(low), None) => Some(format!("{at_least} {low}")),
+            (None, Some(high)) => Some(format!("{at_most} {high}")),
+            (None, None) => None,
         }
     }
 }

@@ -1,7 +1,10 @@
 //! Values: defaults, special values, values of enums.
 
 use super::{Notation, Radix, Wording};
-use crate::model::{DataType, Entry, EnumValues, Index, Role, SpecialValue, TypeKind, Value};
+use crate::model::{
+    DataType, Entry, EnumValues, Index, Real, RealLimits, Role, SpecialValue, TypeKind, Value,
+};
+use crate::scalar;
 
 impl Wording {
     /// A value of an entry. Without an index, what follows from the entry alone.
@@ -9,8 +12,7 @@ impl Wording {
         match value {
             Value::Integer(raw) => self.integer(index, entry, *raw),
             Value::NodeId(offset) => self.node_id_formula(*offset),
-            // With a decimal point even where the number is whole.
-            Value::Real(real) => self.decimal(&format!("{:?}", real.number())),
+            Value::Real(real) => self.real(entry, real),
             Value::Text(text) => self.text(text),
             Value::Bytes(bytes) => self.bytes(bytes),
         }
@@ -21,6 +23,18 @@ impl Wording {
             Some(special) => format!("{} ({})", self.special_number(entry, raw), special.name),
             None => self.ordinary(index, entry, raw),
         }
+    }
+
+    /// With a decimal point even where the number is whole, and with its unit where the product has a decimal.
+    pub(super) fn real(self, entry: &Entry, real: &Real) -> String {
+        let number = self.decimal(&format!("{:?}", real.number()));
+        let Some(unit) = &entry.unit else { return number };
+        if unit.is_plain() {
+            return format!("{number} {}", unit.symbol);
+        }
+        let exact = scalar::decimal(&real.number().to_string());
+        let shown = exact.and_then(|exact| unit.decimal(exact));
+        shown.map_or_else(|| number.clone(), |shown| self.with_raw(unit, &self.decimal(&shown), &number))
     }
 
     /// A raw value that has no meaning of its own.
@@ -89,8 +103,14 @@ pub fn format_value(entry: &Entry, value: &Value) -> String {
 /// The values that an entry allows beside its special ones, as a message shows them: the limits or, where there are none, the
 /// ends of the data type: `0.0 °C to 40.0 °C`.
 pub fn allowed(entry: &Entry) -> String {
-    let (lowest, highest) = entry.data_type.range().unwrap_or_default();
     let wording = Wording::english(Notation::Diagnostic);
+    let Some((lowest, highest)) = entry.data_type.range() else {
+        let end = |limit: &Option<Real>, open: &str| {
+            limit.as_ref().map_or_else(|| open.to_owned(), |limit| wording.real(entry, limit))
+        };
+        let RealLimits { low, high } = &entry.real_limits;
+        return format!("{} to {}", end(low, "-infinity"), end(high, "infinity"));
+    };
     let end = |raw: i128| wording.ordinary(None, entry, raw);
     format!("{} to {}", end(entry.low.unwrap_or(lowest)), end(entry.high.unwrap_or(highest)))
 }

@@ -14,6 +14,7 @@ fn read(keys: &str) -> String {
     let (compiled, _) = compiled("level.eds", &var(keys));
     let system = compiled.system.unwrap();
     let entry = system.devices[0].entry(EntryId { index: Index(0x2000), sub: SubIndex(0) }).unwrap();
+    let (low, high) = entry.limits();
     let value = |value: &Option<Value>| match value {
         None => "-".to_owned(),
         Some(Value::Integer(raw)) => raw.to_string(),
@@ -22,7 +23,6 @@ fn read(keys: &str) -> String {
         Some(Value::Text(text)) => format!("'{text}'"),
         Some(Value::Bytes(bytes)) => format!("{bytes:02X?}"),
     };
-    let limit = |limit: Option<i128>| limit.map_or("-".to_owned(), |limit| limit.to_string());
     let about = compiled
         .diagnostics
         .iter()
@@ -33,8 +33,8 @@ fn read(keys: &str) -> String {
         entry.data_type.name(),
         entry.access.word(),
         value(&entry.default),
-        limit(entry.low),
-        limit(entry.high),
+        value(&low),
+        value(&high),
         codes.join(" ")
     )
 }
@@ -61,8 +61,13 @@ fn values_are_read_by_type_in_every_notation() {
         ("DataType=0x1\nAccessType=rw\nDefaultValue=true\nHighLimit=0xFF", "boolean rw 1 -..- EDS506 EDS513"),
         (
             "DataType=0x8\nAccessType=rw\nDefaultValue=0x3FC00000\nLowLimit=-1.5",
-            "real32 rw 1.5 -..- EDS509 EDS512",
+            "real32 rw 1.5 -1.5..- EDS509",
         ),
+        (
+            "DataType=0x11\nAccessType=rw\nLowLimit=0xBFF0000000000000\nHighLimit=+2.50f",
+            "real64 rw - -1..2.5 EDS509",
+        ),
+        ("DataType=0x8\nAccessType=rw\nHighLimit=nan", "real32 rw - -..- EDS501"),
         ("DataType=0x11\nAccessType=rw\nDefaultValue=1.5e3", "real64 rw 1500 -..- "),
         ("DataType=0x8\nAccessType=rw\nDefaultValue=nan", "real32 rw - -..- EDS501"),
         ("DataType=0x9\nAccessType=const\nDefaultValue=a;b # c", "visible-string const 'a;b # c' -..- "),

@@ -134,7 +134,7 @@ impl Plan<'_> {
         let raw = values.encode(&entry.kind, &at.root, &quote!(value));
         let Store { code: store, error } = values.store(&entry.kind, entry.size, at, offset, &raw);
         let parameter = values.parameter_type(&entry.kind, &at.root);
-        let limited = entry.entry.low.is_some() || entry.entry.high.is_some();
+        let limited = entry.entry.is_limited();
         let unchecked =
             if limited { " The device's own values are not held against the limits." } else { "" };
         let about = doc(&format!("Sets [`{name}`](Self::{name}).{unchecked}"));

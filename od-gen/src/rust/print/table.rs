@@ -380,28 +380,46 @@ fn byte_string(bytes: &[u8]) -> TokenStream {
 
 /// A condition as code. A divisor of 0 leaves it undecided; a condition that is undecided counts as met.
 fn condition_code(values: &Values<'_, '_>, condition: &Condition, at: &At) -> TokenStream {
-    let links = condition.comparisons.iter().map(|compare| {
-        let link = comparison(values, compare, compare.op, condition.narrow, at);
-        with_divisors(values, compare, link, condition.narrow, at)
-    });
-    quote!(#(#links)&&*)
+    let all = |comparisons: &[Compare]| {
+        let links = comparisons.iter().map(|compare| {
+            let link = comparison(values, compare, compare.op, condition.narrow, at);
+            with_divisors(values, compare, link, condition.narrow, at)
+        });
+        quote!(#(#links)&&*)
+    };
+    match condition.alternatives.as_slice() {
+        [comparisons] => all(comparisons),
+        alternatives => {
+            let alternatives = alternatives.iter().map(|comparisons| all(comparisons));
+            quote!(#((#alternatives))||*)
+        }
+    }
 }
 
 /// That a condition does not hold, or is undecided.
 fn not_met_code(values: &Values<'_, '_>, condition: &Condition, at: &At) -> TokenStream {
-    let links = condition.comparisons.iter().map(|compare| {
-        let negated = match compare.op {
-            CompareOp::Less => CompareOp::GreaterOrEqual,
-            CompareOp::LessOrEqual => CompareOp::Greater,
-            CompareOp::Equal => CompareOp::NotEqual,
-            CompareOp::NotEqual => CompareOp::Equal,
-            CompareOp::GreaterOrEqual => CompareOp::Less,
-            CompareOp::Greater => CompareOp::LessOrEqual,
-        };
-        let link = comparison(values, compare, negated, condition.narrow, at);
-        with_divisors(values, compare, link, condition.narrow, at)
-    });
-    quote!(#(#links)||*)
+    let one_fails = |comparisons: &[Compare]| {
+        let links = comparisons.iter().map(|compare| {
+            let negated = match compare.op {
+                CompareOp::Less => CompareOp::GreaterOrEqual,
+                CompareOp::LessOrEqual => CompareOp::Greater,
+                CompareOp::Equal => CompareOp::NotEqual,
+                CompareOp::NotEqual => CompareOp::Equal,
+                CompareOp::GreaterOrEqual => CompareOp::Less,
+                CompareOp::Greater => CompareOp::LessOrEqual,
+            };
+            let link = comparison(values, compare, negated, condition.narrow, at);
+            with_divisors(values, compare, link, condition.narrow, at)
+        });
+        quote!(#(#links)||*)
+    };
+    match condition.alternatives.as_slice() {
+        [comparisons] => one_fails(comparisons),
+        alternatives => {
+            let alternatives = alternatives.iter().map(|comparisons| one_fails(comparisons));
+            quote!(#((#alternatives))&&*)
+        }
+    }
 }
 
 fn comparison(

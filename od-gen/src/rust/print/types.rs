@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use od_spec::model::{Edge, Entry};
+use od_spec::model::Edge;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, TokenStreamExt as _, format_ident, quote};
 
@@ -11,7 +11,8 @@ use super::super::language;
 use super::docs::{WORDING, doc, escape};
 use super::literal::{decimal, hex};
 use crate::plan::{
-    Members, Plan, PlannedBits, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit, PlannedValue,
+    Members, Plan, PlannedBits, PlannedOffset, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit,
+    PlannedValue, SignedFraction,
 };
 
 impl Plan<'_> {
@@ -42,7 +43,7 @@ impl Plan<'_> {
     }
 
     fn unit(&self, planned: &PlannedUnit<'_>) -> TokenStream {
-        let PlannedUnit { unit, name, scale, step } = planned;
+        let PlannedUnit { unit, name, scale, step, offset } = planned;
         let about = self.words(&unit.about);
         let text =
             format!("{}: one raw step is {}.", escape(&unit.name), escape(&WORDING.counted_step(unit)));
@@ -51,6 +52,15 @@ impl Plan<'_> {
             (format_ident!("{name}"), format_ident!("{}", base_name(planned)), &unit.symbol);
         let [n, d, sn, sd] = [scale.numerator, scale.denominator, step.numerator, step.denominator]
             .map(|number| decimal(number.into()));
+        let offset = offset.map(|PlannedOffset { in_symbol, in_base }| {
+            let fraction = |fraction: SignedFraction| {
+                let (numerator, denominator) =
+                    (decimal(fraction.numerator.into()), decimal(fraction.denominator.into()));
+                quote!(#numerator / #denominator)
+            };
+            let (in_symbol, in_base) = (fraction(in_symbol), fraction(in_base));
+            quote!(, offset #in_symbol, origin #in_base)
+        });
         quote! {
             #about
             #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -58,7 +68,7 @@ impl Plan<'_> {
             pub struct #name<__T>(pub __T);
 
             super::firmware::quantity! {
-                #name = #symbol, scale #n / #d, step #sn / #sd of #base
+                #name = #symbol, scale #n / #d, step #sn / #sd of #base #offset
             }
         }
     }
@@ -206,10 +216,9 @@ impl Plan<'_> {
         if self.specials.is_empty() {
             return quote!();
         }
-        let specials = (0..).zip(&self.specials).filter_map(|(set, planned)| {
-            // Entries that share a set show it in one type, as wide as that of the first.
-            let entry = self.entries.iter().find(|entry| entry.kind.special == Some(set))?.entry;
-            Some(special(planned, entry))
+        let specials = self.specials.iter().filter_map(|planned| {
+            let is_first = self.specials.iter().find(|other| other.name == planned.name) == Some(planned);
+            is_first.then(|| special(planned, &self.numbers_of(planned)))
         });
         quote! {
             /// Raw values with a meaning of their own, beside the ordinary ones.
@@ -218,6 +227,24 @@ impl Plan<'_> {
                 #(#specials)*
             }
         }
+    }
+    /// The raw values of each meaning of a set: one, or several where entries differ in it. A value is as wide as in the first
+    /// entry that has it.
+    fn numbers_of(&self, set: &PlannedSpecial) -> Vec<String> {
+        let same_name = (0..).zip(&self.specials).filter(|(_, other)| other.name == set.name);
+        let mut numbers = vec![Vec::new(); set.values.len()];
+        for (at, other) in same_name {
+            let Some(planned) = self.entries.iter().find(|entry| entry.kind.special == Some(at)) else {
+                continue;
+            };
+            for (of_meaning, special) in numbers.iter_mut().zip(&other.values) {
+                let number = WORDING.special_number(planned.entry, special.value);
+                if !of_meaning.contains(&number) {
+                    of_meaning.push(number);
+                }
+            }
+        }
+        numbers.iter().map(|of_meaning| of_meaning.join(" or ")).collect()
     }
 }
 
@@ -317,17 +344,15 @@ fn with(bits: &PlannedBits<'_>) -> Ident {
     format_ident!("{}", language::with(&bits.name))
 }
 
-fn special(planned: &PlannedSpecial, entry: &Entry) -> TokenStream {
+/// The type of a set of special values, with the raw values of each meaning.
+fn special(planned: &PlannedSpecial, numbers: &[String]) -> TokenStream {
     let name = format_ident!("{}", planned.name);
-    let number = |raw: i128| WORDING.special_number(entry, raw);
-    let texts: Vec<String> = planned
-        .values
-        .iter()
-        .map(|PlannedSpecialValue { text, value, .. }| format!("{} ({})", escape(text), number(*value)))
-        .collect();
+    let meanings = || planned.values.iter().zip(numbers);
+    let texts: Vec<String> =
+        meanings().map(|(value, numbers)| format!("{} ({numbers})", escape(&value.text))).collect();
     let about = doc(&format!("{}.", texts.join(" or ")));
-    let variants = planned.values.iter().map(|PlannedSpecialValue { name, text, value }| {
-        let about = doc(&format!("{}: raw value {}.", escape(text), number(*value)));
+    let variants = meanings().map(|(PlannedSpecialValue { name, text, .. }, numbers)| {
+        let about = doc(&format!("{}: raw value {numbers}.", escape(text)));
         let variant = format_ident!("{name}");
         quote!(#about #variant,)
     });

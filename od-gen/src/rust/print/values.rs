@@ -48,20 +48,27 @@ impl Plan<'_> {
         let root = quote!(super::);
         let constants: Vec<_> = self
             .stated()
-            .filter(|entry| entry.entry.low.is_some() || entry.entry.high.is_some())
-            .filter_map(|entry| {
-                let (lowest, highest) = entry.entry.data_type.range()?;
+            .filter(|entry| entry.entry.is_limited())
+            .map(|entry| {
                 let kind = ValueKind { special: None, ..entry.kind.clone() };
-                let end = |raw: i128| {
-                    let literal = values.literal_of(&kind, &Value::Integer(raw)).unwrap_or_else(|| quote!(0));
+                let end = |limit: &Value| {
+                    let literal = values.literal_of(&kind, limit).unwrap_or_else(|| quote!(0));
                     values.decode(&kind, &root, &literal)
                 };
-                let (low, high) =
-                    (end(entry.entry.low.unwrap_or(lowest)), end(entry.entry.high.unwrap_or(highest)));
+                let (low, high) = entry.entry.limits();
+                let of_type = match entry.entry.data_type.range() {
+                    Some((lowest, highest)) => (end(&Value::Integer(lowest)), end(&Value::Integer(highest))),
+                    None => {
+                        let float = values.value_type(&kind, &root);
+                        (quote!(#float::NEG_INFINITY), quote!(#float::INFINITY))
+                    }
+                };
+                let low = low.as_ref().map_or(of_type.0, &end);
+                let high = high.as_ref().map_or(of_type.1, &end);
                 let value_type = values.value_type(&kind, &root);
                 let about = doc(&format!("Of `{}`.", entry.id));
                 let name = format_ident!("{}", entry.name.to_uppercase());
-                Some(quote!(#about pub const #name: RangeInclusive<#value_type> = #low..=#high;))
+                quote!(#about pub const #name: RangeInclusive<#value_type> = #low..=#high;)
             })
             .collect();
         if constants.is_empty() {

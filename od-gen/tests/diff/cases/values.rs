@@ -88,6 +88,16 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "another offset of a unit",
+        at: "units:",
+        find: "decihertz: {symbol: Hz, scale: 1/10",
+        replace: "decihertz: {symbol: Hz, scale: 1/10, offset: -10",
+        expected: &[
+            "pmc: ~ 6410h.6 motor data.nominal frequency: default: 50.0 Hz (500) -> 50.0 Hz (600) [behaviour]",
+            "pmc: ~ unit `decihertz` (6410h.6): unit: 0.1 Hz -> 0.1 Hz from -10 Hz [plc]",
+        ],
+    },
+    Case {
         name: "another quantity of a unit",
         at: "units:",
         find: "encoder increment: {symbol: inc}",

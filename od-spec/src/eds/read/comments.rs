@@ -8,13 +8,14 @@ use std::fmt::Write as _;
 
 use super::made;
 use crate::ast::{
-    BitDecl, BitRange, DefaultDecl, EdsDecl, EntryDecl, SpecialDecl, TypeDecl, UnitDecl, ValueDecl,
+    BitDecl, BitRange, ConditionDecl, DefaultDecl, EdsDecl, EntryDecl, Offset, SpecialDecl, TypeDecl,
+    UnitDecl, ValueDecl,
 };
 use crate::eds::number::{formula, lenient_integer};
 use crate::eds::owner::is_code;
 use crate::eds::view::Part;
 use crate::expr::Expr;
-use crate::model::{Access, AccessRight, BitUsage, DataType, Ratio, Storage, Text};
+use crate::model::{Access, AccessRight, BitUsage, DataType, Family, Ratio, Storage, Text};
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::wording::{Notation, Wording};
@@ -56,7 +57,8 @@ impl Meanings {
             entry.about = Some(Spanned::new(Text::new([("en", text.as_str())]), place));
         }
         let Some(data_type) = data_type else { return entry };
-        if let Some(unit) = read.unit.filter(|_| data_type.is_integer()) {
+        let is_number = data_type.is_integer() || data_type.family() == Family::Real;
+        if let Some(unit) = read.unit.filter(|_| is_number) {
             entry.unit = Some(made(self.unit(&unit, place), place));
         }
         if let Some(storage) = read.storage {
@@ -67,7 +69,7 @@ impl Meanings {
         }
         let is_writable = entry.access.is_some_and(|access| access.value.access.is_writable());
         if let Some(condition) = read.condition.filter(|_| is_writable) {
-            entry.writable_when = Some(Spanned::new(condition, place));
+            entry.writable_when = Some(Spanned::new(ConditionDecl::Plain(condition), place));
         }
         if let Some(text) = read.withheld.filter(|_| entry.default.is_none()) {
             entry = withheld(entry, &text, data_type, place);
@@ -89,6 +91,7 @@ impl Meanings {
             name: made(unit.text.clone(), place),
             symbol: Some(made(unit.symbol.clone(), place)),
             scale: Some(Spanned::new(unit.scale, place)),
+            offset: unit.offset.map(|offset| Spanned::new(Offset(offset), place)),
             base: None,
             formula: None,
             about: None,
@@ -185,6 +188,8 @@ struct Comments {
 struct StepText {
     text: String,
     scale: Ratio,
+    /// What the raw value 0 stands for, where the comment says it.
+    offset: Option<Ratio>,
     symbol: String,
 }
 
@@ -285,15 +290,23 @@ fn named_value(line: &str) -> Option<(i128, String)> {
     (!name.trim().is_empty()).then(|| (value, name.trim().to_owned()))
 }
 
-/// `0.1 degC`, `ms`.
+/// `0.1 degC`, `ms`, `0.1 degC from -40 degC`.
 fn step_text(text: &str) -> Option<StepText> {
-    let (scale, symbol) = match text.split_once(' ') {
-        Some((number, symbol)) if scalar::ratio(number).is_some() => (scalar::ratio(number)?, symbol.trim()),
-        _ => (Ratio::ONE, text.trim()),
+    let counted = |text: &str| {
+        let (number, symbol) = text.trim().split_once(' ')?;
+        Some((scalar::ratio(number)?, symbol.trim().to_owned()))
     };
-    let is_positive = scale.compare(Ratio::whole(0)).is_some_and(std::cmp::Ordering::is_gt);
+    let ends = text.rsplit_once(" from ").and_then(|(step, from)| Some((counted(step)?, counted(from)?)));
+    let (scale, symbol, offset) = match ends.filter(|((_, symbol), (_, of_offset))| symbol == of_offset) {
+        Some(((scale, symbol), (offset, _))) => (scale, symbol, Some(offset)),
+        None => {
+            let (scale, symbol) = counted(text).unwrap_or_else(|| (Ratio::ONE, text.trim().to_owned()));
+            (scale, symbol, None)
+        }
+    };
+    let is_positive = scale.compare(Ratio::ZERO).is_some_and(std::cmp::Ordering::is_gt);
     // Signs that ASCII does not have.
-    let symbol = match symbol {
+    let symbol = match symbol.as_str() {
         "degC" => "°C",
         "deg" => "°",
         other => other,
@@ -301,6 +314,7 @@ fn step_text(text: &str) -> Option<StepText> {
     (is_positive && !symbol.is_empty()).then(|| StepText {
         text: text.trim().to_owned(),
         scale,
+        offset,
         symbol: symbol.to_owned(),
     })
 }

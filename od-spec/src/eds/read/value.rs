@@ -35,7 +35,10 @@ pub(super) fn limit(text: Spanned<&str>, data_type: DataType, diagnostics: &mut 
             let read = integer(text, data_type, diagnostics)?;
             return Some(made(read, text.span));
         }
-        Family::Real => (codes::NO_PLACE, format!("the limit of a {data_type} is left out")),
+        Family::Real => {
+            let read = real(text, data_type, diagnostics)?;
+            return Some(made(read, text.span));
+        }
         // The whole range of a BOOLEAN is no limit.
         Family::Boolean if matches!(number::lenient_integer(text.value), Some(0 | 1)) => return None,
         Family::Boolean

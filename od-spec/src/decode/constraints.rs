@@ -1,0 +1,79 @@
+//! Constraints that are written once for several numbers.
+
+use crate::ast::{ConditionDecl, ConstraintDecl, Words};
+use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::expr::PLACEHOLDER;
+use crate::model::Text;
+use crate::source::Spanned;
+
+/// The constraint itself, or one for each of its numbers.
+pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> Vec<ConstraintDecl> {
+    let conditions = || [&decl.require, &decl.when].into_iter().flatten();
+    let has_place = |condition: &&Spanned<ConditionDecl>| match &condition.value {
+        ConditionDecl::Plain(_) => false,
+        ConditionDecl::Named(text) => text.contains(PLACEHOLDER),
+    };
+    let Some(first) = decl.numbers.first() else {
+        if let Some(condition) = conditions().find(has_place) {
+            diagnostics.push(
+                Diagnostic::new(codes::BAD_NOTATION, condition.span, "`{n}` has no number here")
+                    .help("add the numbers that it stands for to the constraint: `n: 0..11`"),
+            );
+            return Vec::new();
+        }
+        return vec![decl];
+    };
+    // A condition that is missing or cannot be read was reported.
+    if decl.require.is_none() {
+        return Vec::new();
+    }
+    let mut missing = Vec::new();
+    if !decl.name.value.contains(PLACEHOLDER) {
+        missing.push((decl.name.span, "the constraints would all have this name"));
+    }
+    if !conditions().any(|condition| has_place(&condition)) {
+        missing.push((first.span, "the constraints would all say the same"));
+    }
+    if !missing.is_empty() {
+        for (place, message) in missing {
+            diagnostics.push(
+                Diagnostic::new(codes::BAD_NOTATION, place, message)
+                    .help("write `{n}` into the name and the conditions; it stands for the number"),
+            );
+        }
+        return Vec::new();
+    }
+    let numbers = decl.numbers.iter().flat_map(|range| range.value.first..=range.value.last);
+    numbers.map(|number| of_number(&decl, &number.to_string())).collect()
+}
+
+/// The constraint for one number.
+fn of_number(decl: &ConstraintDecl, number: &str) -> ConstraintDecl {
+    let said = |text: &str| text.replace(PLACEHOLDER, number);
+    let condition = |condition: &Option<Spanned<ConditionDecl>>| {
+        let condition = condition.as_ref()?;
+        let of_number = match &condition.value {
+            ConditionDecl::Plain(_) => condition.value.clone(),
+            // A number fits wherever its place does, and what does not exist is told later.
+            ConditionDecl::Named(text) => {
+                let text = said(text);
+                ConditionDecl::read(&text).unwrap_or(ConditionDecl::Named(text))
+            }
+        };
+        Some(Spanned::new(of_number, condition.span))
+    };
+    let about: &Words = &decl.about;
+    ConstraintDecl {
+        name: Spanned::new(said(&decl.name.value), decl.name.span),
+        devices: decl.devices.clone(),
+        require: condition(&decl.require),
+        when: condition(&decl.when),
+        numbers: Vec::new(),
+        about: about.as_ref().map(|about| {
+            let texts: Vec<(&str, String)> =
+                about.value.iter().map(|(language, text)| (language, said(text))).collect();
+            let texts = texts.iter().map(|(language, text)| (*language, text.as_str()));
+            Spanned::new(Text::new(texts), about.span)
+        }),
+    }
+}
