@@ -27,7 +27,7 @@ impl Fullmo {
         Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
     }
 
-    /// `1000h` Device type: Tells which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
+    /// `1000h` Device type: Sagt, welchem Geräteprofil das Gerät folgt, und im oberen Wort, was das Profil über die Art des Geräts wissen will. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, ro, default 0x00020192.
     #[inline]
@@ -41,7 +41,7 @@ impl Fullmo {
         glue::put_u32(&mut self.0, 0, value.0);
     }
 
-    /// `1001h` Error register: Summary of the errors present now; also the third byte of every emergency message. Only bit 0 has to be supported. (CiA 301 v4.02, 9.6.3, table 48)
+    /// `1001h` Error register: Zusammenfassung der Fehler, die jetzt anliegen; auch das dritte Byte jeder Emergency-Nachricht. Nur Bit 0 muss ein Gerät kennen. (CiA 301 v4.02, 9.6.3, Tabelle 48)
     ///
     /// UNSIGNED8, ro.
     #[inline]
@@ -55,7 +55,7 @@ impl Fullmo {
         glue::put_u8(&mut self.0, 744, value.0);
     }
 
-    /// `1014h` COB-ID EMCY: CAN-ID of the device's emergency message. To change it, first switch the message off (bit 31). (CiA 301 v4.02, 9.6.3)
+    /// `1014h` COB-ID EMCY: CAN-Kennung der Emergency-Nachricht des Geräts. Vor einer Änderung wird die Nachricht ausgeschaltet (Bit 31). (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, rw, default $NODEID+0x80.
     #[inline]
@@ -69,7 +69,7 @@ impl Fullmo {
         glue::put_u32(&mut self.0, 4, value.0);
     }
 
-    /// `1017h` Producer heartbeat time: Time between two heartbeats of this device, in ms; 0 switches the heartbeat off. A non-zero value takes the place of node guarding. (CiA 301 v4.02, 9.6.3)
+    /// `1017h` Producer heartbeat time: Abstand zweier Heartbeats dieses Geräts in ms; 0 schaltet den Heartbeat aus. Ein anderer Wert ersetzt das Node Guarding. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED16, rw, in ms, 0: heartbeat off, default 0 (heartbeat off).
     #[inline]
@@ -98,7 +98,7 @@ impl Fullmo {
         );
     }
 
-    /// `1018h` Identity object: Says whose product this is, which one and which revision. (CiA 301 v4.02, 9.6.3)
+    /// `1018h` Identity object: Sagt, von wem das Produkt ist, welches es ist und welchen Stand es hat. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn identity_object(&self) -> records::IdentityObject<&Self> {
         records::IdentityObject(self)
@@ -186,7 +186,7 @@ impl Fullmo {
         records::Rpdo1CommunicationParameter(self, [32, 748])
     }
 
-    /// `1600h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1600h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 1.
     #[inline]
@@ -220,7 +220,7 @@ impl Fullmo {
         Some(())
     }
 
-    /// `1601h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1601h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 2.
     #[inline]
@@ -255,7 +255,7 @@ impl Fullmo {
         Some(())
     }
 
-    /// `1602h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1602h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 2.
     #[inline]
@@ -290,7 +290,7 @@ impl Fullmo {
         Some(())
     }
 
-    /// `1603h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1603h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 2.
     #[inline]
@@ -401,7 +401,7 @@ impl Fullmo {
         records::Tpdo1CommunicationParameter(self, [176, 756])
     }
 
-    /// `1A00h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1A00h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 1.
     #[inline]
@@ -435,7 +435,7 @@ impl Fullmo {
         Some(())
     }
 
-    /// `1A01h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1A01h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 2.
     #[inline]
@@ -470,7 +470,7 @@ impl Fullmo {
         Some(())
     }
 
-    /// `1A02h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1A02h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 2.
     #[inline]
@@ -505,7 +505,7 @@ impl Fullmo {
         Some(())
     }
 
-    /// `1A03h` number of mapped entries: 0 disables the mapping while it is changed
+    /// `1A03h` number of mapped entries: 0 schaltet die Zuordnung aus, solange sie geändert wird
     ///
     /// UNSIGNED8, rw, default 2.
     #[inline]
@@ -2131,12 +2131,12 @@ firmware::defmt_text!(Entry);
 pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
-    /// `1018h` Identity object: Says whose product this is, which one and which revision. (CiA 301 v4.02, 9.6.3)
+    /// `1018h` Identity object: Sagt, von wem das Produkt ist, welches es ist und welchen Stand es hat. (CiA 301 v4.02, 9.6.3)
     #[derive(Debug)]
     pub struct IdentityObject<D>(pub(super) D);
 
     impl<D: Borrow<super::Fullmo>> IdentityObject<D> {
-        /// `1018h.1` Vendor-ID: Number of the manufacturer, assigned by CiA.
+        /// `1018h.1` Vendor-ID: Nummer des Herstellers, von CiA vergeben.
         ///
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
@@ -2144,7 +2144,7 @@ pub mod records {
             super::glue::get_u32(&self.0.borrow().0, 8)
         }
 
-        /// `1018h.2` Product code: The manufacturer's number of this product.
+        /// `1018h.2` Product code: Nummer des Herstellers für dieses Produkt.
         ///
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
@@ -2152,7 +2152,7 @@ pub mod records {
             super::glue::get_u32(&self.0.borrow().0, 12)
         }
 
-        /// `1018h.3` Revision number: Revision of the product; the high word changes when its CANopen behaviour changes.
+        /// `1018h.3` Revision number: Stand des Produkts; das obere Wort ändert sich, wenn sich sein CANopen-Verhalten ändert.
         ///
         /// UNSIGNED32, ro, default 0x00000000.
         #[inline]
@@ -2188,7 +2188,7 @@ pub mod records {
     pub struct Rpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Fullmo>> Rpdo1CommunicationParameter<D> {
-        /// Sub-index 1: COB-ID used by RPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
+        /// Sub-index 1: COB-ID used by RPDO: CAN-Kennung; Bit 31: PDO ungültig, Bit 30: keine Anforderung durch Remote-Frames (TPDO).
         ///
         /// UNSIGNED32, rw.
         #[inline]
@@ -2196,7 +2196,7 @@ pub mod records {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
+        /// Sub-index 2: transmission type: 0 bis 240: synchron; 254, 255: ereignisgesteuert; 252, 253: auf Remote-Frame.
         ///
         /// UNSIGNED8, rw, default 255.
         #[inline]
@@ -2235,7 +2235,7 @@ pub mod records {
     pub struct Tpdo1CommunicationParameter<D>(pub(super) D, pub(super) [usize; 2]);
 
     impl<D: Borrow<super::Fullmo>> Tpdo1CommunicationParameter<D> {
-        /// Sub-index 1: COB-ID used by TPDO: CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO).
+        /// Sub-index 1: COB-ID used by TPDO: CAN-Kennung; Bit 31: PDO ungültig, Bit 30: keine Anforderung durch Remote-Frames (TPDO).
         ///
         /// UNSIGNED32, rw.
         #[inline]
@@ -2243,7 +2243,7 @@ pub mod records {
             super::glue::get_u32(&self.0.borrow().0, self.1[0])
         }
 
-        /// Sub-index 2: transmission type: 0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame.
+        /// Sub-index 2: transmission type: 0 bis 240: synchron; 254, 255: ereignisgesteuert; 252, 253: auf Remote-Frame.
         ///
         /// UNSIGNED8, rw, default 255.
         #[inline]
@@ -3457,13 +3457,13 @@ pub mod pdos {
 /// Enums and bit fields: newtypes around raw values, also around those that nobody named.
 #[allow(dead_code, unreachable_pub)]
 pub mod types {
-    /// EMCY COB-ID: CAN-ID of an emergency message. Bits 0 to 29 cannot be changed while the message is valid (bit 31 is 0).
+    /// EMCY COB-ID: CAN-Kennung einer Emergency-Nachricht. Solange die Nachricht gültig ist (Bit 31 ist 0), lassen sich die Bits 0 bis 29 nicht ändern.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct EmcyCobId(pub u32);
 
     impl EmcyCobId {
-        /// Bits 0 to 28, CAN-ID: bits 11 to 28 are 0 for an 11-bit identifier
+        /// Bits 0 to 28, CAN-ID: bei einer Kennung von 11 Bit sind die Bits 11 bis 28 0
         #[inline]
         pub const fn can_id(self) -> u32 {
             self.0 & 0x1FFF_FFFF
@@ -3479,7 +3479,7 @@ pub mod types {
             Some(Self(self.0 & !(0x1FFF_FFFF) | value))
         }
 
-        /// Bit 29, extended frame: 0 = 11-bit identifier, 1 = 29-bit identifier
+        /// Bit 29, extended frame: 0 = Kennung von 11 Bit, 1 = Kennung von 29 Bit
         #[inline]
         pub const fn extended_frame(self) -> bool {
             self.0 >> 29 & 1 != 0
@@ -3492,7 +3492,7 @@ pub mod types {
             Self(self.0 & !(1 << 29) | (value as u32) << 29)
         }
 
-        /// Bit 31, valid: 0 = message exists, 1 = message switched off Active at 0.
+        /// Bit 31, valid: 0 = Nachricht gibt es, 1 = Nachricht ist ausgeschaltet Active at 0.
         #[inline]
         pub const fn valid(self) -> bool {
             self.0 >> 31 & 1 != 0
@@ -3510,13 +3510,13 @@ pub mod types {
         ..= 31 => "valid", }
     }
 
-    /// cia402 polarity: Sense of direction; 1 multiplies by -1.
+    /// cia402 polarity: Drehsinn; 1 multipliziert mit -1.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct Cia402Polarity(pub u8);
 
     impl Cia402Polarity {
-        /// Bit 6, velocity polarity: of the velocity modes
+        /// Bit 6, velocity polarity: der Geschwindigkeitsbetriebsarten
         #[inline]
         pub const fn velocity_polarity(self) -> bool {
             self.0 >> 6 & 1 != 0
@@ -3529,7 +3529,7 @@ pub mod types {
             Self(self.0 & !(1 << 6) | (value as u8) << 6)
         }
 
-        /// Bit 7, position polarity: of the position modes
+        /// Bit 7, position polarity: der Positionsbetriebsarten
         #[inline]
         pub const fn position_polarity(self) -> bool {
             self.0 >> 7 & 1 != 0
@@ -3547,13 +3547,13 @@ pub mod types {
         "position polarity", }
     }
 
-    /// device type code: Which device profile the device follows.
+    /// device type code: Welchem Geräteprofil das Gerät folgt.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct DeviceTypeCode(pub u32);
 
     impl DeviceTypeCode {
-        /// Bits 0 to 15, profile number: number of the device profile, such as 402; 0 means no standard profile
+        /// Bits 0 to 15, profile number: Nummer des Geräteprofils, etwa 402; 0 heißt: kein genormtes Profil
         #[inline]
         pub const fn profile_number(self) -> u16 {
             (self.0 & 0xFFFF) as u16
@@ -3566,7 +3566,7 @@ pub mod types {
             Self(self.0 & !(0xFFFF) | value as u32)
         }
 
-        /// Bits 16 to 31, additional information: meaning given by the profile; FFFFh marks a device made of several profile modules
+        /// Bits 16 to 31, additional information: Bedeutung nach dem Profil; FFFFh kennzeichnet ein Gerät aus mehreren Profilmodulen
         #[inline]
         pub const fn additional_information(self) -> u16 {
             (self.0 >> 16 & 0xFFFF) as u16
@@ -4389,13 +4389,13 @@ pub mod types {
         "rising edge function", }
     }
 
-    /// error register bits: One bit per class of error that is present now.
+    /// error register bits: Ein Bit je Klasse von Fehlern, die jetzt anliegen.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct ErrorRegisterBits(pub u8);
 
     impl ErrorRegisterBits {
-        /// Bit 0, generic error: set as long as any error is present
+        /// Bit 0, generic error: gesetzt, solange irgendein Fehler anliegt
         #[inline]
         pub const fn generic_error(self) -> bool {
             self.0 & 1 != 0
@@ -4447,7 +4447,7 @@ pub mod types {
             Self(self.0 & !(1 << 3) | (value as u8) << 3)
         }
 
-        /// Bit 4, communication error: overrun or CAN error state
+        /// Bit 4, communication error: Überlauf oder Fehlerzustand des CAN
         #[inline]
         pub const fn communication_error(self) -> bool {
             self.0 >> 4 & 1 != 0
@@ -4460,7 +4460,7 @@ pub mod types {
             Self(self.0 & !(1 << 4) | (value as u8) << 4)
         }
 
-        /// Bit 5, device profile specific: meaning given by the device profile
+        /// Bit 5, device profile specific: Bedeutung nach dem Geräteprofil
         #[inline]
         pub const fn device_profile_specific(self) -> bool {
             self.0 >> 5 & 1 != 0
@@ -4781,7 +4781,7 @@ pub mod types {
     pub struct RevisionCode(pub u32);
 
     impl RevisionCode {
-        /// Bits 0 to 15, minor revision: counts changes that leave the CANopen behaviour as it was
+        /// Bits 0 to 15, minor revision: zählt Änderungen, die das CANopen-Verhalten lassen, wie es war
         #[inline]
         pub const fn minor_revision(self) -> u16 {
             (self.0 & 0xFFFF) as u16
@@ -4794,7 +4794,7 @@ pub mod types {
             Self(self.0 & !(0xFFFF) | value as u32)
         }
 
-        /// Bits 16 to 31, major revision: counts changes of the CANopen behaviour
+        /// Bits 16 to 31, major revision: zählt Änderungen des CANopen-Verhaltens
         #[inline]
         pub const fn major_revision(self) -> u16 {
             (self.0 >> 16 & 0xFFFF) as u16
@@ -5120,7 +5120,7 @@ pub mod units {
         Centivolt = "V", scale 1 / 100, step 1 / 100 of BaseV
     }
 
-    /// cia402 acceleration unit: one raw step is 1 AU. The user's unit of acceleration; often the velocity unit per second.
+    /// cia402 acceleration unit: one raw step is 1 AU. Einheit des Anwenders für Beschleunigungen; oft die Geschwindigkeitseinheit je Sekunde.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct Cia402AccelerationUnit<__T>(pub __T);
@@ -5128,7 +5128,7 @@ pub mod units {
         Cia402AccelerationUnit = "AU", scale 1 / 1, step 1 / 1 of BaseAU
     }
 
-    /// cia402 increment: one raw step is 1 inc. Step of the position encoder.
+    /// cia402 increment: one raw step is 1 inc. Schritt des Lagegebers.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct Cia402Increment<__T>(pub __T);
@@ -5136,7 +5136,7 @@ pub mod units {
         Cia402Increment = "inc", scale 1 / 1, step 1 / 1 of Baseinc
     }
 
-    /// cia402 increment per second: one raw step is 1 inc/s. Steps of the encoder per second.
+    /// cia402 increment per second: one raw step is 1 inc/s. Schritte des Gebers je Sekunde.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct Cia402IncrementPerSecond<__T>(pub __T);
@@ -5144,7 +5144,7 @@ pub mod units {
         Cia402IncrementPerSecond = "inc/s", scale 1 / 1, step 1 / 1 of BaseincPers
     }
 
-    /// cia402 position unit: one raw step is 1 PU. The user's unit of position; 60A8h or the factors tell which.
+    /// cia402 position unit: one raw step is 1 PU. Einheit des Anwenders für Positionen; 60A8h oder die Faktoren sagen welche.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct Cia402PositionUnit<__T>(pub __T);
@@ -5152,7 +5152,7 @@ pub mod units {
         Cia402PositionUnit = "PU", scale 1 / 1, step 1 / 1 of BasePU
     }
 
-    /// cia402 velocity unit: one raw step is 1 VU. The user's unit of velocity; often the position unit per second.
+    /// cia402 velocity unit: one raw step is 1 VU. Einheit des Anwenders für Geschwindigkeiten; oft die Positionseinheit je Sekunde.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct Cia402VelocityUnit<__T>(pub __T);
@@ -5200,7 +5200,7 @@ pub mod units {
         Millivolt = "mV", scale 1 / 1, step 1 / 1000 of BaseV
     }
 
-    /// per mille of rated current: one raw step is 0.1 %. Share of the rated current 6075h; one raw step is 0.1 %.
+    /// per mille of rated current: one raw step is 0.1 %. Anteil am Nennstrom 6075h; ein Schritt des Rohwerts ist 0,1 %.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct PerMilleOfRatedCurrent<__T>(pub __T);
@@ -5208,7 +5208,7 @@ pub mod units {
         PerMilleOfRatedCurrent = "%", scale 1 / 10, step 1 / 10 of BasePercent
     }
 
-    /// per mille of rated torque: one raw step is 0.1 %. Share of the rated torque 6076h; one raw step is 0.1 %.
+    /// per mille of rated torque: one raw step is 0.1 %. Anteil am Nenndrehmoment 6076h; ein Schritt des Rohwerts ist 0,1 %.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct PerMilleOfRatedTorque<__T>(pub __T);
@@ -5216,7 +5216,7 @@ pub mod units {
         PerMilleOfRatedTorque = "%", scale 1 / 10, step 1 / 10 of BasePercent
     }
 
-    /// per mille of rated torque per second: one raw step is 0.1 %/s. Slope, relative to the rated torque 6076h.
+    /// per mille of rated torque per second: one raw step is 0.1 %/s. Steigung, bezogen auf das Nenndrehmoment 6076h.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct PerMilleOfRatedTorquePerSecond<__T>(pub __T);

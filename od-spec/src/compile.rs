@@ -152,7 +152,7 @@ fn build(
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<(System, usize)> {
-    let spec = file(sources, root, loader, diagnostics)?;
+    let spec = file(sources, root, &[], loader, diagnostics)?;
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
     let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
@@ -167,6 +167,7 @@ fn build(
 fn file(
     sources: &mut SourceMap,
     file: FileId,
+    shown: &[String],
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<Spec> {
@@ -175,7 +176,7 @@ fn file(
     gaps::check(file, sources.file(file).text(), diagnostics);
     decode::check(&mut tree, &keys::SPEC, diagnostics);
     parts::join(sources, &mut tree, loader, diagnostics)?;
-    Some(decode::read(&tree, diagnostics))
+    Some(decode::read(&tree, shown, diagnostics))
 }
 
 fn libraries(
@@ -186,6 +187,7 @@ fn libraries(
 ) -> Option<Vec<Spec>> {
     let (mut libraries, mut complete) = (Vec::new(), true);
     let from = sources.file(root.file).name().to_owned();
+    let shown = root.shown_languages();
     for (at, name) in root.uses.iter().enumerate() {
         if let Some(first) = root.uses[..at].iter().find(|before| before.value == name.value) {
             diagnostics.push(files::twice("library", first.span, name));
@@ -203,7 +205,7 @@ fn libraries(
                 }
             },
         };
-        let Some(mut library) = file(sources, id, loader, diagnostics) else {
+        let Some(mut library) = file(sources, id, &shown, loader, diagnostics) else {
             complete = false;
             continue;
         };

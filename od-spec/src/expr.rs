@@ -10,7 +10,7 @@
 //! reference  = [ device ":" ] "0x" hex digits [ "." sub-index ]
 //! ```
 //!
-//! In a specification, an entry, a bit and a value may stand there by name; see [`without_names`].
+//! In a specification, an entry, a bit and a value may stand there by name; see `without_names`.
 
 mod names;
 

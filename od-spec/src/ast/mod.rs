@@ -71,6 +71,16 @@ pub(crate) struct Spec {
     pub front_end: FrontEnd,
 }
 
+impl Spec {
+    /// The languages that are shown; without `languages:`, English only.
+    pub(crate) fn shown_languages(&self) -> Vec<String> {
+        match self.languages.as_slice() {
+            [] => vec!["en".to_owned()],
+            languages => languages.iter().map(|language| language.value.clone()).collect(),
+        }
+    }
+}
+
 /// A rule that may be broken.
 #[derive(Debug)]
 pub(crate) struct AllowDecl {

@@ -120,7 +120,7 @@ mod tests {
         let id = sources.add("test", EVERY_KEY);
         let mut diagnostics = Diagnostics::new();
         let root = yaml::parse(id, sources.file(id), &mut diagnostics).unwrap();
-        let reader = Reader { node: &root, language: "en" };
+        let reader = Reader { node: &root, language: "en", shown: &[] };
         let decl = entry(reader, &ENTRY, root.span, &mut diagnostics);
         assert!(!decl.unsure);
 

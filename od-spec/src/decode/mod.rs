@@ -32,14 +32,15 @@ pub(crate) fn check(root: &mut Node, keys: &Keys, diagnostics: &mut Diagnostics)
     shape::check_map(root, keys, owner, diagnostics);
 }
 
-/// Reads a specification or library whose files were checked.
-pub(crate) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
+/// Reads a specification whose files were checked, or a library of one that shows some languages; without any, texts stay
+/// in all of theirs.
+pub(crate) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics) -> Spec {
     languages::check(root, &keys::SPEC, diagnostics);
-    spec::read(root, diagnostics)
+    spec::read(root, shown, diagnostics)
 }
 
 /// [`check`], then [`read()`]: a file without parts.
 pub(crate) fn decode(root: &mut Node, diagnostics: &mut Diagnostics) -> Spec {
     check(root, &keys::SPEC, diagnostics);
-    read(root, diagnostics)
+    read(root, &[], diagnostics)
 }

@@ -20,6 +20,8 @@ use super::lexical;
 pub(super) struct Reader<'a> {
     pub node: &'a Node,
     pub language: &'a str,
+    /// The languages that are shown; of a library, those of the specification that uses it. None: all.
+    pub shown: &'a [String],
 }
 
 impl<'a> Reader<'a> {
@@ -124,9 +126,10 @@ impl<'a> Reader<'a> {
     pub(super) fn translated(self) -> Option<Text> {
         let text = |node: &'a Node| node.text().map(|text| text.value.trim());
         let text = match &self.node.kind {
-            NodeKind::Map(entries) => {
-                Text::new(entries.iter().filter_map(|(name, node)| Some((name.value.as_str(), text(node)?))))
-            }
+            NodeKind::Map(entries) => Text::among(
+                entries.iter().filter_map(|(name, node)| Some((name.value.as_str(), text(node)?))),
+                self.shown,
+            ),
             _ => Text::new([(self.language, text(self.node)?)]),
         };
         (!text.is_empty()).then_some(text)

@@ -26,10 +26,10 @@ vendor_keys! { reader fn vendor() -> VendorDecl }
 constraint_keys! { reader fn constraint(name: Name) -> ConstraintDecl }
 error_keys! { reader fn written_error(codes: Spanned<CodeRange>, unsure: bool) -> ErrorDecl }
 
-pub(super) fn read(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
-    let languages = Reader { node: root, language: "en" }.texts("languages");
+pub(super) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics) -> Spec {
+    let languages = Reader { node: root, language: "en", shown }.texts("languages");
     let language = languages.first().map_or("en", |name| name.value.as_str()).to_owned();
-    let top = Reader { node: root, language: &language };
+    let top = Reader { node: root, language: &language, shown };
     Spec {
         file: root.span.file,
         span: root.span,

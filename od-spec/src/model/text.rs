@@ -17,6 +17,18 @@ impl Text {
         Self { by_language }
     }
 
+    /// The texts in these languages; all, where there is none in them or no language is named.
+    pub(crate) fn among<'a>(
+        texts: impl Iterator<Item = (&'a str, &'a str)> + Clone,
+        wanted: &[impl AsRef<str>],
+    ) -> Self {
+        let is_wanted = |language: &str| wanted.iter().any(|one| one.as_ref() == language);
+        if texts.clone().any(|(language, _)| is_wanted(language)) {
+            return Self::new(texts.filter(|(language, _)| is_wanted(language)));
+        }
+        Self::new(texts)
+    }
+
     /// The text in a language, or else in any other.
     pub fn get(&self, language: &str) -> Option<&str> {
         self.iter().find(|(code, _)| *code == language).or_else(|| self.iter().next()).map(|(_, text)| text)

@@ -26,6 +26,7 @@ pub(super) fn resolve<'a>(
 ) -> (Vec<Dictionary>, Broken) {
     check_device_keys(root, diagnostics);
     let assigned = Assigned::of(root);
+    let languages = root.shown_languages();
     let mut pdos = BTreeMap::new();
     for (key, decl) in &root.pdos {
         pdos.entry(key.value.as_str()).or_insert(decl);
@@ -84,8 +85,15 @@ pub(super) fn resolve<'a>(
             let none = PdosDecl::default();
             let decl = pdos.get(device.key.value.as_str()).copied().unwrap_or(&none);
             let written = |index: Index| declared.get(&index).map(|one| one.decl.index.span);
-            let pdos =
-                pdos::resolve(decl, &info, written, &mut built.objects, &mut built.broken, diagnostics);
+            let pdos = pdos::resolve(
+                decl,
+                &info,
+                &languages,
+                written,
+                &mut built.objects,
+                &mut built.broken,
+                diagnostics,
+            );
             condition_names::write_conditions(
                 &device.key.value,
                 &mut built.objects,

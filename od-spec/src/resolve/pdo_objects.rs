@@ -18,11 +18,11 @@ struct Parameter {
     default: Option<Value>,
     /// Where the value stands.
     stated: Option<Statement>,
-    about: &'static str,
+    about: &'static [(&'static str, &'static str)],
 }
 
 impl Parameter {
-    fn into_entry(self, kept: Kept, span: Span) -> Entry {
+    fn into_entry(self, kept: Kept, languages: &[String], span: Span) -> Entry {
         let Said { name: (name, named), access, min, max, .. } = self.said;
         let right = access.map_or(self.access, |access| access.value);
         let storage = kept.said.map_or(kept.usual, |said| said.value);
@@ -43,13 +43,20 @@ impl Parameter {
             high: max.map(|max| max.value),
             stored: if right.is_writable() { storage } else { Storage::No },
             facts: facts.collect(),
-            about: english(self.about),
+            about: Text::among(self.about.iter().copied(), languages),
             ..Entry::new(SubIndex(self.sub), name, self.data_type, right, span)
         }
     }
 }
 
-fn object(index: u16, name: String, parameters: Vec<Parameter>, kept: Kept, span: Span) -> Object {
+fn object(
+    index: u16,
+    name: String,
+    parameters: Vec<Parameter>,
+    described: &Described<'_>,
+    span: Span,
+) -> Object {
+    let (kept, languages) = (described.kept, described.languages);
     Object {
         index: Index(index),
         name,
@@ -62,13 +69,12 @@ fn object(index: u16, name: String, parameters: Vec<Parameter>, kept: Kept, span
         since: None,
         links: Vec::new(),
         about: Text::default(),
-        entries: parameters.into_iter().map(|parameter| parameter.into_entry(kept, span)).collect(),
+        entries: parameters
+            .into_iter()
+            .map(|parameter| parameter.into_entry(kept, languages, span))
+            .collect(),
         span,
     }
-}
-
-fn english(text: &str) -> Text {
-    if text.is_empty() { Text::default() } else { Text::new([("en", text)]) }
 }
 
 /// A value that is written in the specification, or follows from the number of the PDO.
@@ -124,7 +130,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
         count.default = number(highest);
     }
     let name = described.communication_name(pdo);
-    let mut object = object(pdo.communication_index(), name, list, described.kept, pdo.span);
+    let mut object = object(pdo.communication_index(), name, list, described, pdo.span);
     if let (Some(flag), Some(cob_id)) = (decl.no_rtr, object.entries.get_mut(1)) {
         cob_id.facts.state(Fact::RemoteFrames, stated(Some(flag.span), decl));
     }
@@ -146,7 +152,10 @@ pub(super) fn mapping_object(
         access,
         default: Some(Value::Integer(mapped)),
         stated: Some(stated(Some(decl.span), decl)),
-        about: "0 disables the mapping while it is changed",
+        about: &[
+            ("de", "0 schaltet die Zuordnung aus, solange sie geändert wird"),
+            ("en", "0 disables the mapping while it is changed"),
+        ],
     }];
     list.extend((1..=pdo.capacity).map(|sub| {
         let mapped = map.get(usize::from(sub) - 1);
@@ -157,11 +166,14 @@ pub(super) fn mapping_object(
             access,
             default: Some(Value::Integer(mapped.map_or(0, |mapped| mapped.value.parameter().into()))),
             stated: Some(stated(mapped.map(|mapped| mapped.span), decl)),
-            about: "bits 31..16 index, 15..8 sub-index, 7..0 length in bits",
+            about: &[
+                ("de", "Bits 31..16 Index, 15..8 Subindex, 7..0 Länge in Bits"),
+                ("en", "bits 31..16 index, 15..8 sub-index, 7..0 length in bits"),
+            ],
         }
     }));
     let name = described.mapping_name(pdo);
-    let mut object = object(pdo.mapping_index(), name, list, described.kept, pdo.span);
+    let mut object = object(pdo.mapping_index(), name, list, described, pdo.span);
     if let (Some(capacity), Some(count)) = (decl.capacity, object.entries.first_mut()) {
         count.facts.state(Fact::Capacity, stated(Some(capacity.span), decl));
     }

@@ -25,6 +25,8 @@ pub(super) struct Kept {
 pub(super) struct Described<'a> {
     layers: [Option<&'a PdoParametersDecl>; 2],
     pub kept: Kept,
+    /// The languages that are shown.
+    pub languages: &'a [String],
     direction: Direction,
     number: u16,
 }
@@ -41,10 +43,11 @@ pub(super) struct Said {
 }
 
 impl<'a> Described<'a> {
-    pub(super) fn new(all: &'a PdosDecl, decl: &'a PdoDecl, usual: Storage) -> Self {
+    pub(super) fn new(all: &'a PdosDecl, decl: &'a PdoDecl, usual: Storage, languages: &'a [String]) -> Self {
         Self {
             layers: [decl.parameters.as_deref(), all.parameters(decl.direction)],
             kept: Kept { said: all.stored, usual },
+            languages,
             direction: decl.direction,
             number: decl.number.value,
         }

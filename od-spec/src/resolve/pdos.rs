@@ -24,6 +24,7 @@ use crate::source::{Span, Spanned};
 pub(super) fn resolve(
     decl: &PdosDecl,
     info: &DeviceInfo,
+    languages: &[String],
     written: impl Fn(Index) -> Option<Span>,
     objects: &mut BTreeMap<Index, Object>,
     broken: &mut Broken,
@@ -44,7 +45,7 @@ pub(super) fn resolve(
             continue;
         }
         let map = mapped(one, &names, objects, broken, diagnostics);
-        let described = Described::new(decl, one, usual_storage);
+        let described = Described::new(decl, one, usual_storage, languages);
         let made =
             pdo(one, info, &map, diagnostics).filter(|pdo| is_of_one_kind(pdo, &described, diagnostics));
         match made {
