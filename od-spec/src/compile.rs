@@ -231,11 +231,14 @@ fn missing_library(name: &Spanned<String>, reason: &str) -> Diagnostic {
     let path = name.value.as_str();
     let known = LIBRARIES.iter().map(|(name, _)| *name);
     let help = match Suggestions::default()
-        .nearest(path, known)
+        .nearest(path, known.clone())
         .filter(|word| !path.starts_with("cia") || path.len() != word.len())
     {
         Some(word) => format!("did you mean `{word}`?"),
-        None => "name a built-in library (`cia301`, `cia402`), or a file relative to this one".to_owned(),
+        None => {
+            let known = known.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            format!("name a built-in library ({known}), or a file relative to this one")
+        }
     };
     let message = format!("cannot read library `{}`: {reason}", shorten(path));
     Diagnostic::new(codes::MISSING_LIBRARY, name.span, message).help(help)

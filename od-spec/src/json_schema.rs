@@ -285,6 +285,7 @@ const SCALARS: &[Shape] = &[
     Shape::Date,
     Shape::DateTime,
     Shape::Index,
+    Shape::ErrorCode,
     Shape::Entry,
     Shape::Entries,
     Shape::Access,
@@ -316,6 +317,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Date => "date",
         Shape::DateTime => "date-and-time",
         Shape::Index => "index",
+        Shape::ErrorCode => "code-of-an-error",
         Shape::Entry => "entry-reference",
         Shape::Entries => "entry-references",
         Shape::Access => "access",
@@ -362,6 +364,7 @@ fn scalar(shape: Shape) -> Json {
         Shape::Date => pattern(&["string"], format!("^{DAY}$")),
         Shape::DateTime => pattern(&["string"], format!("^{DAY}[ T]([01][0-9]|2[0-3]):[0-5][0-9]$")),
         Shape::Index => integer(Some((1, 0xFFFF))),
+        Shape::ErrorCode => integer(Some((0, 0xFFFF))),
         // A text that starts with `0x` is an index and maybe a sub-index, any other may be a name.
         Shape::Entry => pattern(
             &["string", "number", "boolean"],

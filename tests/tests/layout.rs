@@ -123,3 +123,34 @@ fn what_is_no_yaml_is_told_with_its_place() {
     assert_eq!(first.code.id, "OD0104");
     assert!(sources.place(first.labels[0].span).starts_with("a.od.yaml:"));
 }
+
+#[test]
+fn texts_that_are_easily_broken_stay() {
+    for (text, laid_out) in [
+        // A line of blanks in a block of text, and one behind it.
+        ("a: |\n  one\n     \n  two\nb: c\n", "a: |\n  one\n     \n  two\nb: c\n"),
+        ("a:\n    # x\n  b: c\n", "a:\n  # x\n  b: c\n"),
+        ("\u{feff}# c\na:   b\n", "\u{feff}# c\na: b\n"),
+        ("\u{feff}a:   b\n", "\u{feff}a: b\n"),
+        ("a: {b:   , c: }\n", "a: {b: , c: }\n"),
+        ("a: \"x \u{2028} y\"\n", "a: \"x \u{2028} y\"\n"),
+    ] {
+        assert_eq!(layout("a.od.yaml", text.to_owned()).ok().as_deref(), Some(laid_out), "{text:?}");
+        assert_eq!(layout("a.od.yaml", laid_out.to_owned()).ok().as_deref(), Some(laid_out), "{text:?}");
+    }
+}
+
+/// What the repository ships is laid out as `odgen fmt` does it.
+#[test]
+fn shipped_specifications_are_laid_out() {
+    let is_shipped = |path: &PathBuf| {
+        let path = path.to_string_lossy();
+        path.contains("od-spec/devices/") || path.contains("od-spec/profiles/")
+    };
+    let shipped: Vec<PathBuf> = specifications().into_iter().filter(is_shipped).collect();
+    assert!(shipped.len() > 8);
+    for path in shipped {
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(layout("shipped", text.clone()).ok() == Some(text), "`odgen fmt {}`", path.display());
+    }
+}

@@ -1,10 +1,12 @@
 //! Constraints that are written once for several numbers.
 
+use std::collections::BTreeMap;
+
 use crate::ast::{ConditionDecl, ConstraintDecl, Words};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::PLACEHOLDER;
 use crate::model::Text;
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 
 /// The constraint itself, or one for each of its numbers.
 pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> Vec<ConstraintDecl> {
@@ -14,9 +16,11 @@ pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> V
         ConditionDecl::Named(text) => text.contains(PLACEHOLDER),
     };
     let Some(first) = decl.numbers.first() else {
-        if let Some(condition) = conditions().find(has_place) {
+        let in_name = decl.name.value.contains(PLACEHOLDER).then_some(decl.name.span);
+        let in_condition = conditions().find(has_place).map(|condition| condition.span);
+        if let Some(place) = in_condition.or(in_name) {
             diagnostics.push(
-                Diagnostic::new(codes::BAD_NOTATION, condition.span, "`{n}` has no number here")
+                Diagnostic::new(codes::BAD_NOTATION, place, "`{n}` has no number here")
                     .help("add the numbers that it stands for to the constraint: `n: 0..11`"),
             );
             return Vec::new();
@@ -45,6 +49,34 @@ pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> V
     }
     let numbers = decl.numbers.iter().flat_map(|range| range.value.first..=range.value.last);
     numbers.map(|number| of_number(&decl, &number.to_string())).collect()
+}
+
+/// Leaves out constraints whose name another one has, which numbers may have given it.
+pub(super) fn of_distinct_names(
+    list: Vec<ConstraintDecl>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ConstraintDecl> {
+    let mut names: BTreeMap<String, Span> = BTreeMap::new();
+    let mut distinct = Vec::with_capacity(list.len());
+    for decl in list {
+        match names.get(&decl.name.value) {
+            Some(first) => diagnostics.push(
+                Diagnostic::new(
+                    codes::DUPLICATE_KEY,
+                    decl.name.span,
+                    format!("two constraints are named `{}`", shorten(&decl.name.value)),
+                )
+                .label("again here")
+                .with(*first, "first here")
+                .help("correct the numbers, or give one of the two another name"),
+            ),
+            None => {
+                names.insert(decl.name.value.clone(), decl.name.span);
+                distinct.push(decl);
+            }
+        }
+    }
+    distinct
 }
 
 /// The constraint for one number.

@@ -7,7 +7,6 @@ use crate::ast::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SpecialDecl};
 use crate::diag::Diagnostics;
 use crate::keys::{Keys, entry_keys};
 use crate::model::Access;
-use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::NodeKind;
 
@@ -72,12 +71,11 @@ fn default(reader: Reader<'_>) -> Option<Spanned<DefaultDecl>> {
 
 impl FromNode for Vec<BitErrorDecl> {
     fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
-        let integer = |text: &str| scalar::integer(text).ok();
         let errors = reader.pairs().filter_map(|(key, r)| {
             let bits = Spanned::new(lexical::bits(key.value)?, key.span);
             let codes = match r.node.items() {
-                [] => r.scalar(integer).into_iter().collect(),
-                items => items.iter().filter_map(|node| r.at(node).scalar(integer)).collect(),
+                [] => r.scalar(lexical::error_code).into_iter().collect(),
+                items => items.iter().filter_map(|node| r.at(node).scalar(lexical::error_code)).collect(),
             };
             Some(BitErrorDecl { bits, codes })
         });

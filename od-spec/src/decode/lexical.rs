@@ -155,6 +155,12 @@ pub(crate) fn error_codes(text: &str) -> Option<CodeRange> {
     (first <= last).then_some(CodeRange { first, last })
 }
 
+/// `0x3280`; a code that lacks its `0x` was refused, and is that code all the same.
+pub(super) fn error_code(text: &str) -> Option<i128> {
+    let codes = error_codes(text).or_else(|| error_codes(&with_0x(text)?))?;
+    (codes.first == codes.last).then(|| codes.first.into())
+}
+
 /// Whether a text can be the key of a device, which names its files: up to 32 lower-case letters, digits and hyphens, no hyphen
 /// first.
 pub fn is_device_key(text: &str) -> bool {

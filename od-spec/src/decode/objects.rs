@@ -95,10 +95,10 @@ fn belong_to_different_devices(list: &mut [ObjectDecl], first: usize, diagnostic
         let Some(on) = &mut decl.devices else {
             // A run lacks it once.
             if !decl.entry.unsure && diagnostics.is_new(codes::MISSING_KEY, decl.index.span) {
-                let message = format!("one of several objects at {index} needs the key `on`");
+                let message = format!("one of several objects at {index} needs the key `devices`");
                 diagnostics.push(
                     Diagnostic::new(codes::MISSING_KEY, decl.index.span, message)
-                        .help("add `devices:` with the devices that have this one"),
+                        .help("add it, with the devices that have this one"),
                 );
             }
             decl.devices = Some(Vec::new());

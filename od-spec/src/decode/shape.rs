@@ -293,6 +293,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Date => "a date such as `2009-05-27`",
         Shape::DateTime => "a date and time such as `2009-05-27 09:00`",
         Shape::Index => "an index such as `0x6040`",
+        Shape::ErrorCode => "an error code such as `0x3210`",
         Shape::Entry => "an entry such as `0x6040`, `0x30FA.3` or its name",
         Shape::Entries => "an entry such as `0x6040`, `0x30FA.3` or its name, or a run such as `0x2021.1..4`",
         Shape::Access => "an access type such as `ro` or `rw locked`",
@@ -407,6 +408,9 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                 Shape::Date => lexical::date(value).is_some(),
                 Shape::DateTime => lexical::date_time(value).is_some(),
                 Shape::Index => lexical::index(value).is_some(),
+                Shape::ErrorCode => {
+                    lexical::error_codes(value).is_some_and(|codes| codes.first == codes.last)
+                }
                 Shape::Entry => lexical::entry_by_index(value).is_some() || !lexical::looks_like_index(value),
                 Shape::Entries if value.contains("..") && lexical::looks_like_index(value) => {
                     lexical::run_by_index(value).is_some()
@@ -440,7 +444,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
 
 /// What to write in the place of a reference that cannot be read.
 fn meant(text: &str, shape: Shape) -> Option<String> {
-    if !matches!(shape, Shape::Index | Shape::Entry | Shape::Entries) {
+    if !matches!(shape, Shape::Index | Shape::Entry | Shape::Entries | Shape::ErrorCode) {
         return None;
     }
     if matches!(shape, Shape::Entries) && text.contains("..") {

@@ -58,15 +58,7 @@ pub(super) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics)
         pdos: top.entries("pdos").map(|(key, r)| (owned(key), pdos(r, diagnostics))).collect(),
         errors: top.entries("errors").filter_map(|(codes, r)| error(codes, r, diagnostics)).collect(),
         machines: top.entries("state-machines").map(|(name, r)| machine(name, r, diagnostics)).collect(),
-        constraints: top
-            .entries("constraints")
-            .flat_map(|(name, r)| {
-                let decl = constraint(owned(name), r, diagnostics);
-                // Numbers that cannot be read were reported.
-                let is_broken = r.child("n").is_some() && decl.numbers.is_empty();
-                if is_broken { Vec::new() } else { constraints::numbered(decl, diagnostics) }
-            })
-            .collect(),
+        constraints: constraints(top, diagnostics),
         errata: top.items("errata").map(|r| erratum(r, diagnostics)).collect(),
         sections: top.items("document").map(section).collect(),
         front_end: FrontEnd::Specification,
@@ -146,6 +138,17 @@ fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes>
         return refuse(count.span, problem, "an axis takes as many indices as the one before, up to FFFFh");
     }
     Some(Axes { span: key, first: first.value, last: last.value, count: number })
+}
+
+fn constraints(top: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<ConstraintDecl> {
+    let written = top.entries("constraints").flat_map(|(name, r)| {
+        let decl = constraint(owned(name), r, diagnostics);
+        // Numbers that cannot be read were reported.
+        let is_broken = r.child("n").is_some() && decl.numbers.is_empty();
+        if is_broken { Vec::new() } else { constraints::numbered(decl, diagnostics) }
+    });
+    let written: Vec<ConstraintDecl> = written.collect();
+    constraints::of_distinct_names(written, diagnostics)
 }
 
 fn feature(name: Spanned<&str>, r: Reader<'_>) -> FeatureDecl {

@@ -51,7 +51,7 @@ codes! {
     BAD_KEY Error "OD0112" "a key that cannot be one":
         "The keys of this map have a fixed form: indices under `objects:`, bits under `bits:`, and so on; YAML merge keys (`<<`) and lists or maps as keys are not part of the language."
     MISSING_LIBRARY Error "OD0113" "a used library cannot be read":
-        "`uses:` names a built-in library (`cia301`, `cia402`) or the path of a library file, relative to the file that names it. There is no such library."
+        "`uses:` names a built-in library (`odgen library` lists them) or the path of a library file, relative to the file that names it. There is no such library."
     NOT_A_LIBRARY Error "OD0114" "a used file is no library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
     TURNED_TEXT Error "OD0115" "a character that hides what a text says":

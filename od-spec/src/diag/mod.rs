@@ -205,6 +205,11 @@ impl Diagnostics {
         is_new
     }
 
+    /// Whether [`is_new`](Self::is_new) was asked about a place.
+    pub(crate) fn was_said(&self, code: &'static Code, span: Span) -> bool {
+        self.said.contains(&(code, span))
+    }
+
     /// Sorts by file, place and code, and drops repetitions.
     pub fn sort(&mut self) {
         self.list.sort_by(|a, b| {

@@ -1,6 +1,6 @@
 //! Entries.
 
-use super::shape::{Key, KeyKind, Keys, Shape, U16};
+use super::shape::{Key, KeyKind, Keys, Shape};
 use super::table::{joined, key_list, keys};
 use crate::model::{Access, Category, PdoMapping, Storage};
 
@@ -34,7 +34,7 @@ macro_rules! entry_keys {
                 "category": Shape::Choice(Category::WORDS) => category: Category, Category, Object, "whether a standard demands it";
                 "since": Shape::Text => since: String, Since, Object, "issue of the manual that brought it", "\"1.04\"";
                 "writable-when": Shape::Condition => writable_when: ConditionDecl, WriteCondition, Entries, "condition under which a write is accepted", "bit(0x6041, 2) == 0";
-                "bit-errors": Shape::MapOf(KeyKind::Bits, &Shape::OneOrMore(&U16)) => bit_errors: Vec<BitErrorDecl>, BitErrors, Value, "error codes of the type's bits, where several entries share the type", "{0: 0x4420, 4: [0x4410, 0x4411]}";
+                "bit-errors": Shape::MapOf(KeyKind::Bits, &Shape::OneOrMore(&Shape::ErrorCode)) => bit_errors: Vec<BitErrorDecl>, BitErrors, Value, "error codes of the type's bits, where several entries share the type", "{0: 0x4420, 4: [0x4410, 0x4411]}";
                 "capacity": Shape::Integer(1, 65_535) => capacity: i128, Capacity, Value, "most bytes of a string that the device can hold; in a UNICODE_STRING, each character takes two or four", "16";
                 "eds": Shape::Map(&ENTRY_EDS_KEYS) => eds: EdsDecl, Eds, Entries, "what the EDS shows, where the device's policy does not fit", "{flags: [no-write]}", sub0 "what the EDS shows";
                 "about": Shape::Words => about: Text, About, Object, "meaning", sub0 "meaning";

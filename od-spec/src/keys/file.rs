@@ -26,7 +26,7 @@ const MAIN_KEYS: &[Key] = key_list! {
     "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
     "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
     "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
-    "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia402`, or the path of a library file", "[cia301, cia402]";
+    "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia302`, `cia401`, `cia402`, or the path of a library file", "[cia301, cia402]";
     "parts": Shape::List(&Shape::Text), "files that hold more of the sections below, each a part of the specification", "[errata.od.yaml]";
     "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
 };

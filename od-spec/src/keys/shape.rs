@@ -47,6 +47,8 @@ pub enum Shape {
     DateTime,
     /// An index: `0x6040`.
     Index,
+    /// An error code: `0x3210`.
+    ErrorCode,
     /// An entry: `0x30FA.3`, or by name.
     Entry,
     /// An entry, or a run of entries of one object: `0x2021.1..4`.
@@ -146,7 +148,6 @@ pub const CHANNELS: i128 = 254 * CHANNELS_OF_ELEMENT;
 pub(super) const CHANNELS_OF_ELEMENT: i128 = 64;
 
 pub(super) const U8: Shape = Shape::Integer(0, 0xFF);
-pub(super) const U16: Shape = Shape::Integer(0, 0xFFFF);
 pub(super) const U32: Shape = Shape::Integer(0, 0xFFFF_FFFF);
 pub(super) const NAMES: Shape = Shape::OneOrMore(&Shape::Text);
 pub(super) const INDICES: Shape = Shape::List(&Shape::Index);

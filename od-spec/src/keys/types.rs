@@ -1,6 +1,6 @@
 //! Units, enums and bit fields.
 
-use super::shape::{Key, KeyKind, Keys, Shape, U16};
+use super::shape::{Key, KeyKind, Keys, Shape};
 use super::table::keys;
 
 macro_rules! unit_keys {
@@ -47,7 +47,7 @@ keys! {
     BIT = "a bit" {
         "name": Shape::Text, "name; needed unless the bit is `reserved`, `unused` or has `modes`";
         "about": Shape::Words, "meaning";
-        "error": Shape::OneOrMore(&U16), "error codes that come with the bit", "0x2250";
+        "error": Shape::OneOrMore(&Shape::ErrorCode), "error codes that come with the bit", "0x2250";
         "clamp": Shape::Text, "terminal at which the signal is found", "X13.10";
         "active": Shape::Integer(0, 1), "level that means \"active\"; 1 unless given";
         "edge": Shape::Choice(&["rising", "falling", "both"]), "change that triggers the function";

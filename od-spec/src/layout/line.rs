@@ -160,6 +160,10 @@ impl<'a> Scan<'a> {
     }
 
     fn closing(&mut self, sign: char) {
+        // Readers of YAML 1.1 take a colon with a brace behind it for a text.
+        if self.out.ends_with(':') {
+            self.out.push(' ');
+        }
         self.out.push(sign);
         self.at += 1;
         self.open.depth -= 1;
@@ -169,6 +173,9 @@ impl<'a> Scan<'a> {
 
     fn separator(&mut self, sign: char) {
         self.has_key |= sign == ':' && self.open.depth == 0;
+        if sign == ',' && self.out.ends_with(':') {
+            self.out.push(' ');
+        }
         // Behind an alias, a colon would belong to the name.
         let last = self.out.rsplit([' ', '{', '[']).next().unwrap_or_default();
         if sign == ':' && last.starts_with(['*', '&']) {
@@ -278,6 +285,7 @@ mod tests {
             ("x: >-", "x: >-"),
             ("[a: 1,b]", "[a: 1, b]"),
             ("x: -", "x: -"),
+            ("{a: , b: }", "{a: , b: }"),
             ("°: ]", "°: ]"),
         ] {
             assert_eq!(laid_out(source), text, "{source}");

@@ -13,6 +13,8 @@ use line::{Line, Open, line};
 
 /// Blanks that a line stands further in than the one that it belongs to.
 const STEP: usize = 2;
+/// A mark that some editors put at the beginning of a file.
+const MARK: char = '\u{feff}';
 /// Least blanks in front of a comment behind something.
 const BEFORE_COMMENT: usize = 2;
 
@@ -130,6 +132,8 @@ struct Layout<'a> {
     base: (usize, usize),
     /// The least depth of what goes on with it.
     inner: usize,
+    /// Where the text begins, behind a mark of its encoding.
+    begin: usize,
     /// Blank lines since the last one.
     blank: usize,
     /// Comments that belong to what comes.
@@ -144,11 +148,15 @@ fn laid_out(file: FileId, source: &SourceFile) -> Result<String, Box<Diagnostic>
         continued: Continued::No,
         base: (0, 0),
         inner: 0,
+        begin: 0,
         blank: 0,
         comments: Vec::new(),
     };
-    let mut at = 0;
-    for whole in source.text().split_inclusive('\n') {
+    // A mark at the beginning is no part of the first line.
+    let mut at = if source.text().starts_with(MARK) { MARK.len_utf8() } else { 0 };
+    layout.out.push_str(&source.text()[..at]);
+    layout.begin = layout.out.len();
+    for whole in source.text()[at..].split_inclusive('\n') {
         let text = whole.trim_end_matches(['\n', '\r']);
         layout.take(at, text)?;
         at += whole.len();
@@ -164,7 +172,15 @@ impl<'a> Layout<'a> {
         let content = text.trim_start_matches(' ');
         let depth = text.len() - content.len();
         if content.trim().is_empty() {
-            self.blank += 1;
+            // Blanks that stand deeper than a block of text are part of it.
+            match self.continued {
+                Continued::Block { shift: Some(shift), end } if self.is_in_block(depth, shift) => {
+                    self.block_line(depth, content, Some(shift), end);
+                }
+                Continued::No | Continued::Open(_) | Continued::Plain | Continued::Block { .. } => {
+                    self.blank += 1;
+                }
+            }
             return Ok(());
         }
         match self.continued {
@@ -305,6 +321,11 @@ impl<'a> Layout<'a> {
         self.continued = Continued::Block { shift: Some(shift), end };
     }
 
+    /// Whether a line of blanks is longer than the indentation of a block of text.
+    fn is_in_block(&self, depth: usize, shift: isize) -> bool {
+        depth.saturating_add_signed(shift) > self.base.1 + STEP
+    }
+
     /// What comes does not go on with the line before.
     fn end_block(&mut self) {
         if let Continued::Block { end: BlockEnd::Kept, .. } = self.continued {
@@ -339,7 +360,8 @@ impl<'a> Layout<'a> {
             self.blank_line();
             let is = match next {
                 Some((was, is)) if comment.depth <= was => is,
-                Some(_) | None => placed,
+                Some((_, is)) => placed.max(is),
+                None => placed,
             };
             self.out.extend(std::iter::repeat_n(' ', is));
             self.out.push_str(comment.text);
@@ -350,7 +372,7 @@ impl<'a> Layout<'a> {
 
     /// At most one blank line, and none at the beginning.
     fn blank_line(&mut self) {
-        if self.blank > 0 && !self.out.is_empty() && !self.out.ends_with("\n\n") {
+        if self.blank > 0 && self.out.len() > self.begin && !self.out.ends_with("\n\n") {
             self.out.push('\n');
         }
         self.blank = 0;

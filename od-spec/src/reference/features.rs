@@ -30,9 +30,20 @@ pub(super) fn features() -> String {
                 .collect();
             let objects = objects.iter().map(|index| format!("{index}h")).collect::<Vec<_>>().join(", ");
             let implied = if text("implied") == "yes" { ", implied" } else { "" };
-            let _ = writeln!(out, "| `{}`{implied} | {objects} | {} |", feature.value, cell(text("about")));
+            let number = if facts.get("channels").is_some() && facts.get("channels-of").is_none() {
+                ": N"
+            } else {
+                ""
+            };
+            let about = facts.get("about").map(english).unwrap_or_default();
+            let _ = writeln!(out, "| `{}{number}`{implied} | {objects} | {} |", feature.value, cell(about));
         }
     }
     out.truncate(out.trim_end().len());
     out
+}
+
+/// A text, or what it is in English.
+fn english(words: &Node) -> &str {
+    words.text().or_else(|| words.get("en")?.text()).map_or("", |text| text.value)
 }

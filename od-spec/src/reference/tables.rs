@@ -86,6 +86,7 @@ fn value(shape: Shape) -> String {
         Shape::Date => "date".to_owned(),
         Shape::DateTime => "date and time".to_owned(),
         Shape::Index => "index".to_owned(),
+        Shape::ErrorCode => "error code".to_owned(),
         Shape::Default => "value, list: value or bit, or map: device → value or list".to_owned(),
         Shape::Entry => "entry".to_owned(),
         Shape::Entries => "entry or entries".to_owned(),

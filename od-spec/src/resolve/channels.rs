@@ -1,7 +1,7 @@
 //! How many elements the arrays of a library have in a device that says how many channels it has:
 //! `digital inputs 8-bit: 20` are three elements of eight inputs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::decls::Selected;
 use crate::ast::{ArrayDecl, ChannelNumber, DeviceDecl, FeatureChoice, FeatureDecl, Name, ObjectDecl, Spec};
@@ -29,7 +29,6 @@ pub(super) fn elements(
     diagnostics: &mut Diagnostics,
 ) -> Elements {
     let stated = stated(device, diagnostics);
-    let mut elements = Elements::default();
     for one in selected {
         let (library, feature) = (one.library, one.feature);
         // Who has as many as another has the other's number, and its own elements if they hold more or fewer.
@@ -62,7 +61,7 @@ pub(super) fn elements(
                 continue;
             }
         };
-        let count = (channels.value - 1) / per_element.value.max(1) + 1;
+        let count = elements_for(channels.value, per_element.value);
         if count > 254 {
             diagnostics.push(
                 Diagnostic::new(
@@ -72,13 +71,40 @@ pub(super) fn elements(
                 )
                 .help(format!("write a number from 1 to {}", per_element.value.saturating_mul(254))),
             );
-            continue;
         }
-        for index in &feature.objects {
-            elements.by_object.insert((library.file, index.value), count);
+    }
+    of_features(selected, &stated)
+}
+
+/// The elements of every feature whose channels are known: an object that is taken singly has as many as with its feature.
+fn of_features(selected: &[Selected<'_>], stated: &BTreeMap<&str, ChannelNumber>) -> Elements {
+    let mut elements = Elements::default();
+    let mut seen: BTreeSet<FileId> = BTreeSet::new();
+    for library in selected.iter().map(|one| one.library).filter(|library| seen.insert(library.file)) {
+        for feature in &library.features {
+            let counting = match &feature.channels_of {
+                Some(of) => library.features.iter().find(|one| one.name.value == of.value),
+                None => Some(feature),
+            };
+            let Some(counting) = counting else { continue };
+            let per_element = feature.channels.as_ref().or(counting.channels.as_ref());
+            let number = stated.get(counting.name.value.as_str());
+            let (Some(per_element), Some(ChannelNumber::Stated(channels))) = (per_element, number) else {
+                continue;
+            };
+            let count = elements_for(channels.value, per_element.value);
+            // What is too much was refused.
+            for index in feature.objects.iter().filter(|_| count <= 254) {
+                elements.by_object.entry((library.file, index.value)).or_insert(count);
+            }
         }
     }
     elements
+}
+
+/// How many elements hold so many channels.
+fn elements_for(channels: i128, per_element: i128) -> i128 {
+    (channels - 1) / per_element.max(1) + 1
 }
 
 /// What a device says about the channels of features.
@@ -128,7 +154,7 @@ fn number_missing(device: &DeviceDecl, feature: &str, name: &Name) -> Diagnostic
         ),
     };
     let diagnostic = Diagnostic::new(codes::MISSING_KEY, span, message)
-        .help(format!("write `{feature}: 8` under `features:`, with the number that the device has"));
+        .help(format!("write `{feature}: NUMBER` under `features:`, with the number that the device has"));
     if selecting.is_some() { diagnostic } else { diagnostic.with(name.span, "needed here") }
 }
 

@@ -152,6 +152,20 @@ impl<'a> OfDevice<'a, '_> {
     }
 }
 
+/// A condition compares values, and an object with several has none of its own.
+fn whole_object(object: &Object, place: Span) -> Diagnostic {
+    let (name, index) = (shorten(&object.name), object.index);
+    let first = object.entries.iter().find(|entry| entry.sub.0 > 0);
+    let example = first
+        .map_or_else(|| format!("0x{:04X}.1", index.0), |entry| format!("{name}.{}", shorten(&entry.name)));
+    Diagnostic::new(
+        codes::BAD_NOTATION,
+        place,
+        format!("`{name}` has several entries, and a condition compares one"),
+    )
+    .help(format!("name one, such as `{example}`; `0x{:04X}.0` is how many there are", index.0))
+}
+
 /// The named values of an entry.
 fn values(entry: &Entry) -> &[EnumValue] {
     match entry.named_type.as_ref().map(|named| &named.kind) {
@@ -186,7 +200,14 @@ impl Lookup for OfDevice<'_, '_> {
         };
         let reference = Spanned::new(name.text.to_owned(), place);
         let exists = |id| described.entry(id).is_some();
-        described.names.find(&reference, exists, self.broken, self.diagnostics)
+        let id = described.names.find(&reference, exists, self.broken, self.diagnostics)?;
+        let object = described.objects.get(&id.index).filter(|object| object.is_structured());
+        // Its sub-index 0 is how many entries it has, which nobody means by its name.
+        if let Some(object) = object.filter(|object| id.sub.0 == 0 && object.name == name.text) {
+            self.diagnostics.push(whole_object(object, place));
+            return None;
+        }
+        Some(id)
     }
 
     fn operand(&mut self, compared: &EntryRef, name: &Named<'_>) -> Option<Operand> {

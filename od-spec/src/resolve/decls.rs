@@ -220,6 +220,12 @@ fn features<'a>(
                 found.push(Selected { library, feature, axis, name });
             }
             None => {
+                if let Some(library) = libraries::offering(&name.value).filter(|_| !libraries.is_empty()) {
+                    let message =
+                        format!("`{library}` has the feature `{}`, and is not used here", name.value);
+                    diagnostics.push(libraries::not_used(codes::UNKNOWN_FEATURE, &name, message, library));
+                    continue;
+                }
                 let alike: Vec<String> =
                     libraries.features_with(&name.value).iter().map(|known| format!("`{known}`")).collect();
                 let otherwise = if libraries.is_empty() {

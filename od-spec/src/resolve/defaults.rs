@@ -23,8 +23,8 @@ pub(super) fn of_device<'d>(
     }
     let own = around.device.and_then(|device| values.iter().find(|(key, _)| key.value == device));
     // One of its keys was no device, and may have been meant for this one.
-    let is_misspelt = values.iter().any(|(key, _)| !diagnostics.is_new(codes::UNKNOWN_DEVICE, key.span));
-    if own.is_none() && !is_misspelt {
+    let is_misspelt = || values.iter().any(|(key, _)| diagnostics.was_said(codes::UNKNOWN_DEVICE, key.span));
+    if own.is_none() && !is_misspelt() {
         let (message, help) = match around.device {
             Some(device) => (
                 format!("this default says nothing for `{device}`"),

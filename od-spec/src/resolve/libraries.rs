@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::scope::unknown;
 use crate::ast::{Axes, EntryDecl, ErrorDecl, FeatureDecl, MachineDecl, Name, ObjectDecl, Spec};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::model::Index;
 use crate::source::{FileId, Spanned};
+use crate::standard::LIBRARIES;
 
 /// The libraries of a specification; of what has one name or number in them, the first counts.
 pub(super) struct Libraries<'a> {
@@ -63,6 +64,11 @@ impl<'a> Libraries<'a> {
         let found = self.by_name.get(from.value.as_str()).copied();
         if found.is_none() {
             let known = self.all.iter().filter_map(|library| Some(library.profile.as_ref()?.value.as_str()));
+            if LIBRARIES.iter().any(|(name, _)| *name == from.value) {
+                let message = format!("the library `{}` is not used here", from.value);
+                diagnostics.push(not_used(codes::UNKNOWN_LIBRARY, from, message, &from.value));
+                return None;
+            }
             let otherwise = "name the library in `uses:` at the top of the file";
             unknown(codes::UNKNOWN_LIBRARY, from, "library", known, otherwise, diagnostics);
         }
@@ -141,6 +147,26 @@ impl<'a> Libraries<'a> {
         });
         errors.get(&(library.file, code)).copied()
     }
+}
+
+/// Something of a built-in library that the specification does not use.
+pub(super) fn not_used(code: &'static Code, name: &Name, message: String, library: &str) -> Diagnostic {
+    Diagnostic::new(code, name.span, message)
+        .help(format!("add `{library}` to `uses:` at the top of the file"))
+}
+
+/// The built-in library that offers a feature.
+pub(super) fn offering(feature: &str) -> Option<&'static str> {
+    let offers = |text: &str| {
+        let features = text.split_once("\nfeatures:\n").and_then(|(_, rest)| rest.split_once("\n\n"));
+        features.is_some_and(|(list, _)| {
+            list.lines().any(|line| {
+                let key = line.strip_prefix("  ").and_then(|line| line.strip_prefix(feature));
+                key.is_some_and(|rest| rest.starts_with(':'))
+            })
+        })
+    };
+    LIBRARIES.iter().find(|(_, text)| offers(text)).map(|(name, _)| *name)
 }
 
 /// A library lacks what `from:` takes from it.

@@ -84,7 +84,7 @@ fn libraries_from_files() {
         3 | uses: [cia301, ../lamps.od.yaml]
           |                ^^^^^^^^^^^^^^^^
           |
-        help: name a built-in library (`cia301`, `cia402`), or a file relative to this one
+        help: name a built-in library (`cia301`, `cia302`, `cia401`, `cia402`), or a file relative to this one
         "#);
     insta::assert_snapshot!(with_libraries(&LAMP.replace("cia301, ../lamps.od.yaml", "cia31"), &[]), @r#"
         error[OD0113]: cannot read library `cia31`: no such file

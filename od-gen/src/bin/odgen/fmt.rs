@@ -10,7 +10,7 @@ use od_spec::source::SourceMap;
 
 use super::args::FmtArgs;
 use super::output::not_written;
-use super::report::{Report, print, shown};
+use super::report::{Report, print_file, shown};
 use super::specs;
 use super::{ERRORS, SUCCESS};
 
@@ -36,6 +36,9 @@ pub(crate) fn run(args: &FmtArgs, directory: &Path, report: &Report) -> u8 {
     }
     // All or nothing: a file that cannot be laid out keeps the others as they are, too.
     if code != SUCCESS {
+        if files.len() > 1 {
+            report.note("no file was changed");
+        }
         return code;
     }
     if !args.check
@@ -103,7 +106,7 @@ fn standard_input(args: &FmtArgs, report: &Report) -> u8 {
             ERRORS
         }
         Ok(_) if args.check => SUCCESS,
-        Ok(new) => print(&new),
+        Ok(new) => print_file(&new),
         Err((diagnostics, sources)) => {
             report.show(&diagnostics, &sources);
             ERRORS

@@ -192,6 +192,11 @@ pub(crate) fn print_json(bytes: &[u8]) -> u8 {
     }
 }
 
+/// A text of a file as it is: what comes out is to be a file again.
+pub(crate) fn print_file(text: &str) -> u8 {
+    write_out(text.as_bytes())
+}
+
 /// A path on one line.
 pub(crate) fn shown(path: &Path) -> String {
     visible(&path.to_string_lossy()).into_owned()
