@@ -78,7 +78,7 @@ pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
 pub use json_schema::json_schema;
 pub use layout::layout;
-pub use library::{Feature, Library, LibraryObject, library};
+pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use parameters::{Assignment, assign};
 pub use parts::part_of;
 #[cfg(feature = "reference")]

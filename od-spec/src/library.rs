@@ -66,6 +66,11 @@ pub struct Feature {
 /// assert!(od_spec::library("cia999").is_none());
 /// ```
 pub fn library(name: &str) -> Option<Library> {
+    library_in(name, &["en".to_owned()])
+}
+
+/// [`library`], with its texts in these languages, as a specification that lists them takes them.
+pub fn library_in(name: &str, languages: &[String]) -> Option<Library> {
     let (name, text) = LIBRARIES.iter().find(|(library, _)| *library == name)?;
     let mut sources = SourceMap::new();
     let id = sources.add(format!("<{name}>"), *text);
@@ -73,11 +78,11 @@ pub fn library(name: &str) -> Option<Library> {
     let spec = decode(&mut yaml::parse(id, sources.file(id), &mut diagnostics)?, &mut diagnostics);
     let indices = indices(&spec);
     let plain = |_: &ObjectDecl| String::new();
-    let mut system = probe(name, &indices, plain)?;
+    let mut system = probe(name, languages, &indices, plain)?;
     // Element 254 is the last that there can be.
     let patterned = |decl: &ObjectDecl| decl.array.as_ref().is_some_and(|array| array.entry.name.is_some());
     let arrays: Vec<_> = indices.iter().copied().filter(|(_, decl)| patterned(decl)).collect();
-    let mut longest = probe(name, &arrays, |_| ", array: {count: 254}".to_owned())?;
+    let mut longest = probe(name, languages, &arrays, |_| ", array: {count: 254}".to_owned())?;
     let mut further = longest.devices.pop().map(|device| device.objects).unwrap_or_default();
     let objects = system
         .devices
@@ -127,11 +132,14 @@ fn indices(library: &Spec) -> Vec<(Index, &ObjectDecl)> {
 /// A device that takes these objects from a library, with further keys each.
 fn probe(
     library: &str,
+    languages: &[String],
     indices: &[(Index, &ObjectDecl)],
     keys: impl Fn(&ObjectDecl) -> String,
 ) -> Option<crate::model::System> {
-    let mut text =
-        format!("od-spec: 1\ntitle: t\nuses: [{library}]\ndevices: {{d: {{name: d}}}}\nobjects:\n");
+    let mut text = format!(
+        "od-spec: 1\ntitle: t\nlanguages: [{}]\nuses: [{library}]\ndevices: {{d: {{name: d}}}}\nobjects:\n",
+        languages.join(", ")
+    );
     for (index, decl) in indices {
         // Writing into a text cannot fail.
         let _ = writeln!(text, "  0x{:04X}: {{from: {library}{}}}", index.0, keys(decl));

@@ -36,7 +36,7 @@ use std::sync::{Arc, LazyLock};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, EntryId, Index, System, Value};
 use od_spec::source::SourceMap;
-use od_spec::{LIBRARIES, Library, NoFiles, compile, library};
+use od_spec::{LIBRARIES, Library, NoFiles, compile, library, library_in};
 
 use crate::plan::{Words, decided};
 use crate::rust::Rust;
@@ -69,9 +69,17 @@ const ROUNDS: usize = 200;
 /// Most attempts to write short forms.
 const ATTEMPTS: usize = 12;
 
-/// The built-in libraries, each read once.
+/// The built-in libraries in English, each read once.
 static BUILT_IN: LazyLock<Vec<Arc<Library>>> =
     LazyLock::new(|| LIBRARIES.iter().filter_map(|(name, _)| library(name)).map(Arc::new).collect());
+
+/// The built-in libraries with their texts in the languages of a system.
+fn built_in(languages: &[String]) -> Vec<Arc<Library>> {
+    if languages == ["en"] {
+        return BUILT_IN.clone();
+    }
+    LIBRARIES.iter().filter_map(|(name, _)| library_in(name, languages)).map(Arc::new).collect()
+}
 
 /// Writes a device of a system as a specification of its own.
 ///
@@ -270,7 +278,7 @@ fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks
             && library.objects.keys().any(has)
             && !is_of_another_profile(&draft.device, library)
     };
-    let libraries = BUILT_IN.iter().filter(usable).cloned().collect();
+    let libraries = built_in(&draft.system.languages).iter().filter(usable).cloned().collect();
     let mut style = Style { libraries, features: true, short: true, ..Style::default() };
     for _ in 0..ATTEMPTS {
         let written = text::write(&draft.system, &draft.device, options, remarks, &style);

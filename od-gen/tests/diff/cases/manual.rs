@@ -14,8 +14,8 @@ pub(crate) const CASES: &[Case] = &[
         name: "the languages",
         at: "languages:",
         find: "[en]",
-        replace: "[en, de]",
-        expected: &["*: ~ system: languages: en -> en, de [documents]"],
+        replace: "[en, fr]",
+        expected: &["*: ~ system: languages: en -> en, fr [documents]"],
     },
     Case {
         name: "the issue of the manual",
