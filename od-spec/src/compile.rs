@@ -17,8 +17,9 @@ use crate::model::System;
 use crate::parameters::of_node;
 use crate::parts;
 use crate::resolve::{self, Resolved};
+use crate::shipped::LIBRARIES;
 use crate::source::{FileId, SourceMap, Spanned};
-use crate::standard::{self, LIBRARIES};
+use crate::standard;
 use crate::visible::straight;
 use crate::yaml;
 

@@ -57,6 +57,7 @@ mod rule_examples;
 #[cfg(test)]
 mod rule_words;
 pub mod scalar;
+mod shipped;
 pub mod source;
 mod standard;
 pub mod visible;
@@ -83,7 +84,7 @@ pub use parameters::{Assignment, assign};
 pub use parts::part_of;
 #[cfg(feature = "reference")]
 pub use reference::reference;
-pub use standard::LIBRARIES;
+pub use shipped::LIBRARIES;
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

@@ -9,8 +9,9 @@ use crate::decode::decode;
 use crate::diag::Diagnostics;
 use crate::files::NoFiles;
 use crate::model::{Entry, Index, NamedType, Object, SubIndex, Unit};
+use crate::shipped::LIBRARIES;
 use crate::source::SourceMap;
-use crate::standard::{self, LIBRARIES};
+use crate::standard;
 use crate::yaml;
 
 /// A built-in library: what a specification that uses it can take from it.

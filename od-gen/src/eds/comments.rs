@@ -53,9 +53,7 @@ fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
         facts.push(WORDING.storage(entry.stored).to_owned());
     }
     if let Some(condition) = &entry.writable_when {
-        // Its entries are those of the device, whose key an EDS does not have.
-        let text = condition.text.replace(&format!("{}:0x", device.key), "0x");
-        facts.push(format!("writable only while {text}"));
+        facts.push(format!("writable only while {}", condition.text_without_device(&device.key)));
     }
     // The keys hold limits that are widened to take in the special values.
     if entry.hull() != (entry.low, entry.high)

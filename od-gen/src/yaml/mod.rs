@@ -237,7 +237,9 @@ fn mended(
             }
         }
         last = errors;
-        if remarks.decisions() == before {
+        let after = remarks.decisions();
+        remarks.forget_what_is_gone(&draft.device);
+        if after == before {
             break;
         }
     }

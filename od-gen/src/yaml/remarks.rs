@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::diag::Diagnostic;
-use od_spec::model::{Fact, Index};
+use od_spec::model::{Dictionary, Fact, Index};
 
 use super::options::Place;
 
@@ -83,6 +83,14 @@ impl Remarks {
             None => broken.at = None,
         }
         true
+    }
+
+    /// Nothing is allowed at objects that are gone.
+    pub(super) fn forget_what_is_gone(&mut self, device: &Dictionary) {
+        for broken in self.allowed.values_mut() {
+            broken.at.iter_mut().for_each(|at| at.retain(|index| device.objects.contains_key(index)));
+        }
+        self.allowed.retain(|_, broken| broken.at.as_ref().is_none_or(|at| !at.is_empty()));
     }
 
     /// What has been decided so far; it grows with every decision.

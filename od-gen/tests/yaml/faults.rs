@@ -326,3 +326,18 @@ fn a_mapping_keeps_an_entry_that_is_not_there() {
     assert_eq!(rpdo.map.iter().map(Mapped::parameter).collect::<Vec<_>>(), [0x2222_0008, 0x2005_0308]);
     assert_eq!(specification.allowed, ["OD0502"]);
 }
+
+#[test]
+fn an_object_that_is_given_up_is_allowed_nothing_any_more() {
+    let mut system = lamp();
+    let name = entry(&mut system, 0x1008, 0);
+    name.data_type = DataType::Integer8;
+    name.high = Some(i128::from(i64::MAX));
+    name.stored = Storage::Remanent;
+    let specification = written(&system);
+    model(&specification.text);
+    let repairs = told(&specification);
+    let given_up = (Place::Device, None, "1008h (Manufacturer device name)");
+    assert!(repairs.contains(&given_up), "{repairs:?}");
+    assert_eq!(specification.allowed, [""; 0]);
+}

@@ -153,6 +153,11 @@ impl Expr {
         self.alternatives.is_empty()
     }
 
+    /// A write condition as it reads where the device has no key, such as in an EDS: all its entries are of one device.
+    pub fn text_without_device(&self, key: &str) -> String {
+        self.text.replace(&format!("{key}:0x"), "0x")
+    }
+
     /// All comparisons, in order.
     pub fn comparisons(&self) -> impl Iterator<Item = &Comparison> {
         self.alternatives.iter().flatten()

@@ -3,10 +3,8 @@
 use std::fmt::Write as _;
 
 use super::tables::cell;
-use crate::diag::Diagnostics;
-use crate::source::SourceMap;
-use crate::standard::LIBRARIES;
-use crate::yaml::{self, Node};
+use crate::shipped::{self, LIBRARIES};
+use crate::yaml::Node;
 
 /// One table for each library.
 pub(super) fn features() -> String {
@@ -15,11 +13,7 @@ pub(super) fn features() -> String {
         out.push_str(if out.is_empty() { "" } else { "\n" });
         let _ =
             write!(out, "Of the library `{name}`:\n\n| Feature | Objects | Meaning |\n| --- | --- | --- |\n");
-        let mut sources = SourceMap::new();
-        let id = sources.add(*name, *text);
-        let library = yaml::parse(id, sources.file(id), &mut Diagnostics::new());
-        let features = library.as_ref().and_then(|library| library.get("features"));
-        for (feature, facts) in features.map(Node::entries).unwrap_or_default() {
+        for (feature, facts) in shipped::features(name, text) {
             let text = |key: &str| facts.get(key).and_then(Node::text).map_or("", |text| text.value);
             let objects: Vec<&str> = facts
                 .get("objects")
@@ -36,7 +30,7 @@ pub(super) fn features() -> String {
                 ""
             };
             let about = facts.get("about").map(english).unwrap_or_default();
-            let _ = writeln!(out, "| `{}{number}`{implied} | {objects} | {} |", feature.value, cell(about));
+            let _ = writeln!(out, "| `{}{number}`{implied} | {objects} | {} |", feature, cell(about));
         }
     }
     out.truncate(out.trim_end().len());

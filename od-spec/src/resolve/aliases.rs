@@ -3,9 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::decls::Declared;
-use super::entries::{self, Surroundings};
+use super::declared::Declared;
+use super::entries;
 use super::refs::{Broken, Names};
+use super::surroundings::Surroundings;
 use super::types::words;
 use crate::ast::{EntryDecl, Name};
 use crate::diag::{Diagnostic, Diagnostics, codes};

@@ -3,11 +3,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::decls::Selected;
+use super::features::Selected;
 use crate::ast::{ArrayDecl, ChannelNumber, DeviceDecl, FeatureChoice, FeatureDecl, Name, ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::Index;
 use crate::source::{FileId, Spanned};
+
+/// Most elements that an array has.
+const MOST_ELEMENTS: i128 = 254;
 
 /// The number of elements of arrays, by library and index.
 #[derive(Default)]
@@ -22,6 +25,22 @@ impl Elements {
     }
 }
 
+/// Who says how many channels a feature has, and how many of them an element holds.
+struct Counting<'a> {
+    by: &'a FeatureDecl,
+    per_element: i128,
+}
+
+/// How the elements of a feature are counted; `None` for one without channels.
+fn counting<'a>(library: &'a Spec, feature: &'a FeatureDecl) -> Option<Counting<'a>> {
+    let by = match &feature.channels_of {
+        Some(of) => library.features.iter().find(|one| one.name.value == of.value)?,
+        None => feature,
+    };
+    let per_element = feature.channels.as_ref().or(by.channels.as_ref())?.value;
+    Some(Counting { by, per_element })
+}
+
 /// The elements that follow from the channels of a device.
 pub(super) fn elements(
     selected: &[Selected<'_>],
@@ -29,48 +48,23 @@ pub(super) fn elements(
     diagnostics: &mut Diagnostics,
 ) -> Elements {
     let stated = stated(device, diagnostics);
-    for one in selected {
-        let (library, feature) = (one.library, one.feature);
-        // Who has as many as another has the other's number, and its own elements if they hold more or fewer.
-        let of = feature.channels_of.as_ref().map(|of| &of.value);
-        let counting = match of {
-            Some(of) => selected.iter().find(|one| one.is_of(library) && one.feature.name.value == *of),
-            None => Some(one),
-        };
-        let Some(counting) = counting.map(|one| one.feature) else { continue };
-        let mut refuse_number = || {
-            if let Some(ChannelNumber::Stated(number)) = stated.get(feature.name.value.as_str()) {
+    for Selected { library, feature, name, .. } in selected {
+        let counting = counting(library, feature);
+        let says_itself = counting.is_some() && feature.channels_of.is_none();
+        match stated.get(feature.name.value.as_str()) {
+            Some(ChannelNumber::Stated(number)) if !says_itself => {
                 diagnostics.push(number_without_effect(feature, number));
             }
-        };
-        let Some(per_element) = feature.channels.as_ref().or(counting.channels.as_ref()) else {
-            refuse_number();
-            continue;
-        };
-        if of.is_some() {
-            refuse_number();
-        }
-        let channels = match stated.get(counting.name.value.as_str()) {
-            Some(ChannelNumber::Stated(channels)) => channels,
-            Some(ChannelNumber::Refused) => continue,
-            Some(ChannelNumber::None) | None => {
-                // Who has as many as another was told with the other.
-                if of.is_none() {
-                    diagnostics.push(number_missing(device, &feature.name.value, &one.name));
-                }
-                continue;
+            None | Some(ChannelNumber::None) if says_itself => {
+                diagnostics.push(number_missing(device, &feature.name.value, name));
             }
-        };
-        let count = elements_for(channels.value, per_element.value);
-        if count > 254 {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::NUMBER_OUT_OF_RANGE,
-                    channels.span,
-                    format!("{} channels are {count} elements; an array has at most 254", channels.value),
-                )
-                .help(format!("write a number from 1 to {}", per_element.value.saturating_mul(254))),
-            );
+            Some(_) | None => {}
+        }
+        if let Some(Counting { by, per_element }) = counting
+            && let Some(ChannelNumber::Stated(channels)) = stated.get(by.name.value.as_str())
+            && elements_for(channels.value, per_element) > MOST_ELEMENTS
+        {
+            diagnostics.push(too_many(channels, per_element));
         }
     }
     of_features(selected, &stated)
@@ -82,19 +76,11 @@ fn of_features(selected: &[Selected<'_>], stated: &BTreeMap<&str, ChannelNumber>
     let mut seen: BTreeSet<FileId> = BTreeSet::new();
     for library in selected.iter().map(|one| one.library).filter(|library| seen.insert(library.file)) {
         for feature in &library.features {
-            let counting = match &feature.channels_of {
-                Some(of) => library.features.iter().find(|one| one.name.value == of.value),
-                None => Some(feature),
-            };
-            let Some(counting) = counting else { continue };
-            let per_element = feature.channels.as_ref().or(counting.channels.as_ref());
-            let number = stated.get(counting.name.value.as_str());
-            let (Some(per_element), Some(ChannelNumber::Stated(channels))) = (per_element, number) else {
-                continue;
-            };
-            let count = elements_for(channels.value, per_element.value);
+            let Some(Counting { by, per_element }) = counting(library, feature) else { continue };
+            let Some(ChannelNumber::Stated(channels)) = stated.get(by.name.value.as_str()) else { continue };
             // What is too much was refused.
-            for index in feature.objects.iter().filter(|_| count <= 254) {
+            let count = elements_for(channels.value, per_element).min(MOST_ELEMENTS);
+            for index in &feature.objects {
                 elements.by_object.entry((library.file, index.value)).or_insert(count);
             }
         }
@@ -165,4 +151,12 @@ fn number_without_effect(feature: &FeatureDecl, number: &Spanned<i128>) -> Diagn
         Some(other) => format!("write the name alone; it has as many channels as `{}`", other.value),
         None => "write the name alone".to_owned(),
     })
+}
+
+/// Channels that no array can hold.
+fn too_many(channels: &Spanned<i128>, per_element: i128) -> Diagnostic {
+    let (number, count) = (channels.value, elements_for(channels.value, per_element));
+    let message = format!("{number} channels are {count} elements; an array has at most {MOST_ELEMENTS}");
+    Diagnostic::new(codes::NUMBER_OUT_OF_RANGE, channels.span, message)
+        .help(format!("write a number from 1 to {}", per_element.saturating_mul(MOST_ELEMENTS)))
 }

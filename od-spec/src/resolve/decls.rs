@@ -2,62 +2,20 @@
 //! that its features bring.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Deref;
 
 use super::channels::{self, Elements};
+use super::declared::{Decl, Declared};
+use super::features::{self, Selected};
 use super::keys_have_effect;
 use super::libraries::{self, Libraries};
 use super::likes::{self, Owner};
 use super::refs::Broken;
-use super::scope::{Scope, unknown};
-use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, FeatureDecl, Name, ObjectDecl, RecordDecl, Spec};
+use super::scope::Scope;
+use crate::ast::{ArrayDecl, DeviceDecl, EntryDecl, Name, ObjectDecl, RecordDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{DataType, Departure, Fact, Index, Origin, Part, SubIndex};
 use crate::source::Spanned;
-
-/// A declaration that is ready to be resolved for one device.
-pub(super) struct Declared<'a> {
-    pub decl: Decl<'a>,
-    pub origin: Origin,
-    pub profile: Option<String>,
-    pub departures: Vec<Departure>,
-}
-
-/// A feature that a device has.
-pub(super) struct Selected<'a> {
-    pub library: &'a Spec,
-    pub feature: &'a FeatureDecl,
-    pub axis: u16,
-    /// Who asks for it.
-    pub name: Name,
-}
-
-impl Selected<'_> {
-    /// Whether a library offers it.
-    pub(super) fn is_of(&self, library: &Spec) -> bool {
-        self.library.file == library.file
-    }
-}
-
-/// The declaration of an object. It is large: one that is written has no room of its own here.
-pub(super) enum Decl<'a> {
-    /// As it is written.
-    Written(&'a ObjectDecl),
-    /// Laid over a library's, or moved to another axis.
-    Made(Box<ObjectDecl>),
-}
-
-impl Deref for Decl<'_> {
-    type Target = ObjectDecl;
-
-    fn deref(&self) -> &ObjectDecl {
-        match self {
-            Decl::Written(decl) => decl,
-            Decl::Made(decl) => decl,
-        }
-    }
-}
 
 /// All declarations of a device by index.
 pub(super) fn of_device<'a>(
@@ -69,7 +27,7 @@ pub(super) fn of_device<'a>(
     scope: &Scope,
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<Index, Declared<'a>> {
-    let selected = features(libraries, device, diagnostics);
+    let selected = features::of_device(libraries, device, diagnostics);
     let elements = channels::elements(&selected, device, diagnostics);
     let mut declared = of_specification(written, libraries, &elements, scope, diagnostics);
     let waiting = likes::waiting(written.iter().copied());
@@ -170,7 +128,7 @@ fn of_specification<'a>(
 /// A declaration that no library has a part in.
 fn as_written<'a>(decl: &'a ObjectDecl, diagnostics: &mut Diagnostics) -> Declared<'a> {
     if decl.array.is_some() {
-        check_omitted(decl, decl, diagnostics);
+        keys_have_effect::check_omitted(decl, decl, diagnostics);
     }
     Declared { decl: Decl::Written(decl), origin: Origin::Manual, profile: None, departures: Vec::new() }
 }
@@ -187,66 +145,6 @@ fn not_taken(decl: &ObjectDecl, library: &str) -> Diagnostic {
     let message = format!("object {index} has neither a name nor `from: {library}`");
     Diagnostic::new(codes::MISSING_KEY, decl.index.span, message)
         .help(format!("write `from: {library}` beside what differs from the library's, or describe the object with `name:` and `type:`"))
-}
-
-/// The features of a device: those that every device has, those it names, and those they need.
-fn features<'a>(
-    libraries: &Libraries<'a>,
-    device: &DeviceDecl,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Selected<'a>> {
-    let mut wanted: Vec<Name> = libraries.implied().iter().map(|feature| feature.name.clone()).collect();
-    wanted.extend(device.features.iter().map(|choice| choice.value.name.clone()));
-    let mut seen: BTreeSet<String> = BTreeSet::new();
-    let mut found = Vec::new();
-    while let Some(name) = wanted.pop() {
-        if !seen.insert(name.value.clone()) {
-            continue;
-        }
-        let on_axis = || {
-            let (plain, axis) = axis_of(&name.value)?;
-            let (library, feature) = libraries.feature(plain)?;
-            library.axes.filter(|axes| axis <= axes.count).map(|_| (library, feature, axis))
-        };
-        let plain = libraries.feature(&name.value).map(|(library, feature)| (library, feature, 1));
-        match plain.or_else(on_axis) {
-            Some((library, feature, axis)) => {
-                // What a feature of a further axis needs, it needs on that axis.
-                let needs = feature.needs.iter().chain(&feature.channels_of);
-                wanted.extend(needs.map(|need| match axis {
-                    1 => need.clone(),
-                    _ => Spanned::new(format!("{} axis {axis}", need.value), need.span),
-                }));
-                found.push(Selected { library, feature, axis, name });
-            }
-            None => {
-                if let Some(library) = libraries::offering(&name.value).filter(|_| !libraries.is_empty()) {
-                    let message =
-                        format!("`{library}` has the feature `{}`, and is not used here", name.value);
-                    diagnostics.push(libraries::not_used(codes::UNKNOWN_FEATURE, &name, message, library));
-                    continue;
-                }
-                let alike: Vec<String> =
-                    libraries.features_with(&name.value).iter().map(|known| format!("`{known}`")).collect();
-                let otherwise = if libraries.is_empty() {
-                    "add `uses: [cia301]` to the specification; features come from libraries".to_owned()
-                } else if alike.is_empty() {
-                    "`odgen reference` lists the features of the libraries".to_owned()
-                } else {
-                    format!("did you mean {}?", alike.join(" or "))
-                };
-                let known = libraries.features();
-                unknown(codes::UNKNOWN_FEATURE, &name, "feature", known, &otherwise, diagnostics);
-            }
-        }
-    }
-    found
-}
-
-/// `homing mode axis 2` is the feature `homing mode` on axis 2.
-fn axis_of(name: &str) -> Option<(&str, u16)> {
-    let (plain, axis) = name.rsplit_once(" axis ")?;
-    Some((plain, axis.parse().ok().filter(|axis| *axis >= 1)?))
 }
 
 fn from_library<'a>(
@@ -304,28 +202,7 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
             );
         }
     }
-    check_omitted(decl, merged, diagnostics);
-}
-
-/// Checks that what is left out of an object would be there.
-pub(super) fn check_omitted(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
-    let elements = merged.array.as_ref().map_or(0, |array| {
-        let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
-        array.count.map_or(0, |count| count.value).max(highest)
-    });
-    let members = merged.record.iter().flat_map(|record| &record.members);
-    let has =
-        |sub: i128| sub <= elements || members.clone().any(|(member, _)| i128::from(member.value.0) == sub);
-    for sub in decl.omit.iter().filter(|sub| !has(sub.value)) {
-        diagnostics.push(
-            Diagnostic::new(
-                codes::UNKNOWN_ENTRY,
-                sub.span,
-                format!("{} has no sub-index {} that could be left out", decl.index.value, sub.value),
-            )
-            .help("remove it from `omit:`, or correct it"),
-        );
-    }
+    keys_have_effect::check_omitted(decl, merged, diagnostics);
 }
 
 /// The declaration over the library's, and the facts in which they differ.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::consumers;
-use super::entries::Surroundings;
+use super::surroundings::Surroundings;
 use crate::ast::{ArrayDecl, DefaultDecl, EntryDecl, Name, ObjectDecl, Spec};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};

@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::assigned::Assigned;
 use super::consumers;
-use super::decls::{self, Declared};
+use super::declared::Declared;
+use super::decls;
 use super::defaults;
-use super::entries::{EdsDefaults, Surroundings};
 use super::libraries::Libraries;
 use super::refs::Broken;
 use super::scope::{Scope, unknown};
+use super::surroundings::{EdsDefaults, Surroundings};
 use super::types::words;
 use super::{aliases, condition_names, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};

@@ -5,51 +5,17 @@ use std::sync::Arc;
 use super::bit_values;
 use super::defaults;
 use super::scope::{Scope, unknown};
+use super::surroundings::{EdsDefaults, Surroundings};
 use super::types::words;
 use super::values::{self, Expected};
 use crate::ast::{BitErrorDecl, BitRange, ConditionDecl, DefaultDecl, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Expr, Fact, Family, Index, NamedType,
-    PdoMapping, RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Expr, Fact, Family, NamedType, PdoMapping,
+    RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
 };
-use crate::source::{FileId, Spanned};
-
-/// What entries are resolved against.
-#[derive(Clone, Copy)]
-pub(super) struct Surroundings<'a> {
-    pub scope: &'a Scope,
-    /// The specification's own file; other facts come from libraries.
-    pub file: FileId,
-    /// The object that the entries are of.
-    pub index: Option<Index>,
-    /// The key of the device; a library that is compiled by itself has none.
-    pub device: Option<&'a str>,
-    /// Which defaults the EDS withholds.
-    pub eds: EdsDefaults,
-}
-
-/// Which defaults an EDS withholds (`eds-defaults`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum EdsDefaults {
-    /// Those of writable entries that are locked or stored.
-    Safe,
-    /// These, and those that only a library states.
-    Own,
-    /// None.
-    All,
-}
-
-impl EdsDefaults {
-    pub(super) fn of(word: Option<&str>) -> Self {
-        match word {
-            Some("all") => EdsDefaults::All,
-            Some("own") => EdsDefaults::Own,
-            _ => EdsDefaults::Safe,
-        }
-    }
-}
+use crate::source::Spanned;
 
 /// Resolves an entry; `None` when it is too broken to stand for anything.
 pub(super) fn resolve(

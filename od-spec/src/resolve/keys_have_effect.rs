@@ -1,15 +1,59 @@
 //! No key is read and then ignored: what stands in a specification has an effect where it stands.
 
+use std::collections::BTreeSet;
+
+use super::scope::unknown;
 use crate::ast::{ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::PatternBit;
 use crate::source::Span;
+
+/// Checks that a feature which has the channels of another one finds some there.
+fn check_channels(library: &Spec, diagnostics: &mut Diagnostics) {
+    let counted = library.features.iter().filter(|feature| feature.channels.is_some());
+    let counted: BTreeSet<&str> = counted.map(|feature| feature.name.value.as_str()).collect();
+    for of in library.features.iter().filter_map(|feature| feature.channels_of.as_ref()) {
+        if !counted.contains(of.value.as_str()) {
+            let otherwise = "name a feature of this library that has `channels:`";
+            unknown(
+                codes::UNKNOWN_FEATURE,
+                of,
+                "feature with channels",
+                counted.iter().copied(),
+                otherwise,
+                diagnostics,
+            );
+        }
+    }
+}
+
+/// Checks that what is left out of an object would be there.
+pub(super) fn check_omitted(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
+    let elements = merged.array.as_ref().map_or(0, |array| {
+        let highest = array.elements.last().map_or(0, |(sub, _)| i128::from(sub.value.0));
+        array.count.map_or(0, |count| count.value).max(highest)
+    });
+    let members = merged.record.iter().flat_map(|record| &record.members);
+    let has =
+        |sub: i128| sub <= elements || members.clone().any(|(member, _)| i128::from(member.value.0) == sub);
+    for sub in decl.omit.iter().filter(|sub| !has(sub.value)) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::UNKNOWN_ENTRY,
+                sub.span,
+                format!("{} has no sub-index {} that could be left out", decl.index.value, sub.value),
+            )
+            .help("remove it from `omit:`, or correct it"),
+        );
+    }
+}
 
 pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
     // What an object has that is like another one, the other one decides, too.
     for object in root.objects.iter().filter(|object| object.like.is_none()) {
         check_object(object, diagnostics);
     }
+    check_channels(root, diagnostics);
     for decl in root.types.iter().filter(|decl| decl.values.is_some()) {
         if let Some(rest) = &decl.rest {
             refuse(

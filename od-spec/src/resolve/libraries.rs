@@ -7,8 +7,8 @@ use super::scope::unknown;
 use crate::ast::{Axes, EntryDecl, ErrorDecl, FeatureDecl, MachineDecl, Name, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics, codes};
 use crate::model::Index;
+use crate::shipped::LIBRARIES;
 use crate::source::{FileId, Spanned};
-use crate::standard::LIBRARIES;
 
 /// The libraries of a specification; of what has one name or number in them, the first counts.
 pub(super) struct Libraries<'a> {
@@ -153,20 +153,6 @@ impl<'a> Libraries<'a> {
 pub(super) fn not_used(code: &'static Code, name: &Name, message: String, library: &str) -> Diagnostic {
     Diagnostic::new(code, name.span, message)
         .help(format!("add `{library}` to `uses:` at the top of the file"))
-}
-
-/// The built-in library that offers a feature.
-pub(super) fn offering(feature: &str) -> Option<&'static str> {
-    let offers = |text: &str| {
-        let features = text.split_once("\nfeatures:\n").and_then(|(_, rest)| rest.split_once("\n\n"));
-        features.is_some_and(|(list, _)| {
-            list.lines().any(|line| {
-                let key = line.strip_prefix("  ").and_then(|line| line.strip_prefix(feature));
-                key.is_some_and(|rest| rest.starts_with(':'))
-            })
-        })
-    };
-    LIBRARIES.iter().find(|(_, text)| offers(text)).map(|(name, _)| *name)
 }
 
 /// A library lacks what `from:` takes from it.

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::decls::{Decl, Declared, check_omitted};
+use super::declared::{Decl, Declared};
 use super::keys_have_effect;
 use super::refs::Broken;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl, Spec, adopted};
@@ -212,7 +212,7 @@ fn made(
     let merged = ObjectDecl { weight, ..laid_over(over, below) };
     let shaped = ObjectDecl { entry: over.entry.clone(), ..merged.clone() };
     keys_have_effect::check_object(&shaped, diagnostics);
-    check_omitted(over, &merged, diagnostics);
+    keys_have_effect::check_omitted(over, &merged, diagnostics);
     Some(merged)
 }
 

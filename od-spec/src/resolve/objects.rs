@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::decls::Declared;
+use super::declared::Declared;
 use super::defaults;
-use super::entries::{self, Surroundings};
+use super::entries;
+use super::surroundings::Surroundings;
 use super::types::words;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;

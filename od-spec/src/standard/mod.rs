@@ -12,16 +12,9 @@ use crate::decode::decode;
 use crate::diag::Diagnostics;
 use crate::model::{Dictionary, Index, Object};
 use crate::resolve;
+use crate::shipped::LIBRARIES;
 use crate::source::SourceMap;
 use crate::yaml;
-
-/// Libraries that come with the compiler: name and text.
-pub const LIBRARIES: &[(&str, &str)] = &[
-    ("cia301", include_str!("../../profiles/cia301.od.yaml")),
-    ("cia302", include_str!("../../profiles/cia302.od.yaml")),
-    ("cia401", include_str!("../../profiles/cia401.od.yaml")),
-    ("cia402", include_str!("../../profiles/cia402.od.yaml")),
-];
 
 /// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
 const RUNS: &str = include_str!("runs.od.yaml");
