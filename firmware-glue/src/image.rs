@@ -102,6 +102,13 @@ pub const fn element(sub: u8, highest: usize, start: usize, size: usize) -> Opti
     if sub >= 1 && sub <= highest { Some(start + (sub - 1) * size) } else { None }
 }
 
+/// Offset of a value in the object with a number: `first` to `last`, the value of the first object at `start`, those of the
+/// others `step` bytes behind each other.
+#[inline]
+pub const fn numbered(number: u16, first: u16, last: u16, start: usize, step: usize) -> Option<usize> {
+    if number >= first && number <= last { Some(start + (number - first) as usize * step) } else { None }
+}
+
 /// A number that the generator knows to fit; 0 should it not.
 #[inline(always)]
 pub fn narrow<T: TryFrom<i64> + Default>(number: i64) -> T {

@@ -212,6 +212,12 @@ impl Fullmo {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_1_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_1_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -245,6 +251,12 @@ impl Fullmo {
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 68, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_2_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_2_mapping_parameter(sub))
     }
 
     /// Sets an element of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter); `None` if it does not exist.
@@ -282,6 +294,12 @@ impl Fullmo {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_3_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_3_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -315,6 +333,12 @@ impl Fullmo {
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 132, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_4_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_4_mapping_parameter(sub))
     }
 
     /// Sets an element of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter); `None` if it does not exist.
@@ -427,6 +451,12 @@ impl Fullmo {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_1_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_1_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -460,6 +490,12 @@ impl Fullmo {
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 212, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_2_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_2_mapping_parameter(sub))
     }
 
     /// Sets an element of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter); `None` if it does not exist.
@@ -497,6 +533,12 @@ impl Fullmo {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_3_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_3_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -530,6 +572,12 @@ impl Fullmo {
     pub fn tpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 276, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_4_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_4_mapping_parameter(sub))
     }
 
     /// Sets an element of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter); `None` if it does not exist.
@@ -1555,6 +1603,161 @@ impl Fullmo {
     #[inline]
     pub fn set_target_velocity(&mut self, value: units::VelocityUnit<i32>) {
         glue::put_i32(&mut self.0, 584, value.0);
+    }
+
+    /// `3511h` [`input_functions_1`](Self::input_functions_1) to `3519h` [`input_functions_9`](Self::input_functions_9), by the number in their names. `n` is 1 to 9; `None` for any other.
+    #[inline]
+    pub fn input_functions(&self, n: u16) -> Option<records::InputFunctions1<&Self>> {
+        Some(
+            records::InputFunctions1(
+                self,
+                [
+                    glue::image::numbered(n, 1, 9, 632, 8)?,
+                    glue::image::numbered(n, 1, 9, 634, 8)?,
+                    glue::image::numbered(n, 1, 9, 312, 16)?,
+                    glue::image::numbered(n, 1, 9, 316, 16)?,
+                    glue::image::numbered(n, 1, 9, 636, 8)?,
+                    glue::image::numbered(n, 1, 9, 320, 16)?,
+                    glue::image::numbered(n, 1, 9, 638, 8)?,
+                    glue::image::numbered(n, 1, 9, 324, 16)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`input_functions`](Self::input_functions), to be changed.
+    #[inline]
+    pub fn input_functions_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::InputFunctions1<&mut Self>> {
+        Some(
+            records::InputFunctions1(
+                self,
+                [
+                    glue::image::numbered(n, 1, 9, 632, 8)?,
+                    glue::image::numbered(n, 1, 9, 634, 8)?,
+                    glue::image::numbered(n, 1, 9, 312, 16)?,
+                    glue::image::numbered(n, 1, 9, 316, 16)?,
+                    glue::image::numbered(n, 1, 9, 636, 8)?,
+                    glue::image::numbered(n, 1, 9, 320, 16)?,
+                    glue::image::numbered(n, 1, 9, 638, 8)?,
+                    glue::image::numbered(n, 1, 9, 324, 16)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1400h` [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter) to `1403h` [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), by the number in their names. `n` is 1 to 4; `None` for any other.
+    #[inline]
+    pub fn rpdo_communication_parameter(
+        &self,
+        n: u16,
+    ) -> Option<records::Rpdo1CommunicationParameter<&Self>> {
+        Some(
+            records::Rpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 20, 4)?,
+                    glue::image::numbered(n, 1, 4, 745, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`rpdo_communication_parameter`](Self::rpdo_communication_parameter), to be changed.
+    #[inline]
+    pub fn rpdo_communication_parameter_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::Rpdo1CommunicationParameter<&mut Self>> {
+        Some(
+            records::Rpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 20, 4)?,
+                    glue::image::numbered(n, 1, 4, 745, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1600h` [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter) to `1603h` [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter), by the number in their names. `n` is 1 to 4; `None` for any other. `sub` is the sub-index, 1 to 8.
+    #[inline]
+    pub fn rpdo_mapping_parameter(&self, n: u16, sub: u8) -> Option<u32> {
+        let start = glue::image::numbered(n, 1, 4, 36, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// Sets what [`rpdo_mapping_parameter`](Self::rpdo_mapping_parameter) reads; `None` if it does not exist.
+    #[inline]
+    pub fn set_rpdo_mapping_parameter(
+        &mut self,
+        n: u16,
+        sub: u8,
+        value: u32,
+    ) -> Option<()> {
+        let start = glue::image::numbered(n, 1, 4, 36, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        glue::put_u32(&mut self.0, offset, value);
+        Some(())
+    }
+
+    /// `1800h` [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter) to `1803h` [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), by the number in their names. `n` is 1 to 4; `None` for any other.
+    #[inline]
+    pub fn tpdo_communication_parameter(
+        &self,
+        n: u16,
+    ) -> Option<records::Tpdo1CommunicationParameter<&Self>> {
+        Some(
+            records::Tpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 164, 4)?,
+                    glue::image::numbered(n, 1, 4, 753, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`tpdo_communication_parameter`](Self::tpdo_communication_parameter), to be changed.
+    #[inline]
+    pub fn tpdo_communication_parameter_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::Tpdo1CommunicationParameter<&mut Self>> {
+        Some(
+            records::Tpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 164, 4)?,
+                    glue::image::numbered(n, 1, 4, 753, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1A00h` [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter) to `1A03h` [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter), by the number in their names. `n` is 1 to 4; `None` for any other. `sub` is the sub-index, 1 to 8.
+    #[inline]
+    pub fn tpdo_mapping_parameter(&self, n: u16, sub: u8) -> Option<u32> {
+        let start = glue::image::numbered(n, 1, 4, 180, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// Sets what [`tpdo_mapping_parameter`](Self::tpdo_mapping_parameter) reads; `None` if it does not exist.
+    #[inline]
+    pub fn set_tpdo_mapping_parameter(
+        &mut self,
+        n: u16,
+        sub: u8,
+        value: u32,
+    ) -> Option<()> {
+        let start = glue::image::numbered(n, 1, 4, 180, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        glue::put_u32(&mut self.0, offset, value);
+        Some(())
     }
 }
 

@@ -78,6 +78,12 @@ impl Pmc {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`pre_defined_error_field`](Self::pre_defined_error_field), from sub-index 1 on.
+    #[inline]
+    pub fn pre_defined_error_field_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=1).filter_map(|sub| self.pre_defined_error_field(sub))
+    }
+
     /// Sets an element of [`pre_defined_error_field`](Self::pre_defined_error_field); `None` if it does not exist.
     #[inline]
     pub fn set_pre_defined_error_field(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -293,6 +299,12 @@ impl Pmc {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_1_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_1_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -326,6 +338,12 @@ impl Pmc {
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_2_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_2_mapping_parameter(sub))
     }
 
     /// Sets an element of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter); `None` if it does not exist.
@@ -363,6 +381,12 @@ impl Pmc {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_3_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_3_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -396,6 +420,12 @@ impl Pmc {
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_4_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_4_mapping_parameter(sub))
     }
 
     /// Sets an element of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter); `None` if it does not exist.
@@ -508,6 +538,12 @@ impl Pmc {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_1_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_1_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -541,6 +577,12 @@ impl Pmc {
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_2_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_2_mapping_parameter(sub))
     }
 
     /// Sets an element of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter); `None` if it does not exist.
@@ -578,6 +620,12 @@ impl Pmc {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_3_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_3_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -613,6 +661,12 @@ impl Pmc {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_4_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_4_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -628,6 +682,12 @@ impl Pmc {
     pub fn error_field_time_stamp(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 1, 588, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`error_field_time_stamp`](Self::error_field_time_stamp), from sub-index 1 on.
+    #[inline]
+    pub fn error_field_time_stamp_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=1).filter_map(|sub| self.error_field_time_stamp(sub))
     }
 
     /// Sets an element of [`error_field_time_stamp`](Self::error_field_time_stamp); `None` if it does not exist.
@@ -926,6 +986,14 @@ impl Pmc {
     pub fn capture_values(&self, sub: u8) -> Option<units::PositionUnit<i32>> {
         let offset = glue::image::element(sub, 2, 592, 4)?;
         Some(units::PositionUnit(glue::get_i32(&self.0, offset)))
+    }
+
+    /// All elements of [`capture_values`](Self::capture_values), from sub-index 1 on.
+    #[inline]
+    pub fn capture_values_iter(
+        &self,
+    ) -> impl Iterator<Item = units::PositionUnit<i32>> + '_ {
+        (1..=2).filter_map(|sub| self.capture_values(sub))
     }
 
     /// Sets an element of [`capture_values`](Self::capture_values); `None` if it does not exist.
@@ -1934,6 +2002,118 @@ impl Pmc {
         value: units::PositionUnit<i32>,
     ) {
         glue::put_i32(&mut self.0, 668, value.0);
+    }
+
+    /// `1400h` [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter) to `1403h` [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), by the number in their names. `n` is 1 to 4; `None` for any other.
+    #[inline]
+    pub fn rpdo_communication_parameter(
+        &self,
+        n: u16,
+    ) -> Option<records::Rpdo1CommunicationParameter<&Self>> {
+        Some(
+            records::Rpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 0, 4)?,
+                    glue::image::numbered(n, 1, 4, 288, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`rpdo_communication_parameter`](Self::rpdo_communication_parameter), to be changed.
+    #[inline]
+    pub fn rpdo_communication_parameter_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::Rpdo1CommunicationParameter<&mut Self>> {
+        Some(
+            records::Rpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 0, 4)?,
+                    glue::image::numbered(n, 1, 4, 288, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1600h` [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter) to `1603h` [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter), by the number in their names. `n` is 1 to 4; `None` for any other. `sub` is the sub-index, 1 to 8.
+    #[inline]
+    pub fn rpdo_mapping_parameter(&self, n: u16, sub: u8) -> Option<u32> {
+        let start = glue::image::numbered(n, 1, 4, 16, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// Sets what [`rpdo_mapping_parameter`](Self::rpdo_mapping_parameter) reads; `None` if it does not exist.
+    #[inline]
+    pub fn set_rpdo_mapping_parameter(
+        &mut self,
+        n: u16,
+        sub: u8,
+        value: u32,
+    ) -> Option<()> {
+        let start = glue::image::numbered(n, 1, 4, 16, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        glue::put_u32(&mut self.0, offset, value);
+        Some(())
+    }
+
+    /// `1800h` [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter) to `1803h` [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), by the number in their names. `n` is 1 to 4; `None` for any other.
+    #[inline]
+    pub fn tpdo_communication_parameter(
+        &self,
+        n: u16,
+    ) -> Option<records::Tpdo1CommunicationParameter<&Self>> {
+        Some(
+            records::Tpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 144, 4)?,
+                    glue::image::numbered(n, 1, 4, 296, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`tpdo_communication_parameter`](Self::tpdo_communication_parameter), to be changed.
+    #[inline]
+    pub fn tpdo_communication_parameter_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::Tpdo1CommunicationParameter<&mut Self>> {
+        Some(
+            records::Tpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 144, 4)?,
+                    glue::image::numbered(n, 1, 4, 296, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1A00h` [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter) to `1A03h` [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter), by the number in their names. `n` is 1 to 4; `None` for any other. `sub` is the sub-index, 1 to 8.
+    #[inline]
+    pub fn tpdo_mapping_parameter(&self, n: u16, sub: u8) -> Option<u32> {
+        let start = glue::image::numbered(n, 1, 4, 160, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// Sets what [`tpdo_mapping_parameter`](Self::tpdo_mapping_parameter) reads; `None` if it does not exist.
+    #[inline]
+    pub fn set_tpdo_mapping_parameter(
+        &mut self,
+        n: u16,
+        sub: u8,
+        value: u32,
+    ) -> Option<()> {
+        let start = glue::image::numbered(n, 1, 4, 160, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        glue::put_u32(&mut self.0, offset, value);
+        Some(())
     }
 }
 

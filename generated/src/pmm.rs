@@ -78,6 +78,12 @@ impl Pmm {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`pre_defined_error_field`](Self::pre_defined_error_field), from sub-index 1 on.
+    #[inline]
+    pub fn pre_defined_error_field_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=1).filter_map(|sub| self.pre_defined_error_field(sub))
+    }
+
     /// Sets an element of [`pre_defined_error_field`](Self::pre_defined_error_field); `None` if it does not exist.
     #[inline]
     pub fn set_pre_defined_error_field(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -290,6 +296,12 @@ impl Pmm {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_1_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_1_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -319,6 +331,12 @@ impl Pmm {
     pub fn rpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 48, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_2_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_2_mapping_parameter(sub))
     }
 
     /// Sets an element of [`rpdo_2_mapping_parameter`](Self::rpdo_2_mapping_parameter); `None` if it does not exist.
@@ -352,6 +370,12 @@ impl Pmm {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_3_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_3_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`rpdo_3_mapping_parameter`](Self::rpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_rpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -381,6 +405,12 @@ impl Pmm {
     pub fn rpdo_4_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 112, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn rpdo_4_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.rpdo_4_mapping_parameter(sub))
     }
 
     /// Sets an element of [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter); `None` if it does not exist.
@@ -490,6 +520,12 @@ impl Pmm {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_1_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_1_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_1_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -519,6 +555,12 @@ impl Pmm {
     pub fn tpdo_2_mapping_parameter(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 8, 192, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_2_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_2_mapping_parameter(sub))
     }
 
     /// Sets an element of [`tpdo_2_mapping_parameter`](Self::tpdo_2_mapping_parameter); `None` if it does not exist.
@@ -552,6 +594,12 @@ impl Pmm {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_3_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_3_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_3_mapping_parameter`](Self::tpdo_3_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_3_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -583,6 +631,12 @@ impl Pmm {
         Some(glue::get_u32(&self.0, offset))
     }
 
+    /// All elements of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter), from sub-index 1 on.
+    #[inline]
+    pub fn tpdo_4_mapping_parameter_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=8).filter_map(|sub| self.tpdo_4_mapping_parameter(sub))
+    }
+
     /// Sets an element of [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter); `None` if it does not exist.
     #[inline]
     pub fn set_tpdo_4_mapping_parameter(&mut self, sub: u8, value: u32) -> Option<()> {
@@ -598,6 +652,12 @@ impl Pmm {
     pub fn error_field_time_stamp(&self, sub: u8) -> Option<u32> {
         let offset = glue::image::element(sub, 1, 564, 4)?;
         Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// All elements of [`error_field_time_stamp`](Self::error_field_time_stamp), from sub-index 1 on.
+    #[inline]
+    pub fn error_field_time_stamp_iter(&self) -> impl Iterator<Item = u32> + '_ {
+        (1..=1).filter_map(|sub| self.error_field_time_stamp(sub))
     }
 
     /// Sets an element of [`error_field_time_stamp`](Self::error_field_time_stamp); `None` if it does not exist.
@@ -859,6 +919,14 @@ impl Pmm {
         Some(units::Decicelsius(glue::get_i16(&self.0, offset)))
     }
 
+    /// All elements of [`battery_temperature`](Self::battery_temperature), from sub-index 1 on.
+    #[inline]
+    pub fn battery_temperature_iter(
+        &self,
+    ) -> impl Iterator<Item = units::Decicelsius<i16>> + '_ {
+        (1..=8).filter_map(|sub| self.battery_temperature(sub))
+    }
+
     /// Sets an element of [`battery_temperature`](Self::battery_temperature); `None` if it does not exist.
     #[inline]
     pub fn set_battery_temperature(
@@ -985,6 +1053,14 @@ impl Pmm {
     pub fn battery_voltage(&self, sub: u8) -> Option<units::Millivolt<u16>> {
         let offset = glue::image::element(sub, 8, 620, 2)?;
         Some(units::Millivolt(glue::get_u16(&self.0, offset)))
+    }
+
+    /// All elements of [`battery_voltage`](Self::battery_voltage), from sub-index 1 on.
+    #[inline]
+    pub fn battery_voltage_iter(
+        &self,
+    ) -> impl Iterator<Item = units::Millivolt<u16>> + '_ {
+        (1..=8).filter_map(|sub| self.battery_voltage(sub))
     }
 
     /// Sets an element of [`battery_voltage`](Self::battery_voltage); `None` if it does not exist.
@@ -1666,6 +1742,12 @@ impl Pmm {
         Some(types::AlarmInputMask(glue::get_u16(&self.0, offset)))
     }
 
+    /// All elements of [`alarm_inputs`](Self::alarm_inputs), from sub-index 1 on.
+    #[inline]
+    pub fn alarm_inputs_iter(&self) -> impl Iterator<Item = types::AlarmInputMask> + '_ {
+        (1..=8).filter_map(|sub| self.alarm_inputs(sub))
+    }
+
     /// Sets an element of [`alarm_inputs`](Self::alarm_inputs); `None` if it does not exist.
     #[inline]
     pub fn set_alarm_inputs(
@@ -1732,6 +1814,162 @@ impl Pmm {
     #[inline]
     pub fn set_error_code(&mut self, value: u16) {
         glue::put_u16(&mut self.0, 664, value);
+    }
+
+    /// `1400h` [`rpdo_1_communication_parameter`](Self::rpdo_1_communication_parameter) to `1403h` [`rpdo_4_communication_parameter`](Self::rpdo_4_communication_parameter), by the number in their names. `n` is 1 to 4; `None` for any other.
+    #[inline]
+    pub fn rpdo_communication_parameter(
+        &self,
+        n: u16,
+    ) -> Option<records::Rpdo1CommunicationParameter<&Self>> {
+        Some(
+            records::Rpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 0, 4)?,
+                    glue::image::numbered(n, 1, 4, 288, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`rpdo_communication_parameter`](Self::rpdo_communication_parameter), to be changed.
+    #[inline]
+    pub fn rpdo_communication_parameter_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::Rpdo1CommunicationParameter<&mut Self>> {
+        Some(
+            records::Rpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 0, 4)?,
+                    glue::image::numbered(n, 1, 4, 288, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1600h` [`rpdo_1_mapping_parameter`](Self::rpdo_1_mapping_parameter) to `1603h` [`rpdo_4_mapping_parameter`](Self::rpdo_4_mapping_parameter), by the number in their names. `n` is 1 to 4; `None` for any other. `sub` is the sub-index, 1 to 8.
+    #[inline]
+    pub fn rpdo_mapping_parameter(&self, n: u16, sub: u8) -> Option<u32> {
+        let start = glue::image::numbered(n, 1, 4, 16, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// Sets what [`rpdo_mapping_parameter`](Self::rpdo_mapping_parameter) reads; `None` if it does not exist.
+    #[inline]
+    pub fn set_rpdo_mapping_parameter(
+        &mut self,
+        n: u16,
+        sub: u8,
+        value: u32,
+    ) -> Option<()> {
+        let start = glue::image::numbered(n, 1, 4, 16, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        glue::put_u32(&mut self.0, offset, value);
+        Some(())
+    }
+
+    /// `3202h` [`temperature_controller_sensor_1`](Self::temperature_controller_sensor_1) to `3203h` [`temperature_controller_sensor_2`](Self::temperature_controller_sensor_2), by the number in their names. `n` is 1 to 2; `None` for any other.
+    #[inline]
+    pub fn temperature_controller_sensor(
+        &self,
+        n: u16,
+    ) -> Option<records::TemperatureControllerBattery<&Self>> {
+        Some(
+            records::TemperatureControllerBattery(
+                self,
+                [
+                    glue::image::numbered(n, 1, 2, 430, 14)?,
+                    glue::image::numbered(n, 1, 2, 432, 14)?,
+                    glue::image::numbered(n, 1, 2, 434, 14)?,
+                    glue::image::numbered(n, 1, 2, 436, 14)?,
+                    glue::image::numbered(n, 1, 2, 438, 14)?,
+                    glue::image::numbered(n, 1, 2, 440, 14)?,
+                    glue::image::numbered(n, 1, 2, 442, 14)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`temperature_controller_sensor`](Self::temperature_controller_sensor), to be changed.
+    #[inline]
+    pub fn temperature_controller_sensor_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::TemperatureControllerBattery<&mut Self>> {
+        Some(
+            records::TemperatureControllerBattery(
+                self,
+                [
+                    glue::image::numbered(n, 1, 2, 430, 14)?,
+                    glue::image::numbered(n, 1, 2, 432, 14)?,
+                    glue::image::numbered(n, 1, 2, 434, 14)?,
+                    glue::image::numbered(n, 1, 2, 436, 14)?,
+                    glue::image::numbered(n, 1, 2, 438, 14)?,
+                    glue::image::numbered(n, 1, 2, 440, 14)?,
+                    glue::image::numbered(n, 1, 2, 442, 14)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1800h` [`tpdo_1_communication_parameter`](Self::tpdo_1_communication_parameter) to `1803h` [`tpdo_4_communication_parameter`](Self::tpdo_4_communication_parameter), by the number in their names. `n` is 1 to 4; `None` for any other.
+    #[inline]
+    pub fn tpdo_communication_parameter(
+        &self,
+        n: u16,
+    ) -> Option<records::Tpdo1CommunicationParameter<&Self>> {
+        Some(
+            records::Tpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 144, 4)?,
+                    glue::image::numbered(n, 1, 4, 296, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// [`tpdo_communication_parameter`](Self::tpdo_communication_parameter), to be changed.
+    #[inline]
+    pub fn tpdo_communication_parameter_mut(
+        &mut self,
+        n: u16,
+    ) -> Option<records::Tpdo1CommunicationParameter<&mut Self>> {
+        Some(
+            records::Tpdo1CommunicationParameter(
+                self,
+                [
+                    glue::image::numbered(n, 1, 4, 144, 4)?,
+                    glue::image::numbered(n, 1, 4, 296, 1)?,
+                ],
+            ),
+        )
+    }
+
+    /// `1A00h` [`tpdo_1_mapping_parameter`](Self::tpdo_1_mapping_parameter) to `1A03h` [`tpdo_4_mapping_parameter`](Self::tpdo_4_mapping_parameter), by the number in their names. `n` is 1 to 4; `None` for any other. `sub` is the sub-index, 1 to 8.
+    #[inline]
+    pub fn tpdo_mapping_parameter(&self, n: u16, sub: u8) -> Option<u32> {
+        let start = glue::image::numbered(n, 1, 4, 160, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        Some(glue::get_u32(&self.0, offset))
+    }
+
+    /// Sets what [`tpdo_mapping_parameter`](Self::tpdo_mapping_parameter) reads; `None` if it does not exist.
+    #[inline]
+    pub fn set_tpdo_mapping_parameter(
+        &mut self,
+        n: u16,
+        sub: u8,
+        value: u32,
+    ) -> Option<()> {
+        let start = glue::image::numbered(n, 1, 4, 160, 32)?;
+        let offset = glue::image::element(sub, 8, start, 4)?;
+        glue::put_u32(&mut self.0, offset, value);
+        Some(())
     }
 }
 

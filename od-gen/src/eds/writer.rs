@@ -94,7 +94,7 @@ fn is_line(comment: &str) -> bool {
         && (1..=COMMENT_WIDTH - 2).contains(&comment.len())
         && !comment.starts_with(' ')
         && !comment.ends_with(' ')
-        && !comment.contains("  ")
+        && !comment.as_bytes().windows(2).any(|pair| pair == b"  ")
 }
 
 #[cfg(test)]

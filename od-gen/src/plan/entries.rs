@@ -56,6 +56,7 @@ impl<'a> Plan<'a> {
             }
             self.objects.push(PlannedObject { object, name, first_row, shape });
         }
+        self.plan_runs(&mut scopes.accessors);
     }
 
     /// Claims what is printed beside the accessor of an object.
@@ -72,8 +73,11 @@ impl<'a> Plan<'a> {
             Shape::Var | Shape::Indexed { .. } => Companion::Setter,
             Shape::Group { .. } => Companion::Mutable,
         };
-        if let Some(name) = self.language.companion(companion, accessor) {
-            scopes.accessors.claim(&name, &companion.describe(&what), object.span, diagnostics);
+        let elements = matches!(shape, Shape::Indexed { .. }).then_some(Companion::Elements);
+        for companion in [Some(companion), elements].into_iter().flatten() {
+            if let Some(name) = self.language.companion(companion, accessor) {
+                scopes.accessors.claim(&name, &companion.describe(&what), object.span, diagnostics);
+            }
         }
         match shape {
             Shape::Var | Shape::Indexed { count: None } => {}

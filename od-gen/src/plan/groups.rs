@@ -72,11 +72,15 @@ impl Plan<'_> {
         self.entries.get(rows).unwrap_or_default().iter()
     }
 
-    /// The entries of a group that have accessors: a number of entries that never changes is a constant of the shape, not a value.
+    /// The entries of a group that have accessors.
     pub(crate) fn accessible(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
-        self.entries_of(object)
-            .filter(|entry| !(entry.id.sub.0 == 0 && matches!(entry.place, Place::Constant(_))))
+        self.entries_of(object).filter(|entry| is_accessible(entry))
     }
+}
+
+/// Whether an entry of a group has an accessor: a number of entries that never changes is a constant of the shape, not a value.
+pub(super) const fn is_accessible(entry: &PlannedEntry<'_>) -> bool {
+    entry.id.sub.0 != 0 || !matches!(entry.place, Place::Constant(_))
 }
 
 /// What an entry is as a member of a group; `None` for a value that does not lie in the image.

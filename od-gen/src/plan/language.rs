@@ -39,6 +39,8 @@ pub(crate) enum Companion {
     Setter,
     /// Beside the accessor of a group: the group, to be changed.
     Mutable,
+    /// Beside the accessor of elements by sub-index: all of them.
+    Elements,
     /// Beside the accessor of some bits: the word with other bits.
     With,
 }
@@ -49,6 +51,7 @@ impl Companion {
         match self {
             Companion::Setter => format!("the setter of {what}"),
             Companion::Mutable => format!("{what} to be changed"),
+            Companion::Elements => format!("all elements of {what}"),
             Companion::With => what.to_owned(),
         }
     }
@@ -121,7 +124,7 @@ mod tests {
         fn companion(&self, companion: Companion, identifier: &str) -> Option<String> {
             match companion {
                 Companion::Setter => Some(format!("{identifier}_set")),
-                Companion::Mutable | Companion::With => None,
+                Companion::Mutable | Companion::Elements | Companion::With => None,
             }
         }
 

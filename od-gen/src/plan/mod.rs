@@ -13,6 +13,7 @@ mod layout;
 mod names;
 mod pool;
 mod relations;
+mod runs;
 mod vocabulary;
 
 use std::collections::BTreeMap;
@@ -34,6 +35,7 @@ pub(crate) use self::layout::{Layout, Place, lay_out};
 use self::names::Scope;
 pub(crate) use self::names::Words;
 pub(crate) use self::pool::Pool;
+pub(crate) use self::runs::PlannedRun;
 
 /// "None" in the table's 16-bit references.
 pub(crate) const NONE: u16 = u16::MAX;
@@ -46,6 +48,7 @@ pub(crate) struct Plan<'a> {
     pub name: String,
     pub layout: Layout,
     pub objects: Vec<PlannedObject<'a>>,
+    pub runs: Vec<PlannedRun>,
     /// By row.
     pub entries: Vec<PlannedEntry<'a>>,
     pub attributes: Pool<Attributes>,
@@ -347,6 +350,7 @@ pub(crate) fn plan<'a>(
         name,
         layout,
         objects: Vec::new(),
+        runs: Vec::new(),
         entries: Vec::new(),
         attributes: Pool::default(),
         limits: Pool::default(),

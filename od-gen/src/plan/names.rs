@@ -7,7 +7,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::Span;
 
 /// The words of a name in lower case: letters and digits of ASCII, after transliteration.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Words(Vec<String>);
 
 impl Words {
@@ -21,6 +21,15 @@ impl Words {
     /// These words and those of another name.
     pub(crate) fn and(&self, name: &str) -> Self {
         Self(self.0.iter().cloned().chain(Self::of(name).0).collect())
+    }
+
+    /// The numbers among the words: the place of each, the number, and the words without it, if there are others.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (usize, u16, Self)> {
+        self.0.iter().enumerate().filter(|_| self.0.len() > 1).filter_map(|(at, word)| {
+            let number = word.parse().ok()?;
+            let rest = self.0.iter().enumerate().filter(|(place, _)| *place != at);
+            Some((at, number, Self(rest.map(|(_, word)| word.clone()).collect())))
+        })
     }
 
     /// `actual_velocity_16bit`; an `n` goes before a leading digit, which no language takes.
@@ -116,6 +125,16 @@ impl Scope {
         }
         self.taken.insert(identifier.to_owned(), Owner { what: what.to_owned(), span: Some(span) });
         true
+    }
+
+    /// Gives identifiers to something that code can do without, if nothing has one of them.
+    pub(super) fn claim_if_free(&mut self, identifiers: &[&str]) -> bool {
+        let free = identifiers.iter().all(|one| !one.is_empty() && !self.taken.contains_key(*one));
+        if free {
+            let owner = || Owner { what: "objects by number".to_owned(), span: None };
+            self.taken.extend(identifiers.iter().map(|one| ((*one).to_owned(), owner())));
+        }
+        free
     }
 }
 

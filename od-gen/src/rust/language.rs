@@ -66,6 +66,7 @@ impl Language for Rust {
         Some(match companion {
             Companion::Setter => setter(identifier),
             Companion::Mutable => mutable(identifier),
+            Companion::Elements => elements(identifier),
             Companion::With => with(identifier),
         })
     }
@@ -111,6 +112,11 @@ pub(super) fn setter(accessor: &str) -> String {
 /// The accessor of a group that is to be changed: `gear_ratio_mut`.
 pub(super) fn mutable(accessor: &str) -> String {
     format!("{}_mut", accessor.trim_end_matches('_'))
+}
+
+/// The accessor of all elements of an array: `cell_voltages_iter`.
+pub(super) fn elements(accessor: &str) -> String {
+    format!("{}_iter", accessor.trim_end_matches('_'))
 }
 
 /// The method that gives a word with other bits: `with_fault`.

@@ -29,11 +29,11 @@ entry_keys!(entry_reader);
 
 /// Reads an entry; `keys` are those of the map in which its keys stand.
 pub(super) fn entry(reader: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
-    let written = written(reader, span, diagnostics);
+    let mut entry = written(reader, span, diagnostics);
     let no_text = |key: &str| reader.node.get(key).is_some_and(|node| node.text().is_none());
-    let no_access = written.access.is_none() && reader.node.get("access").is_some();
-    let unsure = reader.has_unknown_key(keys) || no_text("name") || no_text("type") || no_access;
-    EntryDecl { unsure, ..written }
+    let no_access = entry.access.is_none() && reader.node.get("access").is_some();
+    entry.unsure = reader.has_unknown_key(keys) || no_text("name") || no_text("type") || no_access;
+    entry
 }
 
 impl FromNode for Vec<SpecialDecl> {

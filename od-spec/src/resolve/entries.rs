@@ -48,7 +48,7 @@ pub(super) fn resolve(
     let default = decl.default.as_ref().filter(|_| readable);
     let default = read_default(default, expected, around, diagnostics);
     let stored = decl.stored.map_or(Storage::No, |stored| stored.value);
-    let entry = Entry {
+    let mut entry = Entry {
         sub,
         name,
         data_type,
@@ -91,7 +91,8 @@ pub(super) fn resolve(
             .help("remove it, or correct the access"),
         );
     }
-    Some(Entry { eds: eds_policy(&entry, decl, around.eds), ..entry })
+    entry.eds = eds_policy(&entry, decl, around.eds);
+    Some(entry)
 }
 
 /// A default: one value, or the bits of a bit field that are 1.

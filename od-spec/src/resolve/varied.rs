@@ -14,12 +14,11 @@ pub(super) struct Varied<'a> {
 
 impl<'a> Varied<'a> {
     pub(super) fn of(root: &'a Spec) -> Self {
-        let mut by_index: BTreeMap<Index, Vec<&'a ObjectDecl>> = BTreeMap::new();
-        for decl in &root.objects {
-            by_index.entry(decl.index.value).or_default().push(decl);
-        }
-        by_index.retain(|_, decls| decls.len() > 1);
-        Self { by_index }
+        let mut sorted: Vec<&ObjectDecl> = root.objects.iter().collect();
+        sorted.sort_by_key(|decl| decl.index.value);
+        let several =
+            sorted.chunk_by(|one, next| one.index.value == next.index.value).filter(|decls| decls.len() > 1);
+        Self { by_index: several.map(|decls| (decls[0].index.value, decls.to_vec())).collect() }
     }
 
     /// Reports an index that is named at `place` for several devices which have different objects there.

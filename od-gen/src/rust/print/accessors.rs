@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::language::{mutable, setter};
+use super::super::language::{elements, mutable, setter};
 use super::docs::{doc, escape};
 use super::glue;
 use super::literal::decimal;
@@ -28,6 +28,7 @@ impl Plan<'_> {
         let about = doc(&format!("{facts}\n\n{about}"));
         let groups = self.groups();
         let objects = (0..).zip(&self.objects).map(|(at, object)| self.methods(at, object, &groups));
+        let runs = self.runs.iter().map(|run| self.run_methods(run, &groups));
         quote! {
             #about
             #[allow(unreachable_pub)]
@@ -50,6 +51,8 @@ impl Plan<'_> {
                 }
 
                 #(#objects)*
+
+                #(#runs)*
             }
         }
     }
@@ -227,6 +230,7 @@ impl Plan<'_> {
         let store = if error.is_some() { quote!(#store.ok()) } else { quote!(#store; Some(())) };
         let about_set =
             doc(&format!("Sets an element of [`{name}`](Self::{name}); `None` if it does not exist."));
+        let all = all_elements(object, elements.len(), &value_type);
         quote! {
             #sub0
 
@@ -236,6 +240,8 @@ impl Plan<'_> {
                 let offset = glue::image::element(sub, #highest, #start, #size)?;
                 Some(#value)
             }
+
+            #all
 
             #about_set
             #[inline]
@@ -268,6 +274,7 @@ impl Plan<'_> {
             let Get { value, .. } = values.get(element, &at)?;
             Some(quote!(#sub => Some(#value),))
         });
+        let all = all_elements(object, elements.len(), &value_type);
         quote! {
             #sub0
 
@@ -279,6 +286,8 @@ impl Plan<'_> {
                     _ => None,
                 }
             }
+
+            #all
         }
     }
 
@@ -412,5 +421,19 @@ impl Plan<'_> {
             Some(quote!(#about const #name: glue::View = #view;))
         });
         quote!(#(#views)*)
+    }
+}
+
+/// All elements, one behind the other.
+fn all_elements(object: &PlannedObject<'_>, count: usize, value_type: &TokenStream) -> TokenStream {
+    let about = doc(&format!("All elements of [`{0}`](Self::{0}), from sub-index 1 on.", object.name));
+    let (get, all) = (format_ident!("{}", object.name), format_ident!("{}", elements(&object.name)));
+    let highest = Literal::usize_unsuffixed(count);
+    quote! {
+        #about
+        #[inline]
+        pub fn #all(&self) -> impl Iterator<Item = #value_type> + '_ {
+            (1..=#highest).filter_map(|sub| self.#get(sub))
+        }
     }
 }

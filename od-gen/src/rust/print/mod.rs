@@ -7,6 +7,7 @@ mod glue;
 mod literal;
 mod machines;
 mod pdos;
+mod runs;
 mod table;
 mod types;
 mod value;
