@@ -1,7 +1,7 @@
 //! Tables of text, abbreviations, issues; constraints as ladders.
 
 use od_spec::expr::{Comparison, EntryRef, Term};
-use od_spec::model::{Constraint, Devices, Dictionary, EntryId, Ratio, Text};
+use od_spec::model::{Constraint, Devices, Dictionary, Document, EntryId, Issue, Ratio, Text};
 
 use super::Columns;
 use super::variants::device_keys;
@@ -30,8 +30,12 @@ impl Source<'_> {
             .full(rows)
     }
 
+    /// The issues of the manual. The last is the one that the specification holds, where only that says what changed in it.
     pub(crate) fn history(&self) -> Grid {
-        let rows = self.document().history.iter().map(|issue| {
+        let Document { history, revision, .. } = self.document();
+        let is_listed = |revision: &Issue| history.iter().any(|issue| issue.number == revision.number);
+        let latest = revision.iter().filter(|revision| !revision.about.is_empty() && !is_listed(revision));
+        let rows = history.iter().chain(latest).map(|issue| {
             Row::of(vec![
                 Cell::plain(&issue.number),
                 Cell::plain(self.wording.language.date(issue.date)),

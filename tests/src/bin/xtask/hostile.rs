@@ -1,7 +1,5 @@
 //! Documents whose texts try to command the browser, each beside the same one with plain texts.
 
-use std::collections::BTreeMap;
-
 use od_gen::docs::{self, Format, Templates};
 use od_gen::files::{Existing, write_set};
 use od_gen::{Artifact, json};
@@ -23,6 +21,15 @@ const PAYLOADS: [(&str, &str); 3] = [
 ];
 /// Fewer places than this do not show much.
 const LEAST: usize = 50;
+/// Texts that no page of an English document shows, each with the reason.
+const NOT_SHOWN: [(&str, &str); 6] = [
+    ("Geschichte", "of another language"),
+    ("Allowed text", "of a check, which tells it"),
+    ("Reason text", "of a check, which tells it"),
+    ("Receive inhibit", "of an entry that no PDO of the device has"),
+    ("Receive timer", "of an entry that no PDO of the device has"),
+    ("Receive start", "of an entry that no PDO of the device has"),
+];
 
 /// The directories with the documents, below a directory of the workspace.
 pub(crate) fn documents(below: &str) -> Result<Vec<String>, Failure> {
@@ -35,15 +42,23 @@ pub(crate) fn documents(below: &str) -> Result<Vec<String>, Failure> {
         // Plain texts with as many parts: these make a section one of a section.
         let plain = format!("plain{}", ".n".repeat(payload.matches('.').count()));
         let (_, clean) = compiled(&planted(TEXTS, &sites, &hostile.chosen, &plain).0);
-        let pairs: BTreeMap<String, String> = hostile
+        let texts: Vec<serde_json::Value> = hostile
             .chosen
             .iter()
-            .map(|at| (text_at(&sites, *at, &plain), text_at(&sites, *at, payload)))
+            .map(|at| {
+                let original = &sites[*at].text;
+                serde_json::json!({
+                    "original": original,
+                    "plain": text_at(&sites, *at, &plain),
+                    "hostile": text_at(&sites, *at, payload),
+                    "shown": !NOT_SHOWN.iter().any(|(text, _)| text == original),
+                })
+            })
             .collect();
         let directory = format!("{below}/hostile-{name}");
         let mut set = vec![Artifact {
             path: "hostile.json".to_owned(),
-            bytes: serde_json::to_vec_pretty(&pairs)?,
+            bytes: serde_json::to_vec_pretty(&texts)?,
             purpose: String::new(),
         }];
         for (folder, system) in [("hostile", hostile.compiled.system), ("plain", clean.system)] {
