@@ -412,13 +412,14 @@ fn faults_of_nodes() -> Vec<(&'static str, String)> {
 }
 
 /// Rules that nothing in an EDS or DCF can break, and why.
-const OUT_OF_REACH: [(&str, &str); 6] = [
+const OUT_OF_REACH: [(&str, &str); 7] = [
     ("OD0420", "it has no views of other entries"),
     ("OD0601", "an EDS has keys for the bit rates of CiA 301 alone"),
     ("OD0606", "it has no conditions between entries"),
     ("OD0806", "it defines units and types where entries have them"),
     ("OD0808", "it has no list of error codes"),
     ("OD0837", "where it states no default, it says nothing about the start"),
+    ("OD0843", "it has no conditions between entries"),
 ];
 
 #[test]

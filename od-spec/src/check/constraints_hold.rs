@@ -5,7 +5,7 @@ use super::rule::{Check, Needs, Rule};
 use super::subject::Subject;
 use crate::diag::shorten;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{CompareOp, Constraint, EntryRef, Outcome, Ratio, Values};
+use crate::model::{CompareOp, Constraint, EntryRef, Incomputable, Outcome, Ratio, Values};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -32,7 +32,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             .into_iter()
             .filter(|view| !view.names_setting_outside_limits(constraint))
             .find_map(|view| Some((view, view.broken(constraint)?)));
-        if let Some((view, broken)) = broken {
+        if let Some((view, broken)) = broken.filter(|_| !is_said_before(subject, constraint)) {
             findings.push_each(finding(&view, constraint, &broken));
         }
     }
@@ -40,31 +40,28 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 
 /// The values of all devices, as a condition sees them from one: what it names without a device is that one's.
 #[derive(Clone, Copy)]
-struct View<'a> {
+pub(super) struct View<'a> {
     subject: Subject<'a>,
-    from: &'a str,
+    pub from: &'a str,
 }
 
-/// From where a constraint is looked at for a device. On a type it is the device's own affair, unless one before it breaks
-/// the constraint already; a configured node may break it for another device, too.
-fn views<'a>(subject: &Subject<'a>, constraint: &'a Constraint) -> Vec<View<'a>> {
+/// From where a constraint is looked at for a device: a configured node may break it for another device, too.
+pub(super) fn views<'a>(subject: &Subject<'a>, constraint: &'a Constraint) -> Vec<View<'a>> {
     let key = &subject.device.key;
-    let view = |from: &'a String| View { subject: *subject, from };
-    let is_seen_from = constraint.seen_from.contains(key);
-    match subject.node {
-        // Where it holds, the devices before do not matter.
-        None if is_seen_from && view(key).broken(constraint).is_none() => Vec::new(),
-        None if is_seen_from => {
-            let mut before = constraint.seen_from.iter().take_while(|from| *from != key).map(view);
-            let said_before = before.any(|view| view.broken(constraint).is_some());
-            constraint.seen_from.iter().filter(|from| *from == key && !said_before).map(view).collect()
-        }
-        Some(_) if is_seen_from => {
-            constraint.seen_from.iter().filter(|from| *from == key).map(view).collect()
-        }
-        Some(_) if constraint.devices.includes(key) => constraint.seen_from.iter().map(view).collect(),
-        None | Some(_) => Vec::new(),
+    let is_configured_part = subject.node.is_some() && constraint.devices.includes(key);
+    let from = constraint.seen_from.iter();
+    if constraint.seen_from.contains(key) {
+        from.filter(|from| *from == key).map(|from| View { subject: *subject, from }).collect()
+    } else {
+        from.filter(|_| is_configured_part).map(|from| View { subject: *subject, from }).collect()
     }
+}
+
+/// Whether a device before this one breaks the constraint already: of types, it is said once.
+fn is_said_before(subject: &Subject<'_>, constraint: &Constraint) -> bool {
+    let key = &subject.device.key;
+    let mut before = constraint.seen_from.iter().take_while(|from| *from != key);
+    subject.node.is_none() && before.any(|from| View { subject: *subject, from }.broken(constraint).is_some())
 }
 
 impl View<'_> {
@@ -83,6 +80,17 @@ impl View<'_> {
             Outcome::Fails { left, op, right } => Some(Broken { left, op, right }),
             Outcome::Holds | Outcome::Unknown => None,
         }
+    }
+
+    /// Why a constraint is not decided: a part of its `when` that cannot be worked out, or of what that asks for.
+    pub(super) fn incomputable<'c>(&self, constraint: &'c Constraint) -> Option<Incomputable<'c>> {
+        let counts = constraint.when.as_ref().map_or(Outcome::Holds, |when| when.evaluate(self));
+        let undecided = match counts {
+            Outcome::Holds => &constraint.require,
+            Outcome::Unknown => constraint.when.as_ref()?,
+            Outcome::Fails { .. } => return None,
+        };
+        undecided.incomputable(self).filter(|_| undecided.evaluate(self) == Outcome::Unknown)
     }
 
     /// Whether a setting that the constraint names lies outside its limits.

@@ -24,6 +24,7 @@ mod communication_indices_are_defined;
 mod communication_values_are_defined;
 mod constants_are_not_stored;
 mod constants_have_values;
+mod constraints_are_computable;
 mod constraints_hold;
 mod counts_agree;
 mod counts_are_constant;
@@ -148,6 +149,7 @@ pub(crate) static RULES: &[Rule] = &[
     bit_rates_are_standard::RULE,
     bit_rates_exist::RULE,
     constraints_hold::RULE,
+    constraints_are_computable::RULE,
     identity_agrees::RULE,
     set_entries_are_writable::RULE,
     locked_entries_are_not_set::RULE,

@@ -180,6 +180,21 @@ impl Expr {
         operands
     }
 
+    /// The first part of the condition that cannot be worked out with these values; none that only lacks a value.
+    pub fn incomputable(&self, values: &dyn Values) -> Option<Incomputable<'_>> {
+        self.comparisons().find_map(|comparison| {
+            let terms =
+                || [&comparison.first].into_iter().chain(comparison.rest.iter().map(|(_, term)| term));
+            let compared = || {
+                terms().zip(terms().skip(1)).find_map(|(left, right)| {
+                    let (a, b) = (left.evaluate(values)?, right.evaluate(values)?);
+                    a.compare(b).is_none().then_some(Incomputable::TooLarge(left))
+                })
+            };
+            terms().find_map(|term| term.incomputable(values)).or_else(compared)
+        })
+    }
+
     /// Whether the condition holds for these values. Of alternatives that all fail, the first is reported.
     pub fn evaluate(&self, values: &dyn Values) -> Outcome {
         let mut outcomes = self.alternatives.iter().map(|comparisons| all_hold(comparisons, values));
@@ -193,6 +208,15 @@ impl Expr {
         }
         outcome
     }
+}
+
+/// Why a condition cannot be worked out although all its values are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Incomputable<'t> {
+    /// This divisor is 0.
+    DivisorIsZero(&'t Term),
+    /// The numbers of this term, or of its comparison with the next one, need more than fractions of 128 bits.
+    TooLarge(&'t Term),
 }
 
 /// Whether comparisons all hold. A failing link is reported also where an earlier link is unknown.
@@ -239,6 +263,20 @@ impl Term {
         let mut operands = Vec::new();
         self.operands(&mut operands);
         !operands.is_empty()
+    }
+
+    /// The innermost part that cannot be worked out although its values are known.
+    fn incomputable(&self, values: &dyn Values) -> Option<Incomputable<'_>> {
+        let Term::Binary(left, op, right) = self else { return None };
+        left.incomputable(values).or_else(|| right.incomputable(values)).or_else(|| {
+            let divisor = (left.evaluate(values)?, right.evaluate(values)?).1;
+            let is_zero = *op == ArithmeticOp::Divide && divisor == Ratio::whole(0);
+            self.evaluate(values).is_none().then_some(if is_zero {
+                Incomputable::DivisorIsZero(right)
+            } else {
+                Incomputable::TooLarge(self)
+            })
+        })
     }
 
     /// Value of the term; `None` when something is missing.

@@ -29,7 +29,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 pub(crate) use arranged::{Course, Stuck};
-pub use condition::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outcome, Term, Values};
+pub use condition::{
+    ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Incomputable, Outcome, Term, Values,
+};
 pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
