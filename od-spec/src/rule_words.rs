@@ -327,7 +327,9 @@ fn faults_of_times() -> Vec<(&'static str, String)> {
 /// Faults of services and of profiles.
 fn faults_of_services() -> Vec<(&'static str, String)> {
     let drive = "DefaultValue=0x20192";
+    let io_module = "DefaultValue=0x20191";
     vec![
+        ("OD0844", var(0x1000, "device type", 7, "ro", io_module) + &var(0x6000, "inputs", 5, "ro", "")),
         ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x607A, "target position", 7, "rw", "")),
         ("OD0831", var(0x1000, "device type", 7, "ro", drive) + &var(0x6041, "statusword", 6, "rw", "")),
         ("OD0830", var(0x2000, "gain", 0x11, "rw", "DefaultValue=0.10000000000000000001")),

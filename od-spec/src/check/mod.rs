@@ -16,6 +16,7 @@ mod subject;
 mod arrays_have_one_type;
 mod bit_rates_are_standard;
 mod bit_rates_exist;
+mod channels_are_in_the_device_type;
 mod cob_ids_are_unrestricted;
 mod cob_ids_differ;
 mod commands_are_flagged;
@@ -171,6 +172,7 @@ pub(crate) static RULES: &[Rule] = &[
     predefined_cob_ids_are_kept::RULE,
     commands_are_flagged::RULE,
     device_type_is_kept::RULE,
+    channels_are_in_the_device_type::RULE,
     counts_are_constant::RULE,
     pdos_map_each_entry_once::RULE,
     pdos_can_be_switched_off::RULE,
