@@ -17,6 +17,8 @@ pub mod eds;
 mod expand;
 pub mod files;
 mod foreign;
+#[cfg(any(feature = "eds", feature = "json"))]
+mod hexadecimal;
 #[cfg(feature = "yaml")]
 pub mod import;
 #[cfg(feature = "json")]

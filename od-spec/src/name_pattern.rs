@@ -64,21 +64,25 @@ impl Placeholder {
     }
 
     /// As it is written between the braces.
-    pub fn text(self) -> String {
+    pub const fn text(self) -> &'static str {
         match self {
-            Self::Index => "index".to_owned(),
-            Self::Number { counted, from_zero, digits } => {
-                let counted = match counted {
-                    Counted::Pdo => "pdo",
-                    Counted::Entry => "n",
-                };
-                let digits = match digits {
-                    Digits::Decimal => "",
-                    Digits::LowerHex => ":x",
-                    Digits::UpperHex => ":X",
-                };
-                format!("{counted}{}{digits}", if from_zero { "-1" } else { "" })
-            }
+            Self::Index => "index",
+            Self::Number { counted: Counted::Pdo, from_zero, digits } => match (digits, from_zero) {
+                (Digits::Decimal, false) => "pdo",
+                (Digits::Decimal, true) => "pdo-1",
+                (Digits::LowerHex, false) => "pdo:x",
+                (Digits::LowerHex, true) => "pdo-1:x",
+                (Digits::UpperHex, false) => "pdo:X",
+                (Digits::UpperHex, true) => "pdo-1:X",
+            },
+            Self::Number { counted: Counted::Entry, from_zero, digits } => match (digits, from_zero) {
+                (Digits::Decimal, false) => "n",
+                (Digits::Decimal, true) => "n-1",
+                (Digits::LowerHex, false) => "n:x",
+                (Digits::LowerHex, true) => "n-1:x",
+                (Digits::UpperHex, false) => "n:X",
+                (Digits::UpperHex, true) => "n-1:X",
+            },
         }
     }
 

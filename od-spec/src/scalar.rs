@@ -1,7 +1,5 @@
 //! What the text of a scalar means, by the type that its place expects.
 
-use std::borrow::Cow;
-
 use crate::model::Ratio;
 
 /// Why a text is not a number.
@@ -43,22 +41,18 @@ pub fn integer(text: &str) -> Result<i128, NumberError> {
         Some("0o" | "0O") => (8, &digits[2..]),
         _ => (10, digits),
     };
-    let well_formed = !digits.is_empty()
-        && !digits.starts_with('_')
-        && !digits.ends_with('_')
-        && digits.chars().all(|c| c == '_' || c.is_digit(radix));
-    if !well_formed {
+    if digits.is_empty() || digits.starts_with('_') || digits.ends_with('_') {
         return Err(NumberError::NotANumber);
+    }
+    let mut value = Some(0u64);
+    for c in digits.chars().filter(|c| *c != '_') {
+        let digit = c.to_digit(radix).ok_or(NumberError::NotANumber)?;
+        value = value.and_then(|value| value.checked_mul(radix.into())?.checked_add(digit.into()));
     }
     if radix == 10 && digits.len() > 1 && digits.starts_with('0') {
         return Err(NumberError::LeadingZero);
     }
-    let digits =
-        if digits.contains('_') { Cow::Owned(digits.replace('_', "")) } else { Cow::Borrowed(digits) };
-    let value = i128::from_str_radix(&digits, radix).map_err(|_| NumberError::TooLarge)?;
-    if value > i128::from(u64::MAX) {
-        return Err(NumberError::TooLarge);
-    }
+    let value = value.map(i128::from).ok_or(NumberError::TooLarge)?;
     Ok(if negative { -value } else { value })
 }
 

@@ -81,10 +81,9 @@ fn bits(field: &BitField) -> Option<String> {
     if field.usage != BitUsage::Used {
         return None;
     }
-    let position = if field.first == field.last {
-        format!("bit {}", field.first)
+    Some(if field.first == field.last {
+        format!("bit {}: {}", field.first, field.name)
     } else {
-        format!("bits {}..{}", field.first, field.last)
-    };
-    Some(format!("{position}: {}", field.name))
+        format!("bits {}..{}: {}", field.first, field.last, field.name)
+    })
 }

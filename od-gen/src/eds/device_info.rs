@@ -41,7 +41,7 @@ pub(super) fn write_channels(document: &mut Document<'_>, device: &Dictionary) {
     let mut section = SectionWriter::new("DynamicChannels", &[]);
     section.key("NrOfSeg", channels.len());
     for (number, channel) in (1..).zip(channels) {
-        section.key(&format!("Type{number}"), format_args!("0x{:04X}", channel.data_type.code()));
+        section.hexadecimal(&format!("Type{number}"), channel.data_type.code(), 4);
         section.key(&format!("Dir{number}"), channel.access.word());
         let (first, last) = (channel.first.0, channel.last.0);
         section.key(&format!("Range{number}"), format_args!("0x{first:04X}-0x{last:04X}"));

@@ -17,8 +17,8 @@ pub(super) fn write(
     let is_domain = entry.data_type == DataType::Domain;
     let kind = if is_domain { ObjectKind::Domain } else { ObjectKind::Var };
     section.text("ParameterName", name);
-    section.key("ObjectType", format_args!("0x{:X}", kind.code()));
-    section.key("DataType", format_args!("0x{:04X}", entry.data_type.code()));
+    section.hexadecimal("ObjectType", kind.code(), 1);
+    section.hexadecimal("DataType", entry.data_type.code(), 4);
     let (low, high) = entry.hull();
     if let Some(low) = low {
         section.key("LowLimit", low);

@@ -6,7 +6,7 @@ use od_spec::{Commissioning, Denoted};
 
 use super::comments;
 use super::entry;
-use super::writer::SectionWriter;
+use super::writer::{SectionWriter, entry_section, object_section};
 
 /// The list that an object stands in.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub(super) fn write(
         let mut section = SectionWriter::new(list.section(), &[]);
         section.key("SupportedObjects", objects.len());
         for (number, object) in (1..).zip(&objects) {
-            section.key(&number.to_string(), format_args!("0x{:04X}", object.index.0));
+            section.hexadecimal(&number.to_string(), object.index.0, 4);
         }
         section.finish(document);
         for object in objects {
@@ -66,29 +66,27 @@ fn write_object(
     node: Option<&Commissioning>,
 ) {
     let language = system.language();
-    let index = object.index.0;
+    let name = object_section(object.index);
     if !object.is_structured() {
         for var in &object.entries {
-            let mut section = SectionWriter::new(
-                &format!("{index:X}"),
-                &comments::entry(device, object.index, var, language),
-            );
+            let mut section =
+                SectionWriter::new(&name, &comments::entry(device, object.index, var, language));
             entry::write(&mut section, object, var, &object.name, node);
             section.finish(document);
         }
         write_links(document, object);
         return;
     }
-    let mut section = SectionWriter::new(&format!("{index:X}"), &comments::object(object, language));
+    let mut section = SectionWriter::new(&name, &comments::object(object, language));
     section.key("SubNumber", object.entries.len());
     section.text("ParameterName", &object.name);
-    section.key("ObjectType", format_args!("0x{:X}", object.kind.code()));
+    section.hexadecimal("ObjectType", object.kind.code(), 1);
     if let Some(node) = node {
         entry::denotation(&mut section, node, Denoted::object(object.index));
     }
     section.finish(document);
     for member in &object.entries {
-        let name = format!("{index:X}sub{:X}", member.sub.0);
+        let name = entry_section(object.index, member.sub);
         let mut section = SectionWriter::new(&name, &comments::entry(device, object.index, member, language));
         entry::write(&mut section, object, member, &member.name, node);
         section.finish(document);
@@ -104,7 +102,7 @@ fn write_links(document: &mut Document<'_>, object: &Object) {
     let mut section = SectionWriter::new(&format!("{:X}ObjectLinks", object.index.0), &[]);
     section.key("ObjectLinks", object.links.len());
     for (number, index) in (1..).zip(object.linked()) {
-        section.key(&number.to_string(), format_args!("0x{:04X}", index.0));
+        section.hexadecimal(&number.to_string(), index.0, 4);
     }
     section.finish(document);
 }

@@ -5,6 +5,9 @@ use std::fmt::Display;
 
 use od_spec::ascii::{in_ascii, is_printable, transliterate};
 use od_spec::eds::{Document, Section};
+use od_spec::model::{Index, SubIndex};
+
+use crate::hexadecimal;
 
 /// Longest line without its line break (CiA 306 4.2).
 const LONGEST_LINE: usize = 255;
@@ -25,6 +28,11 @@ impl SectionWriter {
     /// A key and its value.
     pub(super) fn key(&mut self, key: &str, value: impl Display) {
         self.text(key, &value.to_string());
+    }
+
+    /// A key and a number in hexadecimal digits, at least so many.
+    pub(super) fn hexadecimal(&mut self, key: &str, number: impl Into<u64>, digits: usize) {
+        self.text(key, &hexadecimal::prefixed(number, digits));
     }
 
     /// A key and a text, which is transliterated and cut to the line length.
@@ -54,6 +62,21 @@ impl SectionWriter {
     pub(super) fn finish(self, document: &mut Document<'_>) {
         document.push(self.0);
     }
+}
+
+/// The name of an object's section.
+pub(super) fn object_section(index: Index) -> String {
+    let mut name = String::with_capacity(16);
+    hexadecimal::push(&mut name, index.0, 1);
+    name
+}
+
+/// The name of an entry's section.
+pub(super) fn entry_section(index: Index, sub: SubIndex) -> String {
+    let mut name = object_section(index);
+    name.push_str("sub");
+    hexadecimal::push(&mut name, sub.0, 1);
+    name
 }
 
 /// The longest value of a key.
@@ -94,7 +117,13 @@ fn is_line(comment: &str) -> bool {
         && (1..=COMMENT_WIDTH - 2).contains(&comment.len())
         && !comment.starts_with(' ')
         && !comment.ends_with(' ')
-        && !comment.as_bytes().windows(2).any(|pair| pair == b"  ")
+        && !has_two_blanks(comment.as_bytes())
+}
+
+/// Whether two blanks follow one another.
+fn has_two_blanks(text: &[u8]) -> bool {
+    // Without an end in between, the compiler looks at many bytes at once.
+    text.iter().zip(text.iter().skip(1)).filter(|pair| *pair == (&b' ', &b' ')).count() > 0
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
 use super::{Words, date_time, entry_id, index, integer, ratio, words};
+use crate::hexadecimal;
 
 const WORDING: Wording = Wording::english(Notation::Json);
 
@@ -265,7 +266,7 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
             .bit_errors
             .iter()
             .map(|errors| {
-                let codes: Vec<String> = errors.error_codes().map(|code| format!("0x{code:04X}")).collect();
+                let codes: Vec<String> = errors.error_codes().map(|code| hexadecimal::prefixed(code, 4)).collect();
                 json!({"bit": errors.bit, "errors": codes})
             })
             .collect(),

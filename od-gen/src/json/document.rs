@@ -7,6 +7,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::{Words, date, index, words};
+use crate::hexadecimal;
 
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -65,7 +66,11 @@ fn issue(issue: &model::Issue) -> IssueView<'_> {
 fn table(table: &Table) -> TableView<'_> {
     let indices = |list: &[model::Index]| list.iter().map(|one| index(*one)).collect::<Vec<_>>();
     let codes = |list: &[u16]| -> Json {
-        if list.is_empty() { json!("all") } else { list.iter().map(|code| format!("0x{code:04X}")).collect() }
+        if list.is_empty() {
+            json!("all")
+        } else {
+            list.iter().map(|code| hexadecimal::prefixed(*code, 4)).collect()
+        }
     };
     let content = match &table.content {
         TableContent::Overview(list) => json!({"overview": indices(list)}),

@@ -19,6 +19,8 @@ use node::NodeView;
 use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
 use types::{TypeView, UnitView};
 
+use crate::hexadecimal;
+
 /// Version of the format; raised when a consumer would have to change.
 const FORMAT: u32 = 1;
 
@@ -93,7 +95,7 @@ const fn words(text: &Text) -> Words<'_> {
 }
 
 fn index(index: model::Index) -> String {
-    format!("0x{:04X}", index.0)
+    hexadecimal::prefixed(index.0, 4)
 }
 
 /// `0x6040`, or `0x30FA.3` for a sub-index other than 0.

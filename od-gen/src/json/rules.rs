@@ -7,6 +7,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::{Words, entry_id, index, words};
+use crate::hexadecimal;
 
 #[derive(Serialize)]
 pub(super) struct ErrorView<'a> {
@@ -20,7 +21,7 @@ pub(super) struct ErrorView<'a> {
 
 pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
     ErrorView {
-        code: format!("0x{:04X}", error.code),
+        code: hexadecimal::prefixed(error.code, 4),
         name: &error.name,
         on: error.devices.keys(),
         priority: error.priority.as_deref(),

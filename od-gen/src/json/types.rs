@@ -5,6 +5,7 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::{Words, integer, ratio, words};
+use crate::hexadecimal;
 
 #[derive(Serialize)]
 pub(super) struct UnitView<'a> {
@@ -102,7 +103,7 @@ fn bit_view(field: &BitField) -> BitView<'_> {
         },
         name: &field.name,
         about: words(&field.about),
-        errors: field.error_codes().map(|code| format!("0x{code:04X}")).collect(),
+        errors: field.error_codes().map(|code| hexadecimal::prefixed(code, 4)).collect(),
         clamp: field.clamp.as_deref(),
         active: field.active,
         edge: field.edge.map(model::Edge::word),

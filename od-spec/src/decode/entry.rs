@@ -15,13 +15,17 @@ macro_rules! entry_reader {
         $($key:literal: $shape:expr => $field:ident: $type:ty, $fact:ident, $reach:ident, $about:literal
             $(, $example:literal)? $(, sub0 $sub0:literal)?;)+
     })+) => {
-        /// Reads the keys of an entry as far as they stand there.
+        /// Reads the keys of an entry as far as they stand there. An entry has few of them: it is quicker to ask each which
+        /// field it fills than to look for the key of each field.
         fn written(reader: Reader<'_>, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
-            EntryDecl {
-                span,
-                unsure: false,
-                $($($field: Field::read(reader, $key, diagnostics),)+)+
+            let mut entry = EntryDecl { span, unsure: false, $($($field: Default::default(),)+)+ };
+            for (name, _) in reader.node.entries() {
+                match name.value.as_str() {
+                    $($($key => entry.$field = Field::read(reader, $key, diagnostics),)+)+
+                    _ => {}
+                }
             }
+            entry
         }
     };
 }

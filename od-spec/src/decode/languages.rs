@@ -20,7 +20,7 @@ fn in_map(node: &Node, keys: &Keys, listed: &[&str], diagnostics: &mut Diagnosti
     // A scalar is in the first language, or in none.
     let parents = node.entries().iter().filter(|(_, value)| !matches!(value.kind, NodeKind::Scalar { .. }));
     for (name, value) in parents {
-        if let Some(key) = keys.keys.iter().find(|key| key.name == name.value) {
+        if let Some(key) = keys.get(&name.value) {
             in_value(value, key.shape, listed, diagnostics);
         }
     }

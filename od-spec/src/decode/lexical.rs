@@ -102,15 +102,23 @@ pub(crate) fn run_with_0x(text: &str) -> Option<String> {
     run_by_index(&meant).map(|_| meant)
 }
 
+/// A run of something, or one alone, which is the first and the last.
+fn run<T: Copy + PartialOrd>(text: &str, one: impl Fn(&str) -> Option<T>) -> Option<(T, T)> {
+    // Nearly all stand alone.
+    let Some(dots) = text.as_bytes().windows(2).position(|pair| pair == b"..") else {
+        return one(text.trim()).map(|one| (one, one));
+    };
+    let (first, last) = (one(text[..dots].trim())?, one(text[dots + 2..].trim())?);
+    (first <= last).then_some((first, last))
+}
+
 /// `5`, or `1..4`: sub-indices of elements or members.
 pub(crate) fn sub_indices(text: &str) -> Option<SubIndexRange> {
     let number = |text: &str| {
-        let number = u8::try_from(scalar::integer(text.trim()).ok()?).ok()?;
+        let number = u8::try_from(scalar::integer(text).ok()?).ok()?;
         (1..=254).contains(&number).then_some(SubIndex(number))
     };
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    let (first, last) = (number(first)?, number(last)?);
-    (first <= last).then_some(SubIndexRange { first, last })
+    run(text, number).map(|(first, last)| SubIndexRange { first, last })
 }
 
 /// The other way round, a run that ends before it begins: `1..4` of `4..1`.
@@ -134,25 +142,19 @@ pub(crate) fn looks_like_index(text: &str) -> bool {
 
 /// `5` or `0..3`.
 pub(crate) fn bits(text: &str) -> Option<BitRange> {
-    let number = |text: &str| u8::try_from(scalar::integer(text.trim()).ok()?).ok().filter(|bit| *bit < 64);
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    let (first, last) = (number(first)?, number(last)?);
-    (first <= last).then_some(BitRange { first, last })
+    let number = |text: &str| u8::try_from(scalar::integer(text).ok()?).ok().filter(|bit| *bit < 64);
+    run(text, number).map(|(first, last)| BitRange { first, last })
 }
 
 /// `4`, or `0..11`.
 pub(crate) fn numbers(text: &str) -> Option<NumberRange> {
-    let number = |text: &str| u8::try_from(scalar::integer(text.trim()).ok()?).ok();
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    let (first, last) = (number(first)?, number(last)?);
-    (first <= last).then_some(NumberRange { first, last })
+    let number = |text: &str| u8::try_from(scalar::integer(text).ok()?).ok();
+    run(text, number).map(|(first, last)| NumberRange { first, last })
 }
 
 /// `0x3280` or `0x3281..0x3288`.
 pub(crate) fn error_codes(text: &str) -> Option<CodeRange> {
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    let (first, last) = (u16_in_hexadecimal(first.trim())?, u16_in_hexadecimal(last.trim())?);
-    (first <= last).then_some(CodeRange { first, last })
+    run(text, u16_in_hexadecimal).map(|(first, last)| CodeRange { first, last })
 }
 
 /// `0x3280`; a code that lacks its `0x` was refused, and is that code all the same.
@@ -170,12 +172,7 @@ pub fn is_device_key(text: &str) -> bool {
 
 /// `0x6040`, or `0x3511..0x3519`.
 pub(crate) fn indices(text: &str) -> Option<IndexRange> {
-    let Some((first, last)) = text.split_once("..") else {
-        let single = index(text.trim())?;
-        return Some(IndexRange { first: single, last: single });
-    };
-    let (first, last) = (index(first.trim())?, index(last.trim())?);
-    (first <= last).then_some(IndexRange { first, last })
+    run(text, index).map(|(first, last)| IndexRange { first, last })
 }
 
 /// `2009-05-27`, a day that exists.

@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
 
     /// Whether a key was refused, or the node is no map at all.
     pub(super) fn has_unknown_key(self, keys: &Keys) -> bool {
-        let known = |name: &str| keys.keys.iter().any(|key| key.name == name);
+        let known = |name: &str| keys.get(name).is_some();
         let mut names = self.node.entries().iter().map(|(name, _)| name.value.as_str());
         !matches!(self.node.kind, NodeKind::Map(_)) || names.any(|name| !known(name))
     }

@@ -22,7 +22,7 @@ pub(super) fn check_map(node: &mut Node, keys: &Keys, owner: Span, diagnostics: 
     let missing: Vec<&Key> = keys.keys.iter().filter(missing).collect();
     let mut misspelt = Vec::new();
     for (name, value) in entries {
-        match keys.keys.iter().find(|key| key.name == name.value) {
+        match keys.get(&name.value) {
             Some(key) => check(value, key.shape, name.span, diagnostics),
             None if name.value == MERGE => {}
             None => {
@@ -94,7 +94,7 @@ fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &
 /// What `name:input` was meant to be, where `name` is a key.
 fn without_blank(text: &str, keys: &Keys) -> Option<String> {
     let (key, value) = text.split_once(':')?;
-    let is_pair = !value.is_empty() && keys.keys.iter().any(|known| known.name == key);
+    let is_pair = !value.is_empty() && keys.get(key).is_some();
     is_pair.then(|| format!("{key}: {value}"))
 }
 

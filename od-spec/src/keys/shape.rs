@@ -9,6 +9,15 @@ pub struct Keys {
     pub keys: &'static [Key],
 }
 
+impl Keys {
+    /// The key of a name.
+    pub fn get(&self, name: &str) -> Option<&'static Key> {
+        let first = name.as_bytes().first();
+        // Most keys begin otherwise: there is no need to compare the rest.
+        self.keys.iter().find(|key| key.name.as_bytes().first() == first && key.name == name)
+    }
+}
+
 /// One key.
 #[derive(Debug, Clone, Copy)]
 pub struct Key {
@@ -136,7 +145,7 @@ const FORMER_NAMES: [(&str, &str); 1] = [("on", "devices")];
 /// The name that a key of this map has today, if this is a former one.
 pub fn name_today(name: &str, keys: &Keys) -> Option<&'static str> {
     let (_, today) = FORMER_NAMES.iter().find(|(former, _)| *former == name)?;
-    keys.keys.iter().any(|key| key.name == *today).then_some(*today)
+    keys.get(today).map(|key| key.name)
 }
 
 /// The version of the language that the compiler reads.

@@ -183,15 +183,22 @@ impl Expr {
     /// The first part of the condition that cannot be worked out with these values; none that only lacks a value.
     pub fn incomputable(&self, values: &dyn Values) -> Option<Incomputable<'_>> {
         self.comparisons().find_map(|comparison| {
-            let terms =
-                || [&comparison.first].into_iter().chain(comparison.rest.iter().map(|(_, term)| term));
+            let terms = [&comparison.first].into_iter().chain(comparison.rest.iter().map(|(_, term)| term));
+            let computed: Vec<(&Term, Result<Ratio, NoValue<'_>>)> =
+                terms.map(|term| (term, term.compute(values))).collect();
+            let of_terms = computed.iter().find_map(|(_, computed)| match computed {
+                Err(NoValue::Incomputable(incomputable)) => Some(*incomputable),
+                Ok(_) | Err(NoValue::Missing) => None,
+            });
             let compared = || {
-                terms().zip(terms().skip(1)).find_map(|(left, right)| {
-                    let (a, b) = (left.evaluate(values)?, right.evaluate(values)?);
-                    a.compare(b).is_none().then_some(Incomputable::TooLarge(left))
+                computed.windows(2).find_map(|pair| match pair {
+                    [(term, Ok(left)), (_, Ok(right))] if left.compare(*right).is_none() => {
+                        Some(Incomputable::TooLarge(term))
+                    }
+                    _ => None,
                 })
             };
-            terms().find_map(|term| term.incomputable(values)).or_else(compared)
+            of_terms.or_else(compared)
         })
     }
 
@@ -217,6 +224,15 @@ pub enum Incomputable<'t> {
     DivisorIsZero(&'t Term),
     /// The numbers of this term, or of its comparison with the next one, need more than fractions of 128 bits.
     TooLarge(&'t Term),
+}
+
+/// Why a term has no value.
+#[derive(Debug, Clone, Copy)]
+enum NoValue<'t> {
+    /// An entry of it has none.
+    Missing,
+    /// All its entries have one.
+    Incomputable(Incomputable<'t>),
 }
 
 /// Whether comparisons all hold. A failing link is reported also where an earlier link is unknown.
@@ -265,34 +281,39 @@ impl Term {
         !operands.is_empty()
     }
 
-    /// The innermost part that cannot be worked out although its values are known.
-    fn incomputable(&self, values: &dyn Values) -> Option<Incomputable<'_>> {
-        let Term::Binary(left, op, right) = self else { return None };
-        left.incomputable(values).or_else(|| right.incomputable(values)).or_else(|| {
-            let divisor = (left.evaluate(values)?, right.evaluate(values)?).1;
-            let is_zero = *op == ArithmeticOp::Divide && divisor == Ratio::whole(0);
-            self.evaluate(values).is_none().then_some(if is_zero {
-                Incomputable::DivisorIsZero(right)
-            } else {
-                Incomputable::TooLarge(self)
-            })
-        })
+    /// Value of the term; `None` when something is missing or cannot be worked out.
+    pub fn evaluate(&self, values: &dyn Values) -> Option<Ratio> {
+        self.compute(values).ok()
     }
 
-    /// Value of the term; `None` when something is missing.
-    pub fn evaluate(&self, values: &dyn Values) -> Option<Ratio> {
+    /// Value of the term. What cannot be worked out counts before what is missing.
+    fn compute(&self, values: &dyn Values) -> Result<Ratio, NoValue<'_>> {
         match self {
-            Term::Number(number) => Some(*number),
-            Term::Entry(entry) => values.value(entry),
-            Term::Bit(entry, bit) => Some(Ratio::whole(values.raw(entry)?.checked_shr(u32::from(*bit))? & 1)),
+            Term::Number(number) => Ok(*number),
+            Term::Entry(entry) => values.value(entry).ok_or(NoValue::Missing),
+            Term::Bit(entry, bit) => {
+                let raw = values.raw(entry).and_then(|raw| raw.checked_shr(u32::from(*bit)));
+                raw.map(|raw| Ratio::whole(raw & 1)).ok_or(NoValue::Missing)
+            }
             Term::Binary(left, op, right) => {
-                let (left, right) = (left.evaluate(values)?, right.evaluate(values)?);
-                match op {
-                    ArithmeticOp::Add => left.checked_add(right),
-                    ArithmeticOp::Subtract => left.checked_sub(right),
-                    ArithmeticOp::Multiply => left.checked_mul(right),
-                    ArithmeticOp::Divide => left.checked_div(right),
-                }
+                let computed = match (left.compute(values), right.compute(values)) {
+                    (Ok(left), Ok(right)) => (left, right),
+                    (Ok(_) | Err(NoValue::Missing), Err(no_value)) | (Err(no_value), _) => {
+                        return Err(no_value);
+                    }
+                };
+                let value = match op {
+                    ArithmeticOp::Add => computed.0.checked_add(computed.1),
+                    ArithmeticOp::Subtract => computed.0.checked_sub(computed.1),
+                    ArithmeticOp::Multiply => computed.0.checked_mul(computed.1),
+                    ArithmeticOp::Divide => computed.0.checked_div(computed.1),
+                };
+                let is_zero = *op == ArithmeticOp::Divide && computed.1 == Ratio::whole(0);
+                value.ok_or(NoValue::Incomputable(if is_zero {
+                    Incomputable::DivisorIsZero(right)
+                } else {
+                    Incomputable::TooLarge(self)
+                }))
             }
         }
     }
