@@ -1,10 +1,10 @@
-//! The manual's chapters, with the tables that the devices shown have something of.
+//! The manual's chapters, with the texts and tables that concern the devices shown.
 
-use od_spec::model::TableId;
+use od_spec::model::{self, Prose, ProseKind, TableId, Text};
 
-use crate::outline::section_anchor;
+use crate::outline::{ChapterPlan, section_anchor};
 use crate::source::Source;
-use crate::view::{Chapter, Section, Table};
+use crate::view::{Cell, Chapter, Content, Section, Table};
 
 impl Source<'_> {
     /// Chapters that have something to show, or have sections that do.
@@ -12,24 +12,23 @@ impl Source<'_> {
         let partial = self.devices.len() < self.system.devices.len();
         let mut chapters = Vec::new();
         for chapter in self.outline.chapters() {
+            let tables: Vec<Vec<Option<Table>>> =
+                chapter.sections.iter().map(|plan| self.tables_of(plan.position)).collect();
+            let is_shown = |at: usize| !partial || concerns(chapter, &tables, at);
             let mut views: Vec<Section> = Vec::new();
-            for plan in &chapter.sections {
-                let section = &self.document().sections[plan.position];
-                let ids = (0..section.tables.len()).map(|table| TableId { section: plan.position, table });
-                let tables: Vec<Table> = ids.filter_map(|id| self.table(id)).collect();
-                if partial && tables.is_empty() && !section.tables.is_empty() {
+            for (at, (plan, tables)) in chapter.sections.iter().zip(&tables).enumerate() {
+                if !is_shown(at) {
                     continue;
                 }
+                let section = &self.document().sections[plan.position];
                 views.push(Section {
                     number: section.number.clone(),
                     title: self.text(&section.title),
                     anchor: section_anchor(self.document(), plan.position),
                     level: plan.level,
-                    tables,
+                    content: self.content(section, tables),
+                    tables: tables.iter().flatten().cloned().collect(),
                 });
-            }
-            if partial {
-                remove_empty(&mut views);
             }
             let Some(first) = views.first() else { continue };
             chapters.push(Chapter {
@@ -41,16 +40,76 @@ impl Source<'_> {
         }
         chapters
     }
+
+    /// The tables of a section; `None` for each that the devices shown have nothing of.
+    fn tables_of(&self, section: usize) -> Vec<Option<Table>> {
+        let count = self.document().sections[section].tables.len();
+        (0..count).map(|table| self.table(TableId { section, table })).collect()
+    }
+
+    /// What stands in a section, without the tables that are not shown.
+    fn content(&self, section: &model::Section, tables: &[Option<Table>]) -> Vec<Content> {
+        let mut shown = 0..;
+        let positions: Vec<Option<usize>> =
+            tables.iter().map(|table| table.is_some().then(|| shown.next()).flatten()).collect();
+        let of_part = |part: &model::Content| match part {
+            model::Content::Table(table) => {
+                let position = positions.get(*table).copied().flatten()?;
+                Some(Content { kind: "table", table: Some(position), items: Vec::new() })
+            }
+            model::Content::Prose(prose) => Some(self.prose(prose)),
+        };
+        section.content.iter().filter_map(of_part).collect()
+    }
+
+    fn prose(&self, prose: &Prose) -> Content {
+        let items = match prose.kind {
+            ProseKind::Steps | ProseKind::List => prose.items.iter().map(|item| self.text(item)).collect(),
+            ProseKind::Text | ProseKind::Note | ProseKind::Warning | ProseKind::Formula => {
+                prose.items.iter().flat_map(|text| self.lines(text)).collect()
+            }
+        };
+        Content { kind: prose.kind.word(), table: None, items }
+    }
+
+    /// The lines of a text in the language of the document, or else in its first one.
+    fn lines(&self, text: &Text) -> Vec<Cell> {
+        let is_ours = |(code, _): &(&str, &str)| *code == self.language.code;
+        let Some((code, words)) = text.iter().find(is_ours).or_else(|| text.iter().next()) else {
+            return Vec::new();
+        };
+        let lines = words.lines().map(str::trim).filter(|line| !line.is_empty());
+        lines.map(|line| self.text(&Text::new([(code, line)]))).collect()
+    }
 }
 
-/// Removes headings below which nothing is left.
-fn remove_empty(sections: &mut Vec<Section>) {
-    let mut at = sections.len();
-    while at > 0 {
-        at -= 1;
-        let below = sections.get(at + 1).is_some_and(|next| next.level > sections[at].level);
-        if sections[at].tables.is_empty() && !below {
-            sections.remove(at);
+/// Whether a section of a chapter concerns the devices shown, where others are not: it has a table of theirs, or one stands below
+/// it. A section of texts concerns whom the tables around it do.
+fn concerns(chapter: &ChapterPlan, tables: &[Vec<Option<Table>>], at: usize) -> bool {
+    let mut around = at;
+    loop {
+        let below = below(chapter, around);
+        let mut all = tables[below].iter().flatten().peekable();
+        if all.peek().is_some() {
+            return all.any(Option::is_some);
+        }
+        match above(chapter, around) {
+            Some(parent) => around = parent,
+            // There is no table at all: it concerns everyone.
+            None => return true,
         }
     }
+}
+
+/// A section and those below it.
+fn below(chapter: &ChapterPlan, at: usize) -> std::ops::Range<usize> {
+    let level = chapter.sections[at].level;
+    let next = chapter.sections[at + 1..].iter().position(|plan| plan.level <= level);
+    at..next.map_or(chapter.sections.len(), |next| at + 1 + next)
+}
+
+/// The section that a section stands in.
+fn above(chapter: &ChapterPlan, at: usize) -> Option<usize> {
+    let level = chapter.sections[at].level;
+    chapter.sections[..at].iter().rposition(|plan| plan.level < level)
 }

@@ -122,6 +122,7 @@ words! {
     Description "description": "Description", "Beschreibung";
     Name "name": "Name", "Name";
     No "no": "no", "nein";
+    Note "note": "Note", "Hinweis";
     NoMatch "no_match":
         "Nothing fits. Escape clears the search.",
         "Nichts passt. Esc leert die Suche.";
@@ -198,6 +199,7 @@ words! {
     Value "value": "Value", "Wert";
     Values "values": "Values", "Werte";
     Vendor "vendor": "Vendor", "Hersteller";
+    Warning "warning": "Warning", "Warnung";
     WritableWhen "writable_when": "Writable while", "Schreibbar, solange";
     Yes "yes": "yes", "ja";
 }

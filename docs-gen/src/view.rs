@@ -71,6 +71,19 @@ pub struct Section {
     pub level: usize,
     /// Tables that stand in it.
     pub tables: Vec<Table>,
+    /// What stands in it, in order.
+    pub content: Vec<Content>,
+}
+
+/// A table or a text of a section.
+#[derive(Debug, Clone, Serialize)]
+pub struct Content {
+    /// `table`, `text`, `note`, `warning`, `steps`, `list` or `formula`.
+    pub kind: &'static str,
+    /// Position of the table in the section's tables.
+    pub table: Option<usize>,
+    /// Paragraphs, formulas or the items of a list.
+    pub items: Vec<Cell>,
 }
 
 /// A table, or several grids under one caption.

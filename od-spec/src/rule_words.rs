@@ -34,7 +34,7 @@ const CHAPTERS: [&Keys; 29] = [
     &keys::TRANSITION,
     &keys::ERRATUM,
     &keys::SECTION,
-    &keys::TABLE,
+    &keys::CONTENT,
     &keys::ARRAY,
     &keys::OBJECT,
     &keys::SUB0,

@@ -142,7 +142,7 @@ fn every_notation_of_a_valid_value_is_accepted() {
         "units: {a: {symbol: V, scale: 0.1}, b: {symbol: V, scale: 1 / 10, base: 1/1000 V}, c: {symbol: 1, base: 60 s}}",
         "pdos: {pump: {receive: {0x1: {map: [0x6040, a.b, 8192.1, unsigned8]}}, transmit: }}",
         "errors: {0x1000..0x1FFF: {name: 1}, 8192: {name: b}, \"0xFF_00\": {name: c}}",
-        "document: [{title: a, tables: [{errors: all}, {errors: [0x1000, 4096]}, {rows: {columns: [1], rows: [[0], [{de: b}]]}}]}]",
+        "document: [{title: a, content: [{errors: all}, {errors: [0x1000, 4096]}, {rows: {columns: [1], rows: [[0], [{de: b}]]}}]}]",
         "state-machines: {m: {status: a, command: 0x6040, states: {s: {pattern: 00000001}}, transitions: {0x0: {from: start, to: s, event: e}}}}",
         "history: [{number: 1.00, date: 2008-02-29}]\nerrata:",
     ] {

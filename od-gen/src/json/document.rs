@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::model::{self, System, Table, TableContent};
+use od_spec::model::{self, Content, System, Table, TableContent};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -31,6 +31,15 @@ struct SectionView<'a> {
     section: &'a str,
     title: Words<'a>,
     tables: Vec<TableView<'a>>,
+    content: Vec<ContentView<'a>>,
+}
+
+/// What stands in a section, in order: the position of a table, or a text.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ContentView<'a> {
+    Table(usize),
+    Prose { kind: &'static str, items: Vec<Words<'a>> },
 }
 
 #[derive(Serialize)]
@@ -54,6 +63,7 @@ pub(super) fn document(system: &System) -> DocumentView<'_> {
                 section: &section.number,
                 title: words(&section.title),
                 tables: section.tables.iter().map(table).collect(),
+                content: section.content.iter().map(content).collect(),
             })
             .collect(),
     }
@@ -61,6 +71,15 @@ pub(super) fn document(system: &System) -> DocumentView<'_> {
 
 fn issue(issue: &model::Issue) -> IssueView<'_> {
     IssueView { number: &issue.number, date: date(issue.date), about: words(&issue.about) }
+}
+
+fn content(content: &Content) -> ContentView<'_> {
+    match content {
+        Content::Table(table) => ContentView::Table(*table),
+        Content::Prose(prose) => {
+            ContentView::Prose { kind: prose.kind.word(), items: prose.items.iter().map(words).collect() }
+        }
+    }
 }
 
 fn table(table: &Table) -> TableView<'_> {

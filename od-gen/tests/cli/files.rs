@@ -157,7 +157,7 @@ fn every_kind_of_generated_file_is_known_as_one() {
             "lamp.od.yaml",
             LAMP.replace(
                 "title: Lamp",
-                &format!("title: {title}\ndocument:\n  - {{section: '1', title: {title}, tables: [{{title: All, overview: [0x2000]}}]}}"),
+                &format!("title: {title}\ndocument:\n  - {{section: '1', title: {title}, content: [{{title: All, overview: [0x2000]}}]}}"),
             )
             .replace("name: Lamp,", &format!("name: {title},")),
         );

@@ -11,8 +11,8 @@ use crate::keys::{
     machine_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
 };
 use crate::model::{
-    Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, Ratio,
-    Rounding, SubIndex, Text,
+    Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, ProseKind,
+    Ratio, Rounding, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -435,22 +435,24 @@ erratum_keys! { declaration
 pub(crate) struct SectionDecl {
     pub number: Option<Name>,
     pub title: Words,
-    pub tables: Vec<TableDecl>,
+    pub content: Vec<PartDecl>,
 }
 
+/// A text or table of a section.
 #[derive(Debug)]
-pub(crate) struct TableDecl {
+pub(crate) struct PartDecl {
     /// A key was refused.
     pub unsure: bool,
     pub span: Span,
     pub number: Option<Spanned<i128>>,
     pub title: Words,
-    /// The keys that say what fills the table; exactly one is right.
+    /// The keys that say what it is; exactly one is right.
     pub contents: Vec<Spanned<ContentDecl>>,
 }
 
 #[derive(Debug)]
 pub(crate) enum ContentDecl {
+    Prose(ProseKind, Vec<Text>),
     Overview(Vec<Spanned<Index>>),
     Objects(Vec<Spanned<Index>>),
     Bits(Name),

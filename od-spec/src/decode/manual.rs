@@ -1,10 +1,10 @@
 //! What a specification says about the printed manual.
 
 use super::read::{Field, Reader, reader};
-use crate::ast::{ContentDecl, ErratumDecl, IssueDecl, SectionDecl, SourceDecl, TableDecl};
+use crate::ast::{ContentDecl, ErratumDecl, IssueDecl, PartDecl, SectionDecl, SourceDecl};
 use crate::diag::Diagnostics;
 use crate::keys::{self, erratum_keys, revision_keys, source_keys};
-use crate::model::Direction;
+use crate::model::{Direction, ProseKind};
 use crate::scalar;
 use crate::source::Spanned;
 
@@ -16,16 +16,23 @@ pub(super) fn section(r: Reader<'_>) -> SectionDecl {
     SectionDecl {
         number: r.text("section"),
         title: r.words("title"),
-        tables: r.items("tables").map(table).collect(),
+        content: r.items("content").map(part).collect(),
     }
 }
 
-fn table(r: Reader<'_>) -> TableDecl {
+fn part(r: Reader<'_>) -> PartDecl {
     let contents = r.node.entries().iter().filter_map(|(key, node)| {
         let value = r.at(node);
         let key_name = key.value.as_str();
         let name = || value.scalar(|text| Some(text.to_owned()));
+        let lines = || r.items(key_name).filter_map(Reader::translated).collect();
         let content = match key_name {
+            "text" => ContentDecl::Prose(ProseKind::Text, lines()),
+            "note" => ContentDecl::Prose(ProseKind::Note, lines()),
+            "warning" => ContentDecl::Prose(ProseKind::Warning, lines()),
+            "steps" => ContentDecl::Prose(ProseKind::Steps, lines()),
+            "list" => ContentDecl::Prose(ProseKind::List, lines()),
+            "formula" => ContentDecl::Prose(ProseKind::Formula, lines()),
             "overview" => ContentDecl::Overview(r.indices(key_name)),
             "objects" => ContentDecl::Objects(r.indices(key_name)),
             "bits" => ContentDecl::Bits(name()?),
@@ -57,8 +64,8 @@ fn table(r: Reader<'_>) -> TableDecl {
         };
         Some(Spanned::new(content, key.span))
     });
-    TableDecl {
-        unsure: r.has_unknown_key(&keys::TABLE),
+    PartDecl {
+        unsure: r.has_unknown_key(&keys::CONTENT),
         span: r.node.entries().first().map_or(r.node.span, |(key, _)| key.span),
         number: r.integer("number"),
         title: r.words("title"),

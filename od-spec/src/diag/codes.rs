@@ -163,7 +163,7 @@ codes! {
     OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
         "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
     FORMER_NAME Warning "OD0842" "a key under its former name":
-        "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value."
+        "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value; `tables:` of a section became `content:`, as texts stand there, too."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":

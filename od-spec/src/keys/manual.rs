@@ -29,15 +29,21 @@ keys! {
     SECTION = "a section" {
         "section": Shape::Text, "number, as printed; parts such as the imprint have none", "\"4.1.1\"";
         "title" required: Shape::Words, "heading";
-        "tables": Shape::List(&Shape::Map(&TABLE)), "tables in it, in order";
+        "content": Shape::List(&Shape::Map(&CONTENT)), "its texts and tables, in order";
     }
 }
 
 keys! {
-    /// A table of the manual.
-    TABLE = "a table" {
-        "number": Shape::Integer(1, 9999), "number, as printed";
-        "title": Shape::Words, "caption";
+    /// A text or table of the manual.
+    CONTENT = "a text or table" {
+        "text": Shape::Words, "paragraphs; each line of the value is one", "The PMC controls the axis.";
+        "note": Shape::Words, "paragraphs that stand out", "The value is lost at power-off.";
+        "warning": Shape::Words, "paragraphs about a danger", "The drive moves at once.";
+        "steps": Shape::List(&Shape::Words), "what is done one after the other", "[Switch on., Set the mode.]";
+        "list": Shape::List(&Shape::Words), "a list without an order", "[position, velocity]";
+        "formula": Shape::Words, "a formula; each line of the value is one", "\"power = force · velocity\"";
+        "number": Shape::Integer(1, 9999), "number of a table, as printed";
+        "title": Shape::Words, "caption of a table";
         "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
         "objects": INDICES, "the objects' entries in detail";
         "bits": Shape::Text, "bits of a named type";

@@ -140,7 +140,7 @@ pub enum KeyKind {
 }
 
 /// Names that keys had in the release before, with those of today.
-const FORMER_NAMES: [(&str, &str); 1] = [("on", "devices")];
+const FORMER_NAMES: [(&str, &str); 2] = [("on", "devices"), ("tables", "content")];
 
 /// The name that a key of this map has today, if this is a former one.
 pub fn name_today(name: &str, keys: &Keys) -> Option<&'static str> {

@@ -64,6 +64,57 @@ pub struct Section {
     pub title: Text,
     /// Tables that stand in it.
     pub tables: Vec<Table>,
+    /// What stands in it, in order.
+    pub content: Vec<Content>,
+}
+
+/// What stands in a section.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Content {
+    /// The table at this position of [`Section::tables`].
+    Table(usize),
+    /// Text.
+    Prose(Prose),
+}
+
+/// Text of the manual.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Prose {
+    /// How it is read.
+    pub kind: ProseKind,
+    /// The items of a list, or one text; each line of it is a paragraph or formula.
+    pub items: Vec<Text>,
+}
+
+/// How a text of the manual is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ProseKind {
+    /// Running text.
+    Text,
+    /// Something that is easily overlooked.
+    Note,
+    /// A danger for people, machine or data.
+    Warning,
+    /// What is done one after the other.
+    Steps,
+    /// A list without an order.
+    List,
+    /// Formulas.
+    Formula,
+}
+
+impl ProseKind {
+    /// The word of a specification.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Text => "text",
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Steps => "steps",
+            Self::List => "list",
+            Self::Formula => "formula",
+        }
+    }
 }
 
 /// A table of the manual.

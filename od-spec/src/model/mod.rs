@@ -34,7 +34,8 @@ pub use condition::{
 };
 pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
-    Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Section, Table, TableContent, TableId,
+    Content, Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Prose, ProseKind, Section, Table,
+    TableContent, TableId,
 };
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;

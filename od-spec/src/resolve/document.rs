@@ -8,13 +8,13 @@ use super::refs::{Broken, NamesOf};
 use super::table_content::Contents;
 use super::types::words;
 use super::varied::Varied;
-use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Spec, TableDecl};
+use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, PartDecl, SectionDecl, Spec};
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits;
 use crate::model::{
-    Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Section, System, Table,
-    TableContent,
+    Content, Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Prose, Section,
+    System, Table, TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -32,15 +32,7 @@ pub(super) fn resolve(root: &Spec) -> Document {
         revision: root.revision.as_ref().and_then(issue),
         history: root.history.iter().filter_map(issue).collect(),
         glossary: root.glossary.iter().map(|(name, text)| (name.value.clone(), text.clone())).collect(),
-        sections: root
-            .sections
-            .iter()
-            .map(|decl| Section {
-                number: decl.number.as_ref().map_or(String::new(), |number| number.value.clone()),
-                title: words(&decl.title),
-                tables: decl.tables.iter().filter_map(table).collect(),
-            })
-            .collect(),
+        sections: root.sections.iter().map(section).collect(),
     }
 }
 
@@ -49,9 +41,35 @@ fn issue(decl: &IssueDecl) -> Option<Issue> {
     Some(Issue { number, date, about: words(&decl.about) })
 }
 
-fn table(decl: &TableDecl) -> Option<Table> {
+fn section(decl: &SectionDecl) -> Section {
+    let mut section = Section {
+        number: decl.number.as_ref().map_or(String::new(), |number| number.value.clone()),
+        title: words(&decl.title),
+        tables: Vec::new(),
+        content: Vec::new(),
+    };
+    for part in &decl.content {
+        match part.contents.first().map(|content| &content.value) {
+            Some(ContentDecl::Prose(kind, items)) => {
+                section.content.push(Content::Prose(Prose { kind: *kind, items: items.clone() }));
+            }
+            Some(content) => {
+                if let Some(table) = table(part, content) {
+                    section.content.push(Content::Table(section.tables.len()));
+                    section.tables.push(table);
+                }
+            }
+            None => {}
+        }
+    }
+    section
+}
+
+fn table(decl: &PartDecl, content: &ContentDecl) -> Option<Table> {
     let indices = |list: &[Spanned<Index>]| list.iter().map(|index| index.value).collect();
-    let content = match &decl.contents.first()?.value {
+    let content = match content {
+        // It is no table.
+        ContentDecl::Prose(..) => return None,
         ContentDecl::Overview(list) => TableContent::Overview(indices(list)),
         ContentDecl::Objects(list) => TableContent::Objects(indices(list)),
         ContentDecl::Bits(name) => TableContent::Bits(name.value.clone()),
@@ -184,7 +202,7 @@ fn place(
 pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: &mut Diagnostics) {
     let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     let contents = Contents::of(root, system, broken);
-    for decl in root.sections.iter().flat_map(|section| &section.tables) {
+    for decl in root.sections.iter().flat_map(|section| &section.content) {
         if let Some(number) = &decl.number
             && let Some(before) = numbers.insert(number.value, number.span)
         {
@@ -200,17 +218,33 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
             );
         }
         match decl.contents.as_slice() {
-            [content] => contents.check(&content.value, diagnostics),
+            [content] => {
+                contents.check(&content.value, diagnostics);
+                if let (ContentDecl::Prose(kind, _), Some(table)) = (&content.value, of_table(decl)) {
+                    let message = format!("`{}` has neither number nor title", kind.word());
+                    diagnostics.push(
+                        Diagnostic::new(codes::CONFLICTING_KEYS, table, message)
+                            .with(content.span, "a text stands here")
+                            .help("remove the key; it belongs to tables"),
+                    );
+                }
+            }
             [first, second, ..] => diagnostics.push(
-                Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a table is filled by one key only")
-                    .with(first.span, "filled here")
-                    .help("keep one of the keys, or make two tables"),
+                Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a text or table is one of these keys only")
+                    .with(first.span, "the first stands here")
+                    .help("keep one of the keys, or make two of it"),
             ),
             [] if decl.unsure => {}
             [] => diagnostics.push(
-                Diagnostic::new(codes::MISSING_KEY, decl.span, "a table needs a key that fills it")
-                    .help("write one of `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
+                Diagnostic::new(codes::MISSING_KEY, decl.span, "nothing says which text or table this is")
+                    .help("write one of `text`, `warning`, `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
             ),
         }
     }
+}
+
+/// The place of the first key that only tables have.
+fn of_table(decl: &PartDecl) -> Option<Span> {
+    let number = decl.number.as_ref().map(|number| number.span);
+    number.or_else(|| decl.title.as_ref().map(|title| title.span))
 }

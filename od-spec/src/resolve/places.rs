@@ -201,8 +201,12 @@ mod tests {
             title: Text::default(),
             content: TableContent::Objects(indices.iter().map(|index| Index(*index)).collect()),
         };
-        let section =
-            |number: &str, tables| Section { number: number.to_owned(), title: Text::default(), tables };
+        let section = |number: &str, tables| Section {
+            number: number.to_owned(),
+            title: Text::default(),
+            tables,
+            content: Vec::new(),
+        };
         Document {
             sections: vec![
                 section("1", vec![table(Some(1), &[0x2000])]),

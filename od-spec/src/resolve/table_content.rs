@@ -77,7 +77,10 @@ impl<'a> Contents<'a> {
             ContentDecl::Pdos { device: Some(name), .. } => self.devices.check(name, diagnostics),
             ContentDecl::Errors(list) | ContentDecl::Reactions(list) => self.errors(list, diagnostics),
             ContentDecl::Rows { columns, rows } => check_rows(columns, rows, diagnostics),
-            ContentDecl::Pdos { device: None, .. } | ContentDecl::Glossary | ContentDecl::History => {}
+            ContentDecl::Prose(..)
+            | ContentDecl::Pdos { device: None, .. }
+            | ContentDecl::Glossary
+            | ContentDecl::History => {}
         }
     }
 

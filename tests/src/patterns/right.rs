@@ -63,7 +63,7 @@ pub const RIGHT: &[Pattern] = &[
         );
         let sections = each(n, |at| {
             format!(
-                "  - {{section: \"1.{at}\", title: s, tables: [{{number: {at}, title: t, objects: [0x{:X}]}}]}}\n",
+                "  - {{section: \"1.{at}\", title: s, content: [{{number: {at}, title: t, objects: [0x{:X}]}}]}}\n",
                 index(at)
             )
         });
@@ -82,7 +82,7 @@ pub const RIGHT: &[Pattern] = &[
         );
         let tables = list(n, |at| format!("{{number: {}, title: t, objects: [0x2000]}}", at + 1));
         spec(
-            &format!("{errata}document:\n  - {{section: \"1.1\", title: s, tables: [{tables}]}}\n"),
+            &format!("{errata}document:\n  - {{section: \"1.1\", title: s, content: [{tables}]}}\n"),
             &objects(2, |_| String::new()),
         )
     }),
@@ -95,7 +95,7 @@ pub const RIGHT: &[Pattern] = &[
             ))
         );
         let sections = each(n, |at| {
-            format!("  - {{section: \"1.{at}\", title: s, tables: [{{overview: [0x2000]}}]}}\n")
+            format!("  - {{section: \"1.{at}\", title: s, content: [{{overview: [0x2000]}}]}}\n")
         });
         spec(&format!("{errata}document:\n{sections}"), &objects(2, |_| String::new()))
     }),
@@ -104,7 +104,7 @@ pub const RIGHT: &[Pattern] = &[
         let tables = list(n, |_| "{rows: {columns: [x, y], rows: *rows}}".to_owned());
         spec(
             &format!(
-                "document:\n  - {{section: \"1\", title: s, tables: [{{rows: {{columns: [x, y], rows: &rows [{rows}]}}}}, {tables}]}}\n"
+                "document:\n  - {{section: \"1\", title: s, content: [{{rows: {{columns: [x, y], rows: &rows [{rows}]}}}}, {tables}]}}\n"
             ),
             &objects(2, |_| String::new()),
         )
@@ -218,7 +218,7 @@ pub const RIGHT: &[Pattern] = &[
         let types = each(n, |at| format!("  sort {at}: {{base: unsigned8, values: {{0: off, 1: on}}}}\n"));
         let tables = list(n, |at| format!("{{values: sort {at}}}"));
         spec(
-            &format!("types:\n{types}document:\n  - {{section: \"1\", title: a, tables: [{tables}]}}\n"),
+            &format!("types:\n{types}document:\n  - {{section: \"1\", title: a, content: [{tables}]}}\n"),
             &objects(n, |_| String::new()),
         )
     }),
@@ -247,7 +247,7 @@ pub const RIGHT: &[Pattern] = &[
         let errors = each(n, |at| format!("  0x{at:04X}: {{name: error {at}}}\n"));
         spec(
             &format!(
-                "errors:\n{errors}document:\n  - {{section: \"1\", title: a, tables: [{{errors: all}}]}}\n"
+                "errors:\n{errors}document:\n  - {{section: \"1\", title: a, content: [{{errors: all}}]}}\n"
             ),
             &objects(2, |_| String::new()),
         )
@@ -323,7 +323,7 @@ pub const RIGHT: &[Pattern] = &[
     pattern("sections and tables", |n| {
         let sections = each(n, |at| {
             format!(
-                "  - {{section: \"1.{at}\", title: s, tables: [{{title: t, objects: [0x{:X}]}}, {{overview: [0x{:X}]}}]}}\n",
+                "  - {{section: \"1.{at}\", title: s, content: [{{title: t, objects: [0x{:X}]}}, {{overview: [0x{:X}]}}]}}\n",
                 index(at),
                 index(at)
             )
@@ -334,7 +334,7 @@ pub const RIGHT: &[Pattern] = &[
         let rows = list(n, |at| format!("[a{at}, b]"));
         spec(
             &format!(
-                "document:\n  - {{section: \"1\", title: s, tables: [{{rows: {{columns: [x, y], rows: [{rows}]}}}}]}}\n"
+                "document:\n  - {{section: \"1\", title: s, content: [{{rows: {{columns: [x, y], rows: [{rows}]}}}}]}}\n"
             ),
             &objects(2, |_| String::new()),
         )

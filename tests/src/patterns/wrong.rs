@@ -236,7 +236,7 @@ pub const WRONG: &[Pattern] = &[
             ))
         );
         spec(
-            &(errata + "document:\n  - {section: \"1\", title: a, tables: [{glossary: yes}]}\n"),
+            &(errata + "document:\n  - {section: \"1\", title: a, content: [{glossary: yes}]}\n"),
             &objects(n, |_| String::new()),
         )
     }),
@@ -247,7 +247,10 @@ pub const WRONG: &[Pattern] = &[
             )
         });
         let types = each(n, |at| format!("  sorts {at}: {{base: unsigned8, values: {{0: a}}}}\n"));
-        spec(&format!("types:\n{types}document:\n  - {{section: \"1\", title: a, tables: [{tables}]}}\n"), "")
+        spec(
+            &format!("types:\n{types}document:\n  - {{section: \"1\", title: a, content: [{tables}]}}\n"),
+            "",
+        )
     }),
     pattern("constraints about nothing", |n| {
         let list = each(n, |at| format!("  c{at}: {{require: \"0x{:X} < e{at}:0x2000\"}}\n", 0x6000 + at));

@@ -11,6 +11,7 @@ use od_tests::compile_clean;
 
 #[path = "../../shared/markdown.rs"]
 mod markdown;
+mod prose;
 mod read_back;
 
 use markdown::{Page, Table};

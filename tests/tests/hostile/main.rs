@@ -90,8 +90,11 @@ fn a_text_stays_a_text_in_every_output() {
             sites.len()
         );
         let found = skeleton(result.system.as_ref().unwrap(), &sources, &mut complaints);
-        // Harmless texts in the same places, with as many dots: these make a section one of a section.
-        let harmless = format!("plain{}", ".".repeat(payload.matches('.').count()));
+        // Harmless texts in the same places, with as many dots – these make a section one of a section – and lines, which make
+        // paragraphs.
+        let plain = format!("plain{}", ".".repeat(payload.matches('.').count()));
+        let lines = payload.split('\n').map(|line| if line.trim().is_empty() { "" } else { plain.as_str() });
+        let harmless = lines.collect::<Vec<_>>().join("\n");
         let (sources, plain) = compiled(&planted(TEXTS, &sites, &chosen, &harmless).0);
         let expected = skeleton(plain.system.as_ref().unwrap(), &sources, &mut complaints);
         for part in expected.keys().chain(found.keys()).collect::<BTreeSet<_>>() {

@@ -1,0 +1,92 @@
+//! Texts of a manual stand between its tables, in the language of the document, and with the devices that they are about.
+
+use od_gen::docs::{self, Format, Templates};
+
+use super::compile_clean;
+
+const PROSE: &str = "tests/docs/prose.od.yaml";
+
+/// The pages of the chapters for some devices, in a language.
+fn chapters(devices: &[&str], language: &str, format: Format) -> String {
+    let system = compile_clean(PROSE).unwrap();
+    let devices: Vec<String> = devices.iter().map(ToString::to_string).collect();
+    let templates = [Templates::new(Some(format), &[]).unwrap()];
+    let options = docs::options(&system, &devices, Some(language));
+    let files = docs::artifacts(&system, "", "s", &options, &templates).unwrap();
+    let is_chapter =
+        |path: &str| path.starts_with("s/1-") || path.starts_with("s/2-") || path == "s/index.html";
+    let chapters = files.iter().filter(|file| is_chapter(&file.path));
+    chapters.map(|file| String::from_utf8_lossy(&file.bytes).into_owned()).collect()
+}
+
+/// Whether all of these stand in a text, in this order.
+fn assert_in_order(text: &str, parts: &[&str]) {
+    let mut rest = text;
+    for part in parts {
+        let at = rest.find(part).unwrap_or_else(|| panic!("`{part}` is not behind the others in\n{text}"));
+        rest = &rest[at + part.len()..];
+    }
+}
+
+#[test]
+fn texts_stand_between_tables() {
+    let text = chapters(&[], "en", Format::Markdown);
+    assert_in_order(
+        &text,
+        &[
+            "One paragraph.\n\nAnother one.\n",
+            "About both.\n",
+            "Before the table of ",
+            "**Table 1**",
+            "**Table 2**",
+            "> **Warning**\n>\n> Behind the table.\n",
+            "1. First.\n2. \\- Second.\n",
+            "- a\n- b\n",
+            "> **Note**\n>\n> Line of a note.\n>\n> Second line.\n",
+            "> a = b · c\n>\n> d = e\n",
+        ],
+    );
+    let text = chapters(&[], "en", Format::Html);
+    assert_in_order(
+        &text,
+        &[
+            "<p class=\"prose\">One paragraph.</p>",
+            "<p class=\"prose\">Another one.</p>",
+            "Before the table of ",
+            "id=\"table-1\"",
+            "<div class=\"prose warning\" role=\"note\">\n<p><b>Warning</b></p>\n<p>Behind the table.</p>",
+            "<ol class=\"prose\">\n<li>First.</li>\n<li>- Second.</li>\n</ol>",
+            "<p class=\"prose formula\">d = e</p>",
+        ],
+    );
+}
+
+#[test]
+fn texts_are_in_the_language_of_the_document() {
+    let text = chapters(&[], "de", Format::Markdown);
+    assert_in_order(
+        &text,
+        &["Ein Absatz.\n\nNoch einer.\n", "> **Warnung**\n>\n> Nach der Tabelle.\n", "> **Hinweis**"],
+    );
+    assert!(!text.contains("One paragraph"), "{text}");
+    // What is in another language is marked as such.
+    assert_in_order(&text, &["About both. *(en)*"]);
+}
+
+#[test]
+fn texts_go_with_the_devices_around_them() {
+    let one = chapters(&["one"], "en", Format::Markdown);
+    assert_in_order(
+        &one,
+        &["One paragraph.", "About both.", "Before the table", "**Table 1**", "Behind the table.", "First."],
+    );
+    for absent in ["Table 2", "Line of a note", "Only about two"] {
+        assert!(!one.contains(absent), "`{absent}` stands in\n{one}");
+    }
+    let two = chapters(&["two"], "en", Format::Markdown);
+    assert_in_order(
+        &two,
+        &["One paragraph.", "About both.", "**Table 2**", "Line of a note.", "Only about two."],
+    );
+    assert!(!two.contains("**Table 1**"), "{two}");
+}
