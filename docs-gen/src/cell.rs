@@ -40,6 +40,11 @@ impl Cell {
         self.push(Part::of(PartKind::Text, text))
     }
 
+    /// With a text that stands out.
+    pub(crate) fn strong(self, text: impl Into<String>) -> Self {
+        self.push(Part::of(PartKind::Strong, text))
+    }
+
     /// With something to be typed or read as it stands.
     pub(crate) fn code(self, text: impl Into<String>) -> Self {
         self.push(Part::of(PartKind::Code, text))

@@ -173,6 +173,7 @@ impl Source<'_> {
             kind: object.kind.name(),
             origin: object.origin.word(),
             about: self.about(object),
+            warning: self.warning(object),
             notes: self.notes(device, object),
             table,
             types,
@@ -248,6 +249,7 @@ impl Source<'_> {
             name: object.name.clone(),
             kind: object.kind.name(),
             about: Cell::default(),
+            warning: Cell::default(),
             device: String::new(),
         };
         Grid { object: Some(head), ..grid }
@@ -257,6 +259,14 @@ impl Source<'_> {
     fn about(&self, object: &Object) -> Cell {
         match object.kind {
             ObjectKind::Array | ObjectKind::Record => self.text(&object.about),
+            ObjectKind::Var | ObjectKind::Domain => Cell::default(),
+        }
+    }
+
+    /// The danger that comes from an object as a whole; the only entry of a VAR tells it in its row.
+    pub(crate) fn warning(&self, object: &Object) -> Cell {
+        match object.kind {
+            ObjectKind::Array | ObjectKind::Record => self.text(&object.warning),
             ObjectKind::Var | ObjectKind::Domain => Cell::default(),
         }
     }

@@ -51,6 +51,9 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
         let words = part.get_attr("text")?.to_string();
         match part.get_attr("kind")?.as_str() {
             Some("break") => text.push_str("<br>"),
+            Some("strong") => {
+                let _ = write!(text, "**{}**", escape(&words));
+            }
             Some("code") => {
                 // Inside of code nothing can be escaped.
                 if words.contains(['`', '|', '\n', '\r']) {

@@ -134,6 +134,8 @@ pub struct ObjectHead {
     pub kind: &'static str,
     /// Meaning.
     pub about: Cell,
+    /// Danger that comes from it as a whole.
+    pub warning: Cell,
     /// Key of the device, where devices have different objects of this index.
     pub device: String,
 }
@@ -206,6 +208,8 @@ pub struct Part {
 pub enum PartKind {
     /// Running text.
     Text,
+    /// Text that stands out.
+    Strong,
     /// To be typed or read as it stands.
     Code,
     /// A link.
@@ -269,6 +273,8 @@ pub struct ObjectView {
     pub origin: &'static str,
     /// Meaning.
     pub about: Cell,
+    /// Danger that comes from it as a whole; that of an entry stands in its row.
+    pub warning: Cell,
     /// Lines about the object: standard, category, issue.
     pub notes: Vec<Cell>,
     /// Detail table.

@@ -601,6 +601,8 @@ impl Fullmo {
     }
 
     /// `3404h` controller parameter: Service, Kennung und Verstärkungen der Regler. Nicht ohne Absprache mit dem Hersteller schreiben.
+    ///
+    /// **Warning:** Falsche Verstärkungen lassen die Achse schwingen; nicht ohne Absprache mit dem Hersteller schreiben.
     #[inline]
     pub const fn controller_parameter(&self) -> records::ControllerParameter<&Self> {
         records::ControllerParameter(self)
@@ -615,6 +617,8 @@ impl Fullmo {
     }
 
     /// `3511h` input functions 1: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     ///
     /// - `3511h.1` edge functions: UNSIGNED16, rw.
     /// - `3511h.2` edge TPDOs: UNSIGNED16, rw.
@@ -639,6 +643,8 @@ impl Fullmo {
 
     /// `3512h` input functions 2: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
+    ///
     /// - `3512h.1` edge functions: UNSIGNED16, rw.
     /// - `3512h.2` edge TPDOs: UNSIGNED16, rw.
     /// - `3512h.3` result 1: INTEGER32, rw.
@@ -661,6 +667,8 @@ impl Fullmo {
     }
 
     /// `3513h` input functions 3: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     ///
     /// - `3513h.1` edge functions: UNSIGNED16, rw.
     /// - `3513h.2` edge TPDOs: UNSIGNED16, rw.
@@ -685,6 +693,8 @@ impl Fullmo {
 
     /// `3514h` input functions 4: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
+    ///
     /// - `3514h.1` edge functions: UNSIGNED16, rw.
     /// - `3514h.2` edge TPDOs: UNSIGNED16, rw.
     /// - `3514h.3` result 1: INTEGER32, rw.
@@ -707,6 +717,8 @@ impl Fullmo {
     }
 
     /// `3515h` input functions 5: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     ///
     /// - `3515h.1` edge functions: UNSIGNED16, rw.
     /// - `3515h.2` edge TPDOs: UNSIGNED16, rw.
@@ -731,6 +743,8 @@ impl Fullmo {
 
     /// `3516h` input functions 6: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
+    ///
     /// - `3516h.1` edge functions: UNSIGNED16, rw.
     /// - `3516h.2` edge TPDOs: UNSIGNED16, rw.
     /// - `3516h.3` result 1: INTEGER32, rw.
@@ -753,6 +767,8 @@ impl Fullmo {
     }
 
     /// `3517h` input functions 7: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     ///
     /// - `3517h.1` edge functions: UNSIGNED16, rw.
     /// - `3517h.2` edge TPDOs: UNSIGNED16, rw.
@@ -777,6 +793,8 @@ impl Fullmo {
 
     /// `3518h` input functions 8: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
+    ///
     /// - `3518h.1` edge functions: UNSIGNED16, rw.
     /// - `3518h.2` edge TPDOs: UNSIGNED16, rw.
     /// - `3518h.3` result 1: INTEGER32, rw.
@@ -800,6 +818,8 @@ impl Fullmo {
 
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
+    ///
     /// - `3519h.1` edge functions: UNSIGNED16, rw.
     /// - `3519h.2` edge TPDOs: UNSIGNED16, rw.
     /// - `3519h.3` result 1: INTEGER32, rw.
@@ -822,6 +842,8 @@ impl Fullmo {
     }
 
     /// `6040h` Controlword: Befehle an den Antrieb.
+    ///
+    /// **Warning:** Bit 8 (Halt) von 1 auf 0 setzt die Achse wieder in Bewegung. Im Profile Position Mode gibt 3Fh die laufende Positionierung auf und verwirft alle gespeicherten Setpoints; im Homing Mode bewegt Bit 4 die Achse.
     ///
     /// UNSIGNED16, rw, RPDO. In RPDO 1 ([`Rpdo1`](pdos::Rpdo1)), RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default), RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default), RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
@@ -851,6 +873,8 @@ impl Fullmo {
 
     /// `605Ah` Quick stop option code: Reaktion auf den Befehl Quick stop.
     ///
+    /// **Warning:** Mit 0 läuft die Achse aus, statt zu bremsen.
+    ///
     /// INTEGER16, rw, default quick stop ramp.
     #[inline]
     pub fn quick_stop_option_code(&self) -> types::QuickStopReaction {
@@ -865,6 +889,8 @@ impl Fullmo {
 
     /// `605Bh` Shutdown option code: Reaktion auf den Befehl Shutdown aus Operation enabled.
     ///
+    /// **Warning:** Mit 0 läuft die Achse aus, statt zu bremsen.
+    ///
     /// INTEGER16, rw, default disable drive.
     #[inline]
     pub fn shutdown_option_code(&self) -> types::ShutdownReaction {
@@ -878,6 +904,8 @@ impl Fullmo {
     }
 
     /// `605Ch` Disable operation option code: Reaktion auf den Befehl Disable operation.
+    ///
+    /// **Warning:** Mit 0 läuft die Achse aus, statt zu bremsen.
     ///
     /// INTEGER16, rw, default slow down ramp.
     #[inline]
@@ -896,6 +924,8 @@ impl Fullmo {
 
     /// `605Dh` Halt option code: Reaktion auf Bit 8 (Halt) des Steuerworts.
     ///
+    /// **Warning:** Mit 0 läuft die Achse aus, statt zu bremsen.
+    ///
     /// INTEGER16, rw, default slow down ramp.
     #[inline]
     pub fn halt_option_code(&self) -> types::HaltReaction {
@@ -909,6 +939,8 @@ impl Fullmo {
     }
 
     /// `605Eh` Fault reaction option code: Reaktion auf einen Fehler.
+    ///
+    /// **Warning:** Mit 0 läuft die Achse aus, statt zu bremsen.
     ///
     /// INTEGER16, rw, default quick stop ramp.
     #[inline]
@@ -1131,6 +1163,8 @@ impl Fullmo {
 
     /// `6071h` Target torque: Sollmoment im Profile Torque Mode; ein Rampengenerator (6087h) baut es auf. Das Vorzeichen bestimmt die Drehrichtung. Der Sollstrom in mA ist 6071h \* 6075h / 1000.
     ///
+    /// **Warning:** Die Drehzahl ist im Profile Torque Mode nicht geregelt: Ohne Last läuft der Motor bis zur Höchstdrehzahl hoch.
+    ///
     /// INTEGER16, rw, RPDO, in 0.1 %, default 0.0 %.
     #[inline]
     pub fn target_torque(&self) -> units::PerMilleOfRatedTorque<i16> {
@@ -1274,6 +1308,8 @@ impl Fullmo {
 
     /// `607Ch` Home offset: Nach erfolgreicher Referenzfahrt erhält die gefundene Position den Wert minus Home offset.
     ///
+    /// **Warning:** Mit dem falschen Vorzeichen liegen alle Positionen falsch: Die gefundene Position erhält den negativen Offset.
+    ///
     /// INTEGER32, rw, RPDO, in PU, default 0 PU.
     #[inline]
     pub fn home_offset(&self) -> units::PositionUnit<i32> {
@@ -1317,6 +1353,8 @@ impl Fullmo {
     }
 
     /// `607Fh` Max profile velocity: Größte Profilgeschwindigkeit. Achtung: in U/min, die Profilgeschwindigkeit (6081h) dagegen in Einheiten des Anwenders.
+    ///
+    /// **Warning:** Zählt in U/min, 6081h in Einheiten des Anwenders: Derselbe Zahlenwert ist meist eine andere Geschwindigkeit.
     ///
     /// UNSIGNED32, rw, RPDO, in U/min.
     #[inline]
@@ -1427,6 +1465,8 @@ impl Fullmo {
     }
 
     /// `608Fh` Position encoder resolution: Auflösung des Gebers: Subindex 1 durch Subindex 2.
+    ///
+    /// **Warning:** Eine Änderung gibt jeder Position, Geschwindigkeit und Endlage eine andere Bedeutung.
     #[inline]
     pub const fn position_encoder_resolution(
         &self,
@@ -1443,6 +1483,8 @@ impl Fullmo {
     }
 
     /// `6091h` Gear ratio: Getriebeübersetzung: Subindex 1 durch Subindex 2.
+    ///
+    /// **Warning:** Eine Änderung gibt jeder Position, Geschwindigkeit und Endlage eine andere Bedeutung.
     #[inline]
     pub const fn gear_ratio(&self) -> records::GearRatio<&Self> {
         records::GearRatio(self)
@@ -1455,6 +1497,8 @@ impl Fullmo {
     }
 
     /// `6092h` Feed constant: Vorschubkonstante: Subindex 1 durch Subindex 2.
+    ///
+    /// **Warning:** Eine Änderung gibt jeder Position, Geschwindigkeit und Endlage eine andere Bedeutung.
     #[inline]
     pub const fn feed_constant(&self) -> records::FeedConstant<&Self> {
         records::FeedConstant(self)
@@ -1467,6 +1511,8 @@ impl Fullmo {
     }
 
     /// `6098h` Homing method: Verfahren der Referenzfahrt.
+    ///
+    /// **Warning:** Die Methoden -18 und -19 fahren gegen einen Anschlag. Welche Richtung rechts ist, ist vor der ersten Referenzfahrt zu prüfen.
     ///
     /// INTEGER8, rw, RPDO, default current position.
     #[inline]
@@ -1510,6 +1556,8 @@ impl Fullmo {
     }
 
     /// `60B8h` Touch probe function: Legt die Eingänge von Referenz- und Endschaltern fest. Anders als in CiA 402 steuert das Objekt keinen Messtaster: Werte der Norm ordnen die Endschalter anderen Eingängen zu.
+    ///
+    /// **Warning:** Steuert hier keinen Messtaster: Werte nach CiA 402 verlegen Referenz- und Endschalter auf andere Eingänge.
     ///
     /// UNSIGNED16, rw, default 0x0000.
     #[inline]
@@ -1592,6 +1640,8 @@ impl Fullmo {
     }
 
     /// `60FFh` Target velocity: Solldrehzahl in Einheiten des Anwenders, umgerechnet wie 6081h. Eine Änderung im Zustand Operation enabled ist ein Fahrbefehl.
+    ///
+    /// **Warning:** Ein neuer Wert bewegt die Achse in Operation enabled sofort.
     ///
     /// INTEGER32, rw, RPDO, in VU. In RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
@@ -2630,6 +2680,8 @@ pub mod records {
     }
 
     /// `3404h` controller parameter: Service, Kennung und Verstärkungen der Regler. Nicht ohne Absprache mit dem Hersteller schreiben.
+    ///
+    /// **Warning:** Falsche Verstärkungen lassen die Achse schwingen; nicht ohne Absprache mit dem Hersteller schreiben.
     #[derive(Debug)]
     pub struct ControllerParameter<D>(pub(super) D);
 
@@ -2824,6 +2876,8 @@ pub mod records {
 
     /// `3511h` input functions 1: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
     ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
+    ///
     /// The group of 8 other objects, too.
     #[derive(Debug)]
     pub struct InputFunctions1<D>(pub(super) D, pub(super) [usize; 8]);
@@ -2949,27 +3003,43 @@ pub mod records {
     }
 
     /// `3512h` input functions 2: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions2<D> = InputFunctions1<D>;
 
     /// `3513h` input functions 3: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions3<D> = InputFunctions1<D>;
 
     /// `3514h` input functions 4: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions4<D> = InputFunctions1<D>;
 
     /// `3515h` input functions 5: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions5<D> = InputFunctions1<D>;
 
     /// `3516h` input functions 6: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions6<D> = InputFunctions1<D>;
 
     /// `3517h` input functions 7: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions7<D> = InputFunctions1<D>;
 
     /// `3518h` input functions 8: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions8<D> = InputFunctions1<D>;
 
     /// `3519h` input functions 9: Funktionen eines digitalen Eingangs, 3511h die von Eingang 1.
+    ///
+    /// **Warning:** Mit Funktion 4 setzt ein Signal am Eingang die Achse in Bewegung, ohne Befehl über den Bus.
     pub type InputFunctions9<D> = InputFunctions1<D>;
 
     /// `607Dh` Software position limit: Softwareendlagen in Positionseinheiten, umgerechnet wie 607Ah. Würde eine Endlage nach einer Änderung während der Positionierung überfahren, bremst der Antrieb mit der eingestellten Verzögerung bis zu ihr ab; dazu berechnet er Bremspunkte für beide Endlagen und das Ziel.
@@ -3015,6 +3085,8 @@ pub mod records {
     }
 
     /// `608Fh` Position encoder resolution: Auflösung des Gebers: Subindex 1 durch Subindex 2.
+    ///
+    /// **Warning:** Eine Änderung gibt jeder Position, Geschwindigkeit und Endlage eine andere Bedeutung.
     #[derive(Debug)]
     pub struct PositionEncoderResolution<D>(pub(super) D);
 
@@ -3054,6 +3126,8 @@ pub mod records {
     }
 
     /// `6091h` Gear ratio: Getriebeübersetzung: Subindex 1 durch Subindex 2.
+    ///
+    /// **Warning:** Eine Änderung gibt jeder Position, Geschwindigkeit und Endlage eine andere Bedeutung.
     #[derive(Debug)]
     pub struct GearRatio<D>(pub(super) D);
 
@@ -3090,6 +3164,8 @@ pub mod records {
     }
 
     /// `6092h` Feed constant: Vorschubkonstante: Subindex 1 durch Subindex 2.
+    ///
+    /// **Warning:** Eine Änderung gibt jeder Position, Geschwindigkeit und Endlage eine andere Bedeutung.
     #[derive(Debug)]
     pub struct FeedConstant<D>(pub(super) D);
 

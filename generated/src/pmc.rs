@@ -700,6 +700,8 @@ impl Pmc {
 
     /// `5040h` manual control: Commands a manual function in place of mode switch and key button, e.g. from an external operator terminal.
     ///
+    /// **Warning:** Starts a manual function without anyone at the device having turned the switch or pressed the button. Nobody may be near the blade.
+    ///
     /// UNSIGNED8, rw, RPDO, default 0x00.
     #[inline]
     pub fn manual_control(&self) -> types::ManualControl {
@@ -757,6 +759,8 @@ impl Pmc {
     }
 
     /// `507Ah` target position 16bit: Target position in 16 bits.
+    ///
+    /// **Warning:** An EFC drive overwrites it. In homing mode a wrong value shifts every absolute position, the feather position included.
     ///
     /// INTEGER16, rw, RPDO, in PU. A view of [`target_position`](Pmc::target_position) (`607Ah`); saturates at -32768 and 32767.
     #[inline]
@@ -956,6 +960,8 @@ impl Pmc {
 
     /// `50FFh` target velocity 16bit: Target velocity in 16 bits.
     ///
+    /// **Warning:** In profile velocity mode a new value moves the axis at once while halt (bit 8 of 6040h) is 0. If the control falls silent, the axis goes on with the last value.
+    ///
     /// INTEGER16, rw, RPDO, in PU/s. A view of [`target_velocity`](Pmc::target_velocity) (`60FFh`); saturates at -32768 and 32767.
     #[inline]
     pub fn target_velocity_16bit(&self) -> units::PositionUnitPerSecond<i16> {
@@ -1010,6 +1016,8 @@ impl Pmc {
 
     /// `567Ah` EFC target position: Feather position; the EFC drive copies it to the target position (607Ah).
     ///
+    /// **Warning:** A feather position beyond the limits of 607Dh is replaced by the limit: the blade would not feather.
+    ///
     /// INTEGER32, rw, in PU, default 9000 PU, stored with the application parameters.
     #[inline]
     pub fn efc_target_position(&self) -> units::PositionUnit<i32> {
@@ -1023,6 +1031,8 @@ impl Pmc {
     }
 
     /// `5681h` EFC profile velocity: Velocity of the EFC drive, which copies it to the profile velocity (6081h).
+    ///
+    /// **Warning:** With 0, or above 607Fh, the blade does not feather as fast as set, or not at all.
     ///
     /// UNSIGNED32, rw, in PU/s, default 1000 PU/s, stored with the application parameters.
     #[inline]
@@ -1040,6 +1050,8 @@ impl Pmc {
     }
 
     /// `5683h` EFC profile acceleration: Acceleration of the EFC drive, which copies it to the profile acceleration (6083h).
+    ///
+    /// **Warning:** With 0 the axis does not start its emergency drive; above 60C5h it starts more slowly than set.
     ///
     /// UNSIGNED32, rw, in PU/s², default 2000 PU/s², stored with the application parameters.
     #[inline]
@@ -1085,6 +1097,8 @@ impl Pmc {
 
     /// `5894h` ae encoder code: Interface of the additional encoder, for the cases that the device cannot find out by itself.
     ///
+    /// **Warning:** With FFh the additional encoder shows a copy of the main encoder: there is no second, independent position.
+    ///
     /// UNSIGNED16, rw, default ENDAT, stored with the application parameters.
     #[inline]
     pub fn ae_encoder_code(&self) -> types::AeEncoderCode {
@@ -1108,6 +1122,8 @@ impl Pmc {
     }
 
     /// `6007h` abort connection option code: Reaction to the loss of the connection to the host. With no action or malfunction the axis finishes its last task (a speed controlled drive runs up to the limit switch), so choose those only where that can do no damage.
+    ///
+    /// **Warning:** With no action or malfunction the axis goes on after the connection is lost; under velocity control it runs up to the limit switch.
     ///
     /// INTEGER16, rw, default malfunction, stored with the application parameters.
     #[inline]
@@ -1139,6 +1155,8 @@ impl Pmc {
     }
 
     /// `6040h` Controlword: Commands to the drive; a rising bit 7 resets an error, bit 11 starts the EFC drive.
+    ///
+    /// **Warning:** Enable with 010Fh, not with 000Fh: 000Fh lacks halt, and a set-point that waits moves the axis at once. So does clearing bit 8 in any mode. 080Fh sends the axis to the feather position at once.
     ///
     /// UNSIGNED16, rw, RPDO. In RPDO 1 ([`Rpdo1`](pdos::Rpdo1)), RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default), RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default).
     #[inline]
@@ -1182,6 +1200,8 @@ impl Pmc {
 
     /// `605Eh` fault reaction option code: Reaction to a fault of the axis; takes effect only at set-point, following and encoder faults.
     ///
+    /// **Warning:** With 0 the output stage goes off and the axis can turn freely; with -1 it goes on in spite of the fault.
+    ///
     /// INTEGER16, rw, RPDO, default quick stop ramp, stored with the application parameters.
     #[inline]
     pub fn fault_reaction_option_code(&self) -> types::FaultReactionOptionCode {
@@ -1213,6 +1233,8 @@ impl Pmc {
 
     /// `6061h` modes of operation display: Mode of operation in force. The device changes it by itself too; after an EFC drive it stays at profile position mode.
     ///
+    /// **Warning:** The mode changes without the control: an EFC drive leaves profile position mode behind. Check it before giving set-points.
+    ///
     /// INTEGER8, ro, TPDO, default no mode.
     #[inline]
     pub fn modes_of_operation_display(&self) -> types::ModesOfOperation {
@@ -1240,6 +1262,8 @@ impl Pmc {
     }
 
     /// `6065h` following error window: Largest following error in position control. Staying above it for longer than the following error timeout (6066h) is the error 8611h; the reaction is chosen in 605Eh.
+    ///
+    /// **Warning:** FFFFFFFFh switches the monitoring of the following error off.
     ///
     /// UNSIGNED32, rw, in PU, 0xFFFFFFFF: monitoring off, default 100 PU, stored with the application parameters.
     #[inline]
@@ -1316,6 +1340,8 @@ impl Pmc {
 
     /// `606Ah` sensor selection code: Encoder from which the actual position is taken. Can be switched only while the axis is idle.
     ///
+    /// **Warning:** With wrong factors or polarity of the additional encoder, the axis runs away once that encoder closes the loop.
+    ///
     /// INTEGER16, rw, default motor encoder, stored with the application parameters. Writable while `bit(0x6041, 2) == 0`.
     #[inline]
     pub fn sensor_selection_code(&self) -> types::SensorSelectionCode {
@@ -1344,6 +1370,8 @@ impl Pmc {
 
     /// `6073h` max current: Limit of the motor current, relative to the rated current (6076h). Twice the rated current is usual and the most allowed.
     ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. More than twice the rated current is not allowed.
+    ///
     /// UNSIGNED16, rw, in 0.1 %, ≤ 200.0 %, default 200.0 %, stored with the application parameters.
     #[inline]
     pub fn max_current(&self) -> units::Permille<u16> {
@@ -1357,6 +1385,8 @@ impl Pmc {
     }
 
     /// `6076h` rated current: Nominal current of the motor, from its type plate. CiA 402 has the rated torque at this index.
+    ///
+    /// **Warning:** Holds the rated current, where CiA 402 has the rated torque: a tool that follows the profile would write a wrong current.
     ///
     /// UNSIGNED32, rw, in mA, default 17000 mA, stored with the application parameters.
     #[inline]
@@ -1414,6 +1444,8 @@ impl Pmc {
 
     /// `607Ah` target position: Position to go to in profile position mode and in cyclic synchronous position mode, limited by 607Dh. In homing mode, the position that the present place of the axis is given. An EFC drive overwrites it.
     ///
+    /// **Warning:** An EFC drive overwrites it. In homing mode a wrong value shifts every absolute position, the feather position included.
+    ///
     /// INTEGER32, rw, RPDO, in PU, default 0 PU. 16-bit view: [`target_position_16bit`](Pmc::target_position_16bit) (`507Ah`). In RPDO 2 ([`Rpdo2`](pdos::Rpdo2), off by default), RPDO 4 ([`Rpdo4`](pdos::Rpdo4), off by default).
     #[inline]
     pub fn target_position(&self) -> units::PositionUnit<i32> {
@@ -1428,6 +1460,8 @@ impl Pmc {
 
     /// `607Ch` home offset: Distance between the zero of the motor encoder and the zero of the application; it is added to the encoder's position. Writable while homing mode is in force; homing sets it. It outlives a power-off only if saved with 1010h.3.
     ///
+    /// **Warning:** Shifts every absolute position, the feather position included. A new value that is not saved is lost at power-off.
+    ///
     /// INTEGER32, rw, in PU, default 0 PU, stored with the application parameters. Writable while `0x6061 == 6`.
     #[inline]
     pub fn home_offset(&self) -> units::PositionUnit<i32> {
@@ -1441,6 +1475,8 @@ impl Pmc {
     }
 
     /// `607Dh` software position limit: Absolute limits of the target position; a target beyond them is replaced by the limit.
+    ///
+    /// **Warning:** The limits have to include the EFC target position (567Ah), or the emergency drive ends at the limit.
     #[inline]
     pub const fn software_position_limit(
         &self,
@@ -1458,6 +1494,8 @@ impl Pmc {
 
     /// `607Eh` polarity: Sense of rotation of the axis; set-points and actual positions are taken times 1 or -1.
     ///
+    /// **Warning:** Reverses the axis. It has to agree with 687Eh where the additional encoder closes the loop, or the axis runs away.
+    ///
     /// UNSIGNED8, rw, default 0x00, stored with the application parameters.
     #[inline]
     pub fn polarity(&self) -> types::Polarity {
@@ -1471,6 +1509,8 @@ impl Pmc {
     }
 
     /// `607Fh` max profile velocity: Highest velocity at which the axis may be positioned. Must not exceed what the max motor speed (6080h) gives through gear and feed. Larger set-points are reduced to it.
+    ///
+    /// **Warning:** Also limits the emergency drive: below 5681h the blade feathers too slowly.
     ///
     /// UNSIGNED32, rw, in PU/s, default 20000 PU/s, stored with the application parameters.
     #[inline]
@@ -1596,6 +1636,8 @@ impl Pmc {
     }
 
     /// `6092h` feed constant: Travel per revolution of the drive shaft, as a fraction. Used when the motor encoder closes the position loop (606Ah = 0).
+    ///
+    /// **Warning:** It makes the position unit: a wrong value moves the feather position and all limits to other angles, and nothing checks that.
     #[inline]
     pub const fn feed_constant(&self) -> records::FeedConstant<&Self> {
         records::FeedConstant(self)
@@ -1695,6 +1737,8 @@ impl Pmc {
 
     /// `60C5h` max acceleration: Upper limit of the profile acceleration (6083h).
     ///
+    /// **Warning:** Also limits the emergency drive: below 5683h the blade starts to feather more slowly than set.
+    ///
     /// UNSIGNED32, rw, RPDO, in PU/s², default 2000 PU/s², stored with the application parameters.
     #[inline]
     pub fn max_acceleration(&self) -> units::PositionUnitPerSecondSquared<u32> {
@@ -1742,6 +1786,8 @@ impl Pmc {
     }
 
     /// `60F6h` torque control parameter set: The innermost loop, a PI controller. The values come from the motor database; only qualified staff may change them.
+    ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Only for qualified staff.
     #[inline]
     pub const fn torque_control_parameter_set(
         &self,
@@ -1758,6 +1804,8 @@ impl Pmc {
     }
 
     /// `60F9h` velocity control parameter set: The velocity loop, a PID controller, with brake and inverter settings. The values come from the motor database.
+    ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Too short a brake time (sub-index 4) lets a hanging axis sag before the brake holds.
     #[inline]
     pub const fn velocity_control_parameter_set(
         &self,
@@ -1774,6 +1822,8 @@ impl Pmc {
     }
 
     /// `60FBh` position control parameter set: The position loop, a proportional controller.
+    ///
+    /// **Warning:** Bits of the control flags (sub-index 3) change how the axis behaves in an emergency: bit 9 lets the feather drive run under velocity control, bit 14 lets the axis run beyond limit switches, and with bit 15 (simulation) the axis does not move at all, not to the feather position either.
     #[inline]
     pub const fn position_control_parameter_set(
         &self,
@@ -1790,6 +1840,8 @@ impl Pmc {
     }
 
     /// `60FDh` digital inputs: Level of the inputs; 1 is 24 V. Bits 0 to 15 are as in CiA 402, bits 16 to 31 the manufacturer's.
+    ///
+    /// **Warning:** Bit 18 (X2.3) acts at 0 V: an open input starts the emergency drive. The quick stop inputs (bits 0 and 1) act at 0, too.
     ///
     /// UNSIGNED32, ro, TPDO, default 0x00000000.
     #[inline]
@@ -1817,6 +1869,8 @@ impl Pmc {
 
     /// `60FFh` target velocity: Velocity in profile velocity mode and in cyclic synchronous velocity mode. Above the max profile velocity (607Fh) the smaller value is used. The value received last stays in force; no time-out of cyclic set-points is described.
     ///
+    /// **Warning:** In profile velocity mode a new value moves the axis at once while halt (bit 8 of 6040h) is 0. If the control falls silent, the axis goes on with the last value.
+    ///
     /// INTEGER32, rw, RPDO, in PU/s, default 0 PU/s. 16-bit view: [`target_velocity_16bit`](Pmc::target_velocity_16bit) (`50FFh`). In RPDO 3 ([`Rpdo3`](pdos::Rpdo3), off by default).
     #[inline]
     pub fn target_velocity(&self) -> units::PositionUnitPerSecond<i32> {
@@ -1831,6 +1885,8 @@ impl Pmc {
 
     /// `6402h` motor type: Kind of motor that is connected.
     ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Only for qualified staff.
+    ///
     /// UNSIGNED16, rw, default non-standard motor, stored with the application parameters.
     #[inline]
     pub fn motor_type(&self) -> types::MotorType {
@@ -1844,6 +1900,8 @@ impl Pmc {
     }
 
     /// `6410h` motor data: Manufacturer's data of the motor, from the motor database. Only qualified staff may change them.
+    ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Sub-index 1 counts pole pairs in spite of its name.
     #[inline]
     pub const fn motor_data(&self) -> records::MotorData<&Self> {
         records::MotorData(self)
@@ -1870,6 +1928,8 @@ impl Pmc {
     }
 
     /// `6510h` drive data: Data of the drive for which CiA 402 has no object.
+    ///
+    /// **Warning:** The min DC link voltage (sub-index 4) has to be below the battery voltage, or manual and emergency operation on battery fail. A bit that is 0 in the error mask (sub-index 7) takes away the fault of that bit, unless its priority is A.
     #[inline]
     pub const fn drive_data(&self) -> records::DriveData<&Self> {
         records::DriveData(self)
@@ -1896,6 +1956,8 @@ impl Pmc {
     }
 
     /// `6865h` difference error window: How far motor and blade encoder may differ. Above it for longer than 6866h is the error 8620h.
+    ///
+    /// **Warning:** The default 0 may mean no monitoring, or an error at once. Try it out before relying on it.
     ///
     /// UNSIGNED32, rw, in PU, default 0 PU, stored with the application parameters.
     #[inline]
@@ -1925,6 +1987,8 @@ impl Pmc {
 
     /// `687Ch` ae home offset: Distance between the zero of the additional encoder and the zero of the application; it is added to the encoder's position. Writable while homing mode is in force; homing sets it. It outlives a power-off only if saved with 1010h.3.
     ///
+    /// **Warning:** Shifts every absolute position of the additional encoder, the feather position included where it closes the loop. A new value that is not saved is lost at power-off.
+    ///
     /// INTEGER32, rw, in PU, default 0 PU, stored with the application parameters. Writable while `0x6061 == 6`.
     #[inline]
     pub fn ae_home_offset(&self) -> units::PositionUnit<i32> {
@@ -1938,6 +2002,8 @@ impl Pmc {
     }
 
     /// `687Eh` ae polarity: Sense of counting of the additional encoder. A wrong sense turns the position loop into positive feedback.
+    ///
+    /// **Warning:** With the wrong sense the axis runs away when it is enabled and the additional encoder closes the loop.
     ///
     /// UNSIGNED8, rw, default 0x00, stored with the application parameters.
     #[inline]
@@ -1976,6 +2042,8 @@ impl Pmc {
     }
 
     /// `6892h` ae feed constant: Travel per revolution of the drive shaft, as a fraction, for position control with the additional encoder.
+    ///
+    /// **Warning:** It makes the position unit of the additional encoder: a wrong value moves all positions to other angles, and nothing checks that.
     #[inline]
     pub const fn ae_feed_constant(&self) -> records::AeFeedConstant<&Self> {
         records::AeFeedConstant(self)
@@ -3034,6 +3102,8 @@ pub mod records {
     pub type Tpdo4CommunicationParameter<D> = Tpdo1CommunicationParameter<D>;
 
     /// `607Dh` software position limit: Absolute limits of the target position; a target beyond them is replaced by the limit.
+    ///
+    /// **Warning:** The limits have to include the EFC target position (567Ah), or the emergency drive ends at the limit.
     #[derive(Debug)]
     pub struct SoftwarePositionLimit<D>(pub(super) D);
 
@@ -3151,6 +3221,8 @@ pub mod records {
     }
 
     /// `6092h` feed constant: Travel per revolution of the drive shaft, as a fraction. Used when the motor encoder closes the position loop (606Ah = 0).
+    ///
+    /// **Warning:** It makes the position unit: a wrong value moves the feather position and all limits to other angles, and nothing checks that.
     #[derive(Debug)]
     pub struct FeedConstant<D>(pub(super) D);
 
@@ -3223,6 +3295,8 @@ pub mod records {
     }
 
     /// `60F6h` torque control parameter set: The innermost loop, a PI controller. The values come from the motor database; only qualified staff may change them.
+    ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Only for qualified staff.
     #[derive(Debug)]
     pub struct TorqueControlParameterSet<D>(pub(super) D);
 
@@ -3276,6 +3350,8 @@ pub mod records {
     }
 
     /// `60F9h` velocity control parameter set: The velocity loop, a PID controller, with brake and inverter settings. The values come from the motor database.
+    ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Too short a brake time (sub-index 4) lets a hanging axis sag before the brake holds.
     #[derive(Debug)]
     pub struct VelocityControlParameterSet<D>(pub(super) D);
 
@@ -3368,6 +3444,8 @@ pub mod records {
     }
 
     /// `60FBh` position control parameter set: The position loop, a proportional controller.
+    ///
+    /// **Warning:** Bits of the control flags (sub-index 3) change how the axis behaves in an emergency: bit 9 lets the feather drive run under velocity control, bit 14 lets the axis run beyond limit switches, and with bit 15 (simulation) the axis does not move at all, not to the feather position either.
     #[derive(Debug)]
     pub struct PositionControlParameterSet<D>(pub(super) D);
 
@@ -3488,6 +3566,8 @@ pub mod records {
     }
 
     /// `6410h` motor data: Manufacturer's data of the motor, from the motor database. Only qualified staff may change them.
+    ///
+    /// **Warning:** From the motor database; wrong values can damage the machine. Sub-index 1 counts pole pairs in spite of its name.
     #[derive(Debug)]
     pub struct MotorData<D>(pub(super) D);
 
@@ -3717,6 +3797,8 @@ pub mod records {
     }
 
     /// `6510h` drive data: Data of the drive for which CiA 402 has no object.
+    ///
+    /// **Warning:** The min DC link voltage (sub-index 4) has to be below the battery voltage, or manual and emergency operation on battery fail. A bit that is 0 in the error mask (sub-index 7) takes away the fault of that bit, unless its priority is A.
     #[derive(Debug)]
     pub struct DriveData<D>(pub(super) D);
 
@@ -3949,6 +4031,8 @@ pub mod records {
     }
 
     /// `6892h` ae feed constant: Travel per revolution of the drive shaft, as a fraction, for position control with the additional encoder.
+    ///
+    /// **Warning:** It makes the position unit of the additional encoder: a wrong value moves all positions to other angles, and nothing checks that.
     #[derive(Debug)]
     pub struct AeFeedConstant<D>(pub(super) D);
 

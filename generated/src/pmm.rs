@@ -838,6 +838,8 @@ impl Pmm {
 
     /// `3012h` temperature sensor1: External KTY110 sensor 1 at X15.1/X15.2. A sensor fault raises no error, only these values and bits in 3008h.
     ///
+    /// **Warning:** A broken or missing sensor raises no error; only the value and the status bits show it.
+    ///
     /// INTEGER16, ro, TPDO, in 0.1 °C, -32768: short circuit, 32767: wire break.
     #[inline]
     pub fn temperature_sensor1(
@@ -874,6 +876,8 @@ impl Pmm {
     }
 
     /// `3013h` temperature sensor2: External KTY110 sensor 2 at X15.3/X15.4. A sensor fault raises no error, only these values and bits in 3009h.
+    ///
+    /// **Warning:** A broken or missing sensor raises no error; only the value and the status bits show it.
     ///
     /// INTEGER16, ro, TPDO, in 0.1 °C, -32768: short circuit, 32767: wire break.
     #[inline]
@@ -968,6 +972,8 @@ impl Pmm {
     }
 
     /// `3050h` cumulative total Ah charge: Charge put into the battery over its life, summed up at every charging. Write 0 after a change of the battery.
+    ///
+    /// **Warning:** Writing loses the count of the battery's life. Write 0 only after a change of the battery.
     ///
     /// UNSIGNED32, rw, TPDO, in mAh, kept over power-off.
     #[inline]
@@ -1371,6 +1377,8 @@ impl Pmm {
 
     /// `30E0h` max time of power failure: Longest power failure to ride through; after this time the emergency mode starts. At least 3 s are advised, as grid operators ask for it.
     ///
+    /// **Warning:** The emergency drive starts only after this time.
+    ///
     /// UNSIGNED16, rw, in ms, default 3000 ms, stored with the application parameters.
     #[inline]
     pub fn max_time_of_power_failure(&self) -> units::Millisecond<u16> {
@@ -1385,6 +1393,8 @@ impl Pmm {
 
     /// `30E1h` max time to shutdown: Time from the power failure to the shutdown. Has to cover the ride-through time (30E0h) and the longest travel of the blades to the feather position.
     ///
+    /// **Warning:** Too short a time shuts the unit down before the blades have reached the feather position.
+    ///
     /// UNSIGNED16, rw, in s, default 30 s, stored with the application parameters.
     #[inline]
     pub fn max_time_to_shutdown(&self) -> units::Second<u16> {
@@ -1398,6 +1408,8 @@ impl Pmm {
     }
 
     /// `30E2h` pulse width input check signal: Length to which a test pulse on X13.7, X13.8 or X13.10 is stretched in bits 16, 18 and 19 of digital inputs (30FDh). The test pulse itself may hold the input at 0 V for 40 ms at most; from about 50 ms on, the emergency mode is executed.
+    ///
+    /// **Warning:** A test pulse may last 40 ms at most: after about 50 ms at 0 V the emergency mode starts.
     ///
     /// UNSIGNED16, rw, in ms, default 2000 ms, stored with the application parameters.
     #[inline]
@@ -1444,6 +1456,8 @@ impl Pmm {
     }
 
     /// `30F0h` supply controller parameter set: Cascaded PI controller of the regulated mains adapter. Set in the factory, varies with the machine; wrong values can damage the machine.
+    ///
+    /// **Warning:** Set in the factory; wrong values can damage the machine. Only for qualified staff.
     #[inline]
     pub const fn supply_controller_parameter_set(
         &self,
@@ -1460,6 +1474,8 @@ impl Pmm {
     }
 
     /// `30F1h` charge controller parameter set: PI controller and low-pass filter of the battery charger (sub-indices 1 to 3, set in the factory), and the charging limits, which depend on type and number of the battery blocs.
+    ///
+    /// **Warning:** Sub-indices 1 to 3 are set in the factory; wrong values can damage the machine. A charging voltage (sub-index 4) above the highest bloc voltage times the number of blocs overcharges the battery.
     #[inline]
     pub const fn charge_controller_parameter_set(
         &self,
@@ -1488,6 +1504,8 @@ impl Pmm {
     }
 
     /// `30FBh` booster parameter set: Cascaded PI controller of the boost converter (sub-indices 1 to 6, set in the factory, varies with the machine; wrong values can damage the machine), and its working points.
+    ///
+    /// **Warning:** Sub-indices 1 to 6 are set in the factory; wrong values can damage the machine. The target voltage (sub-index 7) has to be above the nominal DC link voltage, or a current rushes into the link when the mains return.
     #[inline]
     pub const fn booster_parameter_set(&self) -> records::BoosterParameterSet<&Self> {
         records::BoosterParameterSet(self)
@@ -1502,6 +1520,8 @@ impl Pmm {
     }
 
     /// `30FCh` brake chopper: DC link voltages between which the brake chopper works. Neither may be below the target voltage of the booster (30FBh.7).
+    ///
+    /// **Warning:** Below the target voltage of the booster (30FBh.7) the chopper burns what the booster takes from the battery.
     #[inline]
     pub const fn brake_chopper(&self) -> records::BrakeChopper<&Self> {
         records::BrakeChopper(self)
@@ -1514,6 +1534,8 @@ impl Pmm {
     }
 
     /// `30FDh` digital inputs: Digital inputs of the PMM. Internal functions may use an input as well, see alarm inputs (3300h).
+    ///
+    /// **Warning:** Bit 0 (X13.10) acts at 0 V: an open input starts the emergency drive.
     ///
     /// UNSIGNED32, ro, TPDO.
     #[inline]
@@ -1528,6 +1550,8 @@ impl Pmm {
     }
 
     /// `30FEh` digital outputs: Digital outputs of the PMM, shared between the fieldbus and internal functions by means of a mask.
+    ///
+    /// **Warning:** An output that an internal function uses has to be 0 in the mask (sub-index 2), or the bus drives it as well.
     #[inline]
     pub const fn digital_outputs(&self) -> records::DigitalOutputs<&Self> {
         records::DigitalOutputs(self)
@@ -1720,6 +1744,8 @@ impl Pmm {
     }
 
     /// `3220h` position range enable: Sets an output while the position of the axis, which the PMC reports over CAN, lies between two limits.
+    ///
+    /// **Warning:** The limits count in 0.01°: they fit only where the position unit of the PMC is 0.01°.
     #[inline]
     pub const fn position_range_enable(&self) -> records::PositionRangeEnable<&Self> {
         records::PositionRangeEnable(self)
@@ -1734,6 +1760,8 @@ impl Pmm {
     }
 
     /// `3300h` alarm inputs: Assigns digital inputs to the alarm codes FFF1h to FFF8h. As delivered no input is assigned. `sub` is the sub-index, 1 to 8; `None` for any other.
+    ///
+    /// **Warning:** As delivered no input raises an alarm, that of the lightning protection included.
     ///
     /// UNSIGNED16, rw, default 0x0000, stored with the application parameters.
     #[inline]
@@ -1761,6 +1789,8 @@ impl Pmm {
     }
 
     /// `5040h` manual control: Commands a manual function in place of mode switch and key button, e.g. from an external operator terminal.
+    ///
+    /// **Warning:** Starts a manual function without anyone at the device having turned the switch or pressed the button. Nobody may be near the blade.
     ///
     /// UNSIGNED8, rw, RPDO, default 0x00.
     #[inline]
@@ -3147,6 +3177,8 @@ pub mod records {
     }
 
     /// `30F0h` supply controller parameter set: Cascaded PI controller of the regulated mains adapter. Set in the factory, varies with the machine; wrong values can damage the machine.
+    ///
+    /// **Warning:** Set in the factory; wrong values can damage the machine. Only for qualified staff.
     #[derive(Debug)]
     pub struct SupplyControllerParameterSet<D>(pub(super) D);
 
@@ -3239,6 +3271,8 @@ pub mod records {
     }
 
     /// `30F1h` charge controller parameter set: PI controller and low-pass filter of the battery charger (sub-indices 1 to 3, set in the factory), and the charging limits, which depend on type and number of the battery blocs.
+    ///
+    /// **Warning:** Sub-indices 1 to 3 are set in the factory; wrong values can damage the machine. A charging voltage (sub-index 4) above the highest bloc voltage times the number of blocs overcharges the battery.
     #[derive(Debug)]
     pub struct ChargeControllerParameterSet<D>(pub(super) D);
 
@@ -3381,6 +3415,8 @@ pub mod records {
     }
 
     /// `30FBh` booster parameter set: Cascaded PI controller of the boost converter (sub-indices 1 to 6, set in the factory, varies with the machine; wrong values can damage the machine), and its working points.
+    ///
+    /// **Warning:** Sub-indices 1 to 6 are set in the factory; wrong values can damage the machine. The target voltage (sub-index 7) has to be above the nominal DC link voltage, or a current rushes into the link when the mains return.
     #[derive(Debug)]
     pub struct BoosterParameterSet<D>(pub(super) D);
 
@@ -3515,6 +3551,8 @@ pub mod records {
     }
 
     /// `30FCh` brake chopper: DC link voltages between which the brake chopper works. Neither may be below the target voltage of the booster (30FBh.7).
+    ///
+    /// **Warning:** Below the target voltage of the booster (30FBh.7) the chopper burns what the booster takes from the battery.
     #[derive(Debug)]
     pub struct BrakeChopper<D>(pub(super) D);
 
@@ -3551,6 +3589,8 @@ pub mod records {
     }
 
     /// `30FEh` digital outputs: Digital outputs of the PMM, shared between the fieldbus and internal functions by means of a mask.
+    ///
+    /// **Warning:** An output that an internal function uses has to be 0 in the mask (sub-index 2), or the bus drives it as well.
     #[derive(Debug)]
     pub struct DigitalOutputs<D>(pub(super) D);
 
@@ -3884,6 +3924,8 @@ pub mod records {
     }
 
     /// `3220h` position range enable: Sets an output while the position of the axis, which the PMC reports over CAN, lies between two limits.
+    ///
+    /// **Warning:** The limits count in 0.01°: they fit only where the position unit of the PMC is 0.01°.
     #[derive(Debug)]
     pub struct PositionRangeEnable<D>(pub(super) D);
 

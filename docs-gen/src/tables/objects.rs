@@ -17,8 +17,9 @@ impl Source<'_> {
         let mut simple: Vec<Row> = Vec::new();
         for index in indices {
             let variants = self.variants(*index, |device, object| {
-                let head =
-                    object.is_structured().then(|| (object.name.clone(), object.kind, object.about.clone()));
+                let head = object.is_structured().then(|| {
+                    (object.name.clone(), object.kind, object.about.clone(), object.warning.clone())
+                });
                 let rows = self.entry_rows(device, object, false);
                 let texts =
                     rows.iter().map(|row| row.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>());
@@ -42,6 +43,7 @@ impl Source<'_> {
                         name: object.name.clone(),
                         kind: object.kind.name(),
                         about: self.text(&object.about),
+                        warning: self.warning(object),
                         device: label,
                     };
                     grids.push(Grid { object: Some(head), ..self.entry_columns(object).grid(rows, ALWAYS) });
@@ -135,6 +137,10 @@ impl Source<'_> {
     /// Meaning of an entry and what else is to be known about it.
     fn description(&self, device: &Dictionary, object: &Object, entry: &Entry) -> Cell {
         let mut cell = self.text(&entry.about);
+        if !entry.warning.is_empty() {
+            let label = format!("{}:", self.word(Word::Warning));
+            cell = cell.line().strong(label).text(" ").and(self.text(&entry.warning));
+        }
         for special in &entry.special {
             cell = cell.line().text(self.wording.special(entry, special));
             if !special.about.is_empty() {

@@ -59,7 +59,12 @@ impl Pair<'_> {
         changes.extend(self.limits());
         changes.extend(self.special());
         changes.extend(self.bit_errors());
-        changes.extend(texts(&self.place(), Fact::About, &self.old.about, &self.new.about, self.language));
+        for (fact, old, new) in [
+            (Fact::Warning, &self.old.warning, &self.new.warning),
+            (Fact::About, &self.old.about, &self.new.about),
+        ] {
+            changes.extend(texts(&self.place(), fact, old, new, self.language));
+        }
         changes.extend(self.eds());
         changes
     }

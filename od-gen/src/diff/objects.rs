@@ -133,8 +133,9 @@ impl Devices<'_> {
             identifier.map(|change| change.so(Class::Documents, "generated code has the same names")),
             links.map(|change| change.so(Class::Documents, "a hint where to look; access is the same")),
         ];
+        let warning = texts(&place, Fact::Warning, &old.warning, &new.warning, self.language);
         let about = texts(&place, Fact::About, &old.about, &new.about, self.language);
-        facts.into_iter().flatten().chain(about).collect()
+        facts.into_iter().flatten().chain(warning).chain(about).collect()
     }
 
     /// What a PDO carries, in one change instead of one for each mapping entry.

@@ -1,7 +1,7 @@
 //! What EDS keys cannot say: units, meanings, bits, storage, locks. Facts are worded by [`od_spec::wording`].
 
 use od_spec::model::{
-    BitField, BitUsage, Dictionary, Entry, EntryId, Fact, Index, Object, Storage, TypeKind,
+    BitField, BitUsage, Dictionary, Entry, EntryId, Fact, Index, Object, Storage, Text, TypeKind,
 };
 use od_spec::wording::{Notation, Wording};
 
@@ -14,12 +14,16 @@ const WORDING: Wording = Wording::english(Notation::Eds);
 
 /// Comments above an object's section.
 pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
-    object.about.get(language).map(ToOwned::to_owned).into_iter().collect()
+    warning(&object.warning, language)
+        .into_iter()
+        .chain(object.about.get(language).map(ToOwned::to_owned))
+        .collect()
 }
 
 /// Comments above an entry's section.
 pub(super) fn entry(device: &Dictionary, index: Index, entry: &Entry, language: &str) -> Vec<String> {
-    let mut lines: Vec<String> = entry.about.get(language).map(ToOwned::to_owned).into_iter().collect();
+    let mut lines: Vec<String> = warning(&entry.warning, language).into_iter().collect();
+    lines.extend(entry.about.get(language).map(ToOwned::to_owned));
     lines.extend(facts(device, index, entry));
     lines.extend(entry.special.iter().map(|special| WORDING.special(entry, special)));
     match entry.named_type.as_ref().map(|named| &named.kind) {
@@ -35,6 +39,11 @@ pub(super) fn entry(device: &Dictionary, index: Index, entry: &Entry, language: 
         Some(TypeKind::Enum(_) | TypeKind::Bits(_)) | None => {}
     }
     lines
+}
+
+/// The danger that comes from an object or entry.
+fn warning(warning: &Text, language: &str) -> Option<String> {
+    warning.get(language).map(|warning| format!("Warning: {warning}"))
 }
 
 /// Unit, alias, storage and the like, in one line.

@@ -130,6 +130,7 @@ struct ObjectView<'a> {
     since: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     links: Vec<String>,
+    warning: Words<'a>,
     about: Words<'a>,
     entries: Entries<'a>,
 }
@@ -147,6 +148,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         category: object.category.map(model::Category::word),
         since: object.since.as_deref(),
         links: object.linked().map(index).collect(),
+        warning: words(&object.warning),
         about: words(&object.about),
         entries: Entries(object),
     }
@@ -211,6 +213,7 @@ struct EntryView<'a> {
     eds: EdsView,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     standard: Vec<&'static str>,
+    warning: Words<'a>,
     about: Words<'a>,
 }
 
@@ -276,6 +279,7 @@ fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
             flags: entry.eds.flags(),
         },
         standard: entry.facts.said_by(Author::Library).map(|fact| WORDING.fact(fact)).collect(),
+        warning: words(&entry.warning),
         about: words(&entry.about),
     }
 }

@@ -2,7 +2,7 @@
 
 use od_spec::LibraryObject;
 use od_spec::model::{
-    Author, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, SubIndex, TypeKind,
+    Author, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, SubIndex, Text, TypeKind,
 };
 
 use super::compare::same_named;
@@ -52,15 +52,18 @@ fn whole(object: &Object, below: &Object, context: &Context<'_>) -> Vec<Item> {
         |fact: Fact, node: Node| Item::new(fact.word(), node).about(Spot::ObjectFact(object.index, fact));
     let category = object.category.filter(|category| Some(*category) != below.category);
     let since = object.since.clone().filter(|since| Some(since) != below.since.as_ref());
-    let about =
-        super::texts::words(&object.about, context.language()).filter(|_| object.about != below.about);
+    let text = |fact: Fact, text: &Text, below: &Text| {
+        let words = super::texts::words(text, context.language()).filter(|_| text != below)?;
+        Some(item(fact, words))
+    };
     let items = [
         (object.name != below.name).then(|| item(Fact::Name, Node::text(object.name.clone()))),
         object.identifier.clone().map(|name| item(Fact::Identifier, Node::Plain(name))),
         category.map(|category| item(Fact::Category, Node::plain(category.word()))),
         since.map(|since| item(Fact::Since, Node::Text(since))),
         links(object, below),
-        about.map(|about| item(Fact::About, about)),
+        text(Fact::Warning, &object.warning, &below.warning),
+        text(Fact::About, &object.about, &below.about),
     ];
     items.into_iter().flatten().collect()
 }
@@ -84,7 +87,7 @@ fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Vec<It
             Fact::Storage => Node::plain("no"),
             Fact::Eds => no_flags(),
             Fact::Default => super::value::value(object.index, count, count.default.as_ref()?),
-            Fact::About => continue,
+            Fact::Warning | Fact::About => continue,
             _ => return None,
         };
         keys.push((*fact, node));
@@ -202,6 +205,7 @@ fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) 
         Fact::LowLimit => own.limits().0 != below.limits().0,
         Fact::HighLimit => own.limits().1 != below.limits().1,
         Fact::WriteCondition => condition(own) != condition(below),
+        Fact::Warning => own.warning != below.warning,
         Fact::About => own.about != below.about,
         other => fold::get(&theirs, *other) != fold::get(&keys, *other),
     };

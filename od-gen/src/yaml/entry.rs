@@ -41,6 +41,7 @@ pub(super) fn keys(context: &Context<'_>, index: Index, entry: &Entry) -> Keys {
     add(Fact::BitErrors, bit_errors(&entry.bit_errors, entry));
     let eds = eds::keys(entry, context.eds);
     add(Fact::Eds, (!eds.is_empty()).then_some(Node::Map(eds)));
+    add(Fact::Warning, words(&entry.warning, context.language()));
     add(Fact::About, words(&entry.about, context.language()));
     keys
 }

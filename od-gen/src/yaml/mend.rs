@@ -76,7 +76,7 @@ impl Draft {
 
     /// The facts of an entry one after the other, those first that the message is likely to be about; at last the entry.
     fn mend_entry(&mut self, id: EntryId, error: &Diagnostic) -> Option<Repair> {
-        const ORDER: [Fact; 15] = [
+        const ORDER: [Fact; 16] = [
             Fact::Eds,
             Fact::WriteCondition,
             Fact::BitErrors,
@@ -90,6 +90,7 @@ impl Draft {
             Fact::Unit,
             Fact::Meaning,
             Fact::Identifier,
+            Fact::Warning,
             Fact::About,
             Fact::Access,
         ];
@@ -148,6 +149,10 @@ impl Draft {
             Fact::BitErrors => {
                 let count = entry.bit_errors.drain(..).count();
                 (count > 0).then(|| "error codes of bits".to_owned())?
+            }
+            Fact::Warning => {
+                let warning = std::mem::take(&mut entry.warning);
+                (!warning.is_empty()).then(|| "a warning".to_owned())?
             }
             Fact::About => {
                 let about = std::mem::take(&mut entry.about);
@@ -227,6 +232,10 @@ impl Draft {
                 let links: Vec<String> = object.linked().map(|index| index.to_string()).collect();
                 object.links.clear();
                 (!links.is_empty()).then(|| links.join(", "))?
+            }
+            Fact::Warning => {
+                object.warning = Text::default();
+                "a warning".to_owned()
             }
             Fact::About => {
                 object.about = Text::default();

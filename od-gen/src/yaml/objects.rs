@@ -51,8 +51,11 @@ fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
         object.since.clone().map(|since| item(Fact::Since, Node::Text(since))),
         links(object),
     ];
-    let after = super::texts::words(&object.about, context.language()).map(|about| item(Fact::About, about));
-    (before.into_iter().flatten().collect(), after.into_iter().collect())
+    let after = [(Fact::Warning, &object.warning), (Fact::About, &object.about)];
+    let after = after
+        .into_iter()
+        .filter_map(|(fact, text)| Some(item(fact, super::texts::words(text, context.language())?)));
+    (before.into_iter().flatten().collect(), after.collect())
 }
 
 /// `links:`, where there are any.
@@ -62,8 +65,9 @@ fn links(object: &Object) -> Option<Item> {
 
 /// The keys of a VAR with its links, which stand before the description.
 pub(super) fn with_links(mut items: Vec<Item>, links: Option<Item>) -> Vec<Item> {
-    let about = items.iter().position(|item| item.key == Fact::About.word()).unwrap_or(items.len());
-    items.splice(about..about, links);
+    let is_text = |item: &Item| [Fact::Warning.word(), Fact::About.word()].contains(&item.key.as_str());
+    let texts = items.iter().position(is_text).unwrap_or(items.len());
+    items.splice(texts..texts, links);
     items
 }
 

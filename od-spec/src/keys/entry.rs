@@ -37,6 +37,7 @@ macro_rules! entry_keys {
                 "bit-errors": Shape::MapOf(KeyKind::Bits, &Shape::OneOrMore(&Shape::ErrorCode)) => bit_errors: Vec<BitErrorDecl>, BitErrors, Value, "error codes of the type's bits, where several entries share the type", "{0: 0x4420, 4: [0x4410, 0x4411]}";
                 "capacity": Shape::Integer(1, 65_535) => capacity: i128, Capacity, Value, "most bytes of a string that the device can hold; in a UNICODE_STRING, each character takes two or four", "16";
                 "eds": Shape::Map(&ENTRY_EDS_KEYS) => eds: EdsDecl, Eds, Entries, "what the EDS shows, where the device's policy does not fit", "{flags: [no-write]}", sub0 "what the EDS shows";
+                "warning": Shape::Words => warning: Text, Warning, Object, "danger for people, machine or data that comes from it", "The drive moves at once.";
                 "about": Shape::Words => about: Text, About, Object, "meaning", sub0 "meaning";
             }
         }

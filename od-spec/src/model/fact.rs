@@ -69,6 +69,8 @@ facts! {
     Eds = "eds",
     /// Objects that belong together with an object.
     Links = "links",
+    /// Danger that comes from it.
+    Warning = "warning",
     /// Description.
     About = "about",
     /// The entry that an alias shows.
@@ -159,6 +161,7 @@ impl Fact {
             | Self::BitErrors
             | Self::Capacity
             | Self::Identifier
+            | Self::Warning
             | Self::About
             | Self::Alias
             | Self::Requirement

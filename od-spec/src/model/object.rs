@@ -90,6 +90,8 @@ pub struct Object {
     pub since: Option<String>,
     /// Objects that belong together with it, as they are written.
     pub links: Vec<Spanned<Index>>,
+    /// Danger that comes from it as a whole; that of a VAR stands at its entry, too.
+    pub warning: Text,
     /// Meaning.
     pub about: Text,
     /// Entries by ascending sub-index; a VAR or DOMAIN has exactly one, at 0.
@@ -180,6 +182,8 @@ pub struct Entry {
     pub eds: EdsPolicy,
     /// Where each fact stands, and who says it.
     pub facts: Facts,
+    /// Danger for people, machine or data that comes from it.
+    pub warning: Text,
     /// Meaning.
     pub about: Text,
     /// Where it is written.
@@ -213,6 +217,7 @@ impl Entry {
             bit_errors: Vec::new(),
             eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
             facts: Facts::none(),
+            warning: Text::default(),
             about: Text::default(),
             span,
         }

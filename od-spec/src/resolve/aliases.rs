@@ -158,6 +158,7 @@ fn alias(
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
         links: decl.links.clone().unwrap_or_default(),
+        warning: entry.warning.clone(),
         about: words(&decl.entry.about),
         entries: vec![entry],
         span: decl.index.span,
@@ -237,6 +238,10 @@ fn follow(entry: &mut Entry, alias: &Alias, decl: &EntryDecl, target: &Target<'_
     }
     if entry.writable_when.is_none() && entry.access.is_writable() {
         entry.writable_when.clone_from(&target.entry.writable_when);
+    }
+    // Whoever writes the alias does the same.
+    if entry.warning.is_empty() && entry.access.is_writable() {
+        entry.warning.clone_from(&target.entry.warning);
     }
     // A default that the alias cannot show as it is would be another value.
     let show = |raw: i128| convert(raw, alias.factor, alias.rounding, Outside::Abort, entry.data_type);

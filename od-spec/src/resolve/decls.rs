@@ -278,7 +278,16 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
 /// Whether a standard has a say in a fact. What is stored, how much fits and what things are called in code is the maker's
 /// affair.
 const fn is_fixed_by_standards(fact: Fact) -> bool {
-    !matches!(fact, Fact::About | Fact::Since | Fact::Storage | Fact::Eds | Fact::Capacity | Fact::Identifier)
+    !matches!(
+        fact,
+        Fact::About
+            | Fact::Warning
+            | Fact::Since
+            | Fact::Storage
+            | Fact::Eds
+            | Fact::Capacity
+            | Fact::Identifier
+    )
 }
 
 /// The facts in which an entry differs. A type of the same width and sign with other bits or values differs in its meaning

@@ -75,6 +75,7 @@ pub(super) fn resolve(
         identifier: identifier(decl, diagnostics),
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
         eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
+        warning: words(&decl.warning),
         about: words(&decl.about),
         facts: decl.facts(around.file),
         span: decl.span,

@@ -71,6 +71,7 @@ pub(super) fn resolve(
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
         links: decl.links.clone().unwrap_or_default(),
+        warning: words(&decl.entry.warning),
         about: words(&decl.entry.about),
         entries,
         span: decl.index.span,

@@ -68,6 +68,7 @@ fn object(
         category: None,
         since: None,
         links: Vec::new(),
+        warning: Text::default(),
         about: Text::default(),
         entries: parameters
             .into_iter()

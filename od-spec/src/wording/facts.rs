@@ -141,6 +141,7 @@ impl Wording {
                 Fact::Identifier => "Bezeichner",
                 Fact::Eds => "EDS",
                 Fact::Links => "verknüpfte Objekte",
+                Fact::Warning => "Warnung",
                 Fact::About => "Beschreibung",
                 Fact::Alias => "Abbild",
                 Fact::RemoteFrames => "Remote-Frames",

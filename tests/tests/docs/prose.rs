@@ -1,10 +1,25 @@
 //! Texts of a manual stand between its tables, in the language of the document, and with the devices that they are about.
 
 use od_gen::docs::{self, Format, Templates};
+use od_gen::rust::{self, Provenance};
+use od_spec::diag::Diagnostics;
+use od_spec::model::{EntryId, Index, SubIndex};
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
 
 use super::compile_clean;
 
 const PROSE: &str = "tests/docs/prose.od.yaml";
+
+/// A page in a language.
+fn page(name: &str, language: &str, format: Format) -> String {
+    let system = compile_clean(PROSE).unwrap();
+    let templates = [Templates::new(Some(format), &[]).unwrap()];
+    let files = docs::artifacts(&system, "", "s", &docs::options(&system, &[], Some(language)), &templates);
+    let files = files.unwrap();
+    let file = files.iter().find(|file| file.path == format!("s/{name}")).unwrap();
+    String::from_utf8_lossy(&file.bytes).into_owned()
+}
 
 /// The pages of the chapters for some devices, in a language.
 fn chapters(devices: &[&str], language: &str, format: Format) -> String {
@@ -89,4 +104,76 @@ fn texts_go_with_the_devices_around_them() {
         &["One paragraph.", "About both.", "**Table 2**", "Line of a note.", "Only about two."],
     );
     assert!(!two.contains("**Table 1**"), "{two}");
+}
+
+#[test]
+fn warnings_stand_where_the_object_does() {
+    let text = page("two.md", "en", Format::Markdown);
+    assert_in_order(
+        &text,
+        &[
+            "2002h speed",
+            "| **Warning:** The axis moves at once.",
+            // Whoever writes the view does the same; who reads it does not.
+            "2003h speed in 16 bits",
+            "**Warning:** The axis moves at once.<br>View of",
+            "2004h speed to be read",
+            "| View of",
+            "2005h heater",
+            "**Warning:** The plate is hot.\n",
+            "**Warning:** Full power burns.",
+        ],
+    );
+    assert_in_order(&page("two.md", "de", Format::Markdown), &["**Warnung:** Die Achse fährt sofort los."]);
+    let text = page("two.html", "en", Format::Html);
+    assert_in_order(
+        &text,
+        &[
+            "<strong>Warning:</strong> The axis moves at once.",
+            "<p class=\"warning\"><b>Warning:</b> The plate is hot.</p>",
+            "<strong>Warning:</strong> Full power burns.",
+        ],
+    );
+    let text = chapters(&[], "en", Format::Markdown);
+    assert_in_order(
+        &text,
+        &[
+            "**Warning:** The axis moves at once.",
+            "<br>**Warning:** The plate is hot.\n",
+            "Full power burns.",
+        ],
+    );
+}
+
+#[test]
+fn warnings_are_in_the_firmware() {
+    let system = compile_clean(PROSE).unwrap();
+    let device = system.devices.iter().find(|device| device.key == "two").unwrap();
+    let made_of = Provenance::of(&SourceMap::new());
+    let module = rust::file(&system, device, &made_of, &mut Diagnostics::new()).unwrap();
+    for warning in ["The axis moves at once.", "The plate is hot.", "Full power burns."] {
+        assert!(module.contains(&format!("/// **Warning:** {warning}\n")), "`{warning}` is not in\n{module}");
+    }
+}
+
+#[test]
+fn warnings_are_in_the_eds() {
+    let system = compile_clean(PROSE).unwrap();
+    let device = system.devices.iter().find(|device| device.key == "two").unwrap();
+    let eds = String::from_utf8(od_gen::eds::write_eds(&system, device)).unwrap();
+    assert_in_order(
+        &eds,
+        &["; Warning: The axis moves at once.\r\n[2002]", "; Warning: The plate is hot.\r\n[2005]"],
+    );
+    assert_in_order(&eds, &["; Warning: Full power burns.\r\n[2005sub1]"]);
+    let mut sources = SourceMap::new();
+    let id = sources.add("two.eds", eds);
+    let read = compile(&mut sources, id, &mut NoFiles).system.unwrap();
+    let warning = |index: u16, sub: u8| {
+        let id = EntryId { index: Index(index), sub: SubIndex(sub) };
+        read.devices[0].entry(id).unwrap().warning.get("en").map(str::to_owned)
+    };
+    assert_eq!(warning(0x2002, 0).as_deref(), Some("The axis moves at once."));
+    assert_eq!(warning(0x2005, 1).as_deref(), Some("Full power burns."));
+    assert_eq!(warning(0x2005, 2), None);
 }

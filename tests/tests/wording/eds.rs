@@ -92,9 +92,12 @@ fn remark<'t>(remarks: &mut Remarks<'t>, part: &'t str) -> bool {
 
 fn remarks<'t>(entry: &Entry, section: &'t Section<'_>, language: &str) -> Remarks<'t> {
     let mut remarks = Remarks::default();
-    // The meaning stands first.
-    let has_meaning = entry.about.get(language).is_some();
-    for line in section.comments.iter().skip(usize::from(has_meaning)) {
+    // Warning and meaning stand first.
+    let has_warning = entry.warning.get(language).is_some();
+    let texts = [has_warning, entry.about.get(language).is_some()].into_iter().filter(|has| *has).count();
+    let is_warning = section.comments.first().is_some_and(|line| line.starts_with("Warning: "));
+    assert_eq!(is_warning, has_warning, "{}", entry.name);
+    for line in section.comments.iter().skip(texts) {
         if let Some(listed) = read::listed(entry, line.trim_end_matches(" (not supported)")) {
             remarks.listed.push(listed);
             continue;

@@ -14,7 +14,15 @@ const SENTENCES: [&str; 5] =
 
 /// Reads the module of one device.
 pub(crate) fn read(module: &str, output: &mut Output<'_>) {
-    let lines: Vec<&str> = module.lines().map(str::trim).collect();
+    let mut lines: Vec<&str> = Vec::new();
+    for line in module.lines().map(str::trim) {
+        // A paragraph of its own, between heading and facts.
+        if line.starts_with("/// **Warning:** ") {
+            assert_eq!(lines.pop(), Some("///"), "{line}");
+        } else {
+            lines.push(line);
+        }
+    }
     for line in &lines {
         read_member(line, output);
     }

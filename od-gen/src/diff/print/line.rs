@@ -69,7 +69,16 @@ pub(super) fn values(change: &Change, style: Style) -> String {
 
 /// Whether values are sentences, of which a part is enough.
 const fn is_prose(fact: Fact) -> bool {
-    matches!(fact, Fact::Presence | Fact::About | Fact::Reaction | Fact::Document | Fact::Errata | Fact::Eds)
+    matches!(
+        fact,
+        Fact::Presence
+            | Fact::Warning
+            | Fact::About
+            | Fact::Reaction
+            | Fact::Document
+            | Fact::Errata
+            | Fact::Eds
+    )
 }
 
 /// The whole line without what follows: `~ 3005h test status: type: unsigned8 → unsigned16`.

@@ -209,12 +209,7 @@ impl Plan<'_> {
         let Some(first) = elements.first() else { return quote!(#sub0) };
         let highest = Literal::usize_unsuffixed(elements.len());
         let name = &object.name;
-        let about = doc(&format!(
-            "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{}",
-            self.object_doc(object.object),
-            elements.len(),
-            self.elements_doc(&elements, "")
-        ));
+        let about = doc(&self.object_with_elements_doc(object.object, &elements));
         let (get, set) = (format_ident!("{name}"), format_ident!("{}", setter(name)));
         let value_type = values.value_type(&first.kind, &at.root);
         let Place::Image(start) = first.place else {
@@ -262,12 +257,7 @@ impl Plan<'_> {
         let values = Values { plan: self };
         let at = At::top();
         let Some(first) = elements.first() else { return quote!(#sub0) };
-        let about = doc(&format!(
-            "{} `sub` is the sub-index, 1 to {}; `None` for any other.\n\n{}",
-            self.object_doc(object.object),
-            elements.len(),
-            self.elements_doc(elements, "")
-        ));
+        let about = doc(&self.object_with_elements_doc(object.object, elements));
         let (get, value_type) = (format_ident!("{}", object.name), values.value_type(&first.kind, &at.root));
         let arms = elements.iter().filter_map(|element| {
             let sub = Literal::u8_unsuffixed(element.id.sub.0);

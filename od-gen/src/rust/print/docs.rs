@@ -43,6 +43,12 @@ impl Plan<'_> {
         text.get(self.system.language()).map(escape).unwrap_or_default()
     }
 
+    /// The danger that comes from an object or entry, as a paragraph.
+    fn warning(&self, warning: &Text) -> String {
+        let warning = self.words(warning);
+        if warning.is_empty() { warning } else { format!("\n\n**Warning:** {warning}") }
+    }
+
     /// Heading, meaning and facts of an entry; `root` begins the paths of links.
     pub(super) fn entry_doc(&self, planned: &PlannedEntry<'_>, root: &str) -> String {
         let entry = planned.entry;
@@ -50,6 +56,7 @@ impl Plan<'_> {
         let about = self.words(&entry.about);
         text.push_str(if about.is_empty() { "." } else { ": " });
         text.push_str(&about);
+        text.push_str(&self.warning(&entry.warning));
         text.push_str("\n\n");
         text.push_str(&self.facts_doc(planned, root));
         text
@@ -112,7 +119,8 @@ impl Plan<'_> {
             text.push_str(&about);
         }
         let end = if text.ends_with('.') { "" } else { "." };
-        format!("{text}{end}\n\n{}.", common.join(", "))
+        let warning = self.warning(&first.entry.warning);
+        format!("{text}{end}{warning}\n\n{}.", common.join(", "))
     }
 
     /// Heading and meaning of an object whose group others have, too, and the facts of its members.
@@ -129,11 +137,31 @@ impl Plan<'_> {
         format!("{}\n\n{}", self.object_doc(object.object), members.collect::<Vec<_>>().concat().trim_end())
     }
 
-    /// Heading and meaning of an object that is more than one entry.
+    /// Heading, meaning and warning of an object that is more than one entry.
     pub(super) fn object_doc(&self, object: &Object) -> String {
+        self.object_heading(object) + &self.object_warning(object)
+    }
+
+    /// The same of an array whose elements are read by their sub-index, and the facts of these.
+    pub(super) fn object_with_elements_doc(&self, object: &Object, elements: &[&PlannedEntry<'_>]) -> String {
+        format!(
+            "{} `sub` is the sub-index, 1 to {}; `None` for any other.{}\n\n{}",
+            self.object_heading(object),
+            elements.len(),
+            self.object_warning(object),
+            self.elements_doc(elements, "")
+        )
+    }
+
+    fn object_heading(&self, object: &Object) -> String {
         let about = self.words(&object.about);
         let end = if about.is_empty() { "." } else { ": " };
         format!("`{}` {}{end}{about}", object.index, escape(&object.name))
+    }
+
+    /// The danger that comes from an object as a whole; the only entry of a VAR tells it itself.
+    fn object_warning(&self, object: &Object) -> String {
+        if object.is_structured() { self.warning(&object.warning) } else { String::new() }
     }
 
     /// What shows the entry, or what it shows.

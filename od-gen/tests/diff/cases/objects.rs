@@ -196,6 +196,15 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "a warning",
+        at: "  0x30E0:",
+        find: "only after this time",
+        replace: "after this time only",
+        expected: &[
+            "pmm: ~ 30E0h max time of power failure: warning: The emergency drive starts only after this time. -> The emergency drive starts after this time only. [documents]",
+        ],
+    },
+    Case {
         name: "error codes of bits",
         at: "  0x3006:",
         find: ", 5: 0x4410}",

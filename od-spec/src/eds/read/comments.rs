@@ -53,6 +53,9 @@ impl Meanings {
             read.line(line);
         }
         let mut entry = entry;
+        if let Some(warning) = &read.warning {
+            entry.warning = Some(Spanned::new(Text::new([("en", warning.as_str())]), place));
+        }
         if let Some(text) = read.text() {
             entry.about = Some(Spanned::new(Text::new([("en", text.as_str())]), place));
         }
@@ -175,6 +178,7 @@ fn special(entry: EntryDecl, values: BTreeMap<i128, String>, data_type: DataType
 #[derive(Default)]
 struct Comments {
     text: Vec<String>,
+    warning: Option<String>,
     unit: Option<StepText>,
     storage: Option<Storage>,
     is_locked: bool,
@@ -199,6 +203,8 @@ impl Comments {
             self.bits.push(bit);
         } else if let Some((value, name)) = named_value(&line) {
             self.values.insert(value, name);
+        } else if let Some(warning) = line.strip_prefix("Warning: ") {
+            self.warning = Some(warning.trim().to_owned());
         } else if !self.facts(&line) {
             self.text.push(line);
         }
