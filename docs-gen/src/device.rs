@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Devices, Dictionary, Direction, Entry, EntryId, Fact, Object, ObjectKind, PdoMapping, Storage,
+    Devices, Dictionary, Direction, Entry, EntryId, Fact, NamedType, Object, ObjectKind, PdoMapping, Storage,
     SystemSource, TypeKind, Value,
 };
 
@@ -153,6 +153,7 @@ impl Source<'_> {
                 TypeKind::Bits(fields) => ("bits", Word::Bits, self.bits(named, fields)),
                 TypeKind::Enum(values) => ("values", Word::Values, self.values(named.base, values)),
             };
+            let grid = anchored(grid, object, named);
             let anchor = format!("{}-type-{}", object_anchor(object.index), slug(&named.name));
             let title = Cell::plain(format!("{}: {}", self.word(word), named.name));
             Table { about: self.text(&named.about), ..Table::unnumbered(anchor, kind, title, vec![grid]) }
@@ -224,6 +225,7 @@ impl Source<'_> {
             low: limit(low),
             high: limit(high),
             unit: entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit)),
+            symbol: entry.unit.as_ref().map_or_else(String::new, |unit| unit.symbol.clone()),
             stored: self.storage_word(entry.stored),
             path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
             rust: self
@@ -238,7 +240,10 @@ impl Source<'_> {
     /// The entries of one object.
     fn detail(&self, device: &Dictionary, object: &Object) -> Grid {
         // The card itself is what links to an object lead to.
-        let rows = self.entry_rows(device, object, object.is_structured());
+        let mut rows = self.entry_rows(device, object, object.is_structured());
+        if let Some(count) = rows.first_mut().filter(|_| object.is_structured()) {
+            count.anchor = format!("{}.0", object_anchor(object.index));
+        }
         let grid = self.entry_columns(object).grid(rows, crate::tables::objects::ALWAYS);
         if !object.is_structured() {
             return grid;
@@ -275,6 +280,9 @@ impl Source<'_> {
         let mut notes = Vec::new();
         if let Some(profile) = &object.profile {
             let mut note = Cell::plain(format!("{} {profile}", self.word(Word::FromStandard)));
+            if let Some(name) = self.standard_name(object) {
+                note = note.text(": ").code(name);
+            }
             if !object.departures.is_empty() {
                 let differs: Vec<String> =
                     object.departures.iter().map(|departure| self.wording.departure(*departure)).collect();
@@ -335,6 +343,22 @@ impl Source<'_> {
             })
             .collect()
     }
+}
+
+/// The rows of a type with anchors below the first entry that has it: `6041.b3` is a bit, `6060.v8` a value.
+fn anchored(mut grid: Grid, object: &Object, named: &NamedType) -> Grid {
+    let has_it =
+        |entry: &&Entry| entry.named_type.as_deref().is_some_and(|its_type| its_type.name == named.name);
+    let Some(entry) = object.entries.iter().find(has_it) else { return grid };
+    let entry = entry_anchor(EntryId { index: object.index, sub: entry.sub });
+    let parts: Vec<String> = match &named.kind {
+        TypeKind::Bits(fields) => fields.iter().map(|field| format!("b{}", field.first)).collect(),
+        TypeKind::Enum(values) => values.iter().map(|value| format!("v{}", value.value)).collect(),
+    };
+    for (row, part) in grid.rows.iter_mut().zip(parts) {
+        row.anchor = format!("{entry}.{part}");
+    }
+    grid
 }
 
 /// Unit symbols of an object's entries, each once.

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use od_spec::wording::{self, Wording};
 
+use crate::synonyms::{self, Synonyms};
+
 macro_rules! words {
     ($($variant:ident $key:literal: $en:literal, $de:literal;)+) => {
         /// A heading, a column title or another fixed word of the documents.
@@ -159,6 +161,13 @@ words! {
     Reserved "reserved": "reserved", "reserviert";
     Revision "revision": "Issue", "Ausgabe";
     Search "search": "Search", "Suche";
+    Results "results": "Results", "Treffer";
+    ResultsElsewhere "results_elsewhere": "On other pages", "Auf anderen Seiten";
+    ResultsMore "results_more": "more results", "weitere Treffer";
+    ResultsSimilar "results_similar":
+        "Nothing fits exactly; this is similar.",
+        "Nichts passt genau; dies ist ähnlich.";
+    RowsAll "rows_all": "Show all rows", "Alle Zeilen zeigen";
     SearchHint "search_hint": "index, name or word", "Index, Name oder Wort";
     Section "section": "Section", "Abschnitt";
     Send "send": "Code", "Code";
@@ -246,6 +255,11 @@ impl Language<'_> {
     /// A fixed word.
     pub(crate) fn word(self, word: Word) -> &'static str {
         word.text(self.known())
+    }
+
+    /// Phrases that a search takes for one another.
+    pub(crate) fn synonyms(self) -> Vec<Synonyms> {
+        synonyms::of(self.known())
     }
 
     /// All fixed words by the names that templates use, also those about facts.

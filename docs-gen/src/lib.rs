@@ -16,6 +16,7 @@ mod options;
 mod outline;
 mod printed;
 mod source;
+mod synonyms;
 mod tables;
 mod templates;
 mod uses;
@@ -39,6 +40,7 @@ pub fn context(system: &System, options: &Options) -> Context {
         format: view::FORMAT,
         language: source.language.code.to_owned(),
         words: source.words(),
+        synonyms: source.language.synonyms(),
         system: view::SystemView {
             title: system.title.clone(),
             vendor: system.vendor.name.clone(),

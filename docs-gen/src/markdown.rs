@@ -112,9 +112,10 @@ pub(crate) fn table(grid: &Value, page: &str) -> Result<String, Error> {
             .map(|contents| cell(&contents, page))
             .collect::<Result<_, _>>()?;
         let anchor = row.get_attr("anchor")?.to_string();
-        // Anchors of entries stand above the table; others, such as `erratum-17`, lead to their row.
+        // Anchors of entries stand above the table, and those below them not at all; others, such as `erratum-17`, lead to their row.
         if let Some(first) = cells.first_mut()
             && anchor.contains('-')
+            && heading(&anchor) == anchor
         {
             first.insert_str(0, &format!("<a id=\"{anchor}\"></a>"));
         }

@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+use od_spec::Library;
 use od_spec::model::{
-    BitErrors, BitField, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace, Index, Object,
-    Storage, System, SystemSource, TableContent, Text, TypeKind,
+    BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
+    Fact, Index, Object, Part, Storage, System, SystemSource, TableContent, Text, TypeKind,
 };
 use od_spec::wording::Wording;
 
@@ -26,6 +27,8 @@ struct Lookup {
     showing: BTreeMap<u16, Vec<EntryId>>,
     /// Positions of the sections that show an object.
     places: BTreeMap<Index, Vec<usize>>,
+    /// The names that libraries give objects of another name.
+    standard_names: BTreeMap<Index, String>,
     /// Objects with an entry in a unit, by the unit's name.
     in_unit: BTreeMap<String, BTreeSet<Index>>,
     /// Parts of anchors, by the names of what they lead to.
@@ -48,6 +51,23 @@ fn anchors<'a>(names: impl Iterator<Item = &'a String>) -> BTreeMap<String, Stri
         anchors.insert(name.clone(), anchor);
     }
     anchors
+}
+
+fn names_it_otherwise(object: &Object) -> bool {
+    object.departures.contains(&Departure { part: Part::Object, fact: Fact::Name })
+}
+
+/// What the libraries of a device call those of its objects that it names otherwise.
+fn standard_names(device: &Dictionary) -> Vec<(Index, String)> {
+    let renamed: Vec<&Object> = device.objects.values().filter(|object| names_it_otherwise(object)).collect();
+    let profiles: BTreeSet<&String> = renamed.iter().filter_map(|object| object.profile.as_ref()).collect();
+    let libraries: Vec<Library> = profiles.into_iter().filter_map(|name| od_spec::library(name)).collect();
+    let names = renamed.into_iter().filter_map(|object| {
+        let of_object = |library: &&Library| object.profile.as_ref() == Some(&library.name);
+        let standard = libraries.iter().find(of_object)?.objects.get(&object.index)?;
+        Some((object.index, standard.object.name.clone()))
+    });
+    names.collect()
 }
 
 /// The model, seen by the printer.
@@ -145,6 +165,7 @@ impl<'a> Source<'a> {
             constraints: anchors(self.system.constraints.iter().map(|constraint| &constraint.name)),
             ..Lookup::default()
         };
+        lookup.standard_names = self.devices.iter().flat_map(|device| standard_names(device)).collect();
         for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
             if let Some(unit) = &entry.unit {
                 lookup.in_unit.entry(unit.name.clone()).or_default().insert(id.index);
@@ -190,6 +211,12 @@ impl<'a> Source<'a> {
             }
         }
         lookup
+    }
+
+    /// The name that a standard gives an object, where the maker names it otherwise.
+    pub(crate) fn standard_name(&self, object: &Object) -> Option<&str> {
+        names_it_otherwise(object)
+            .then(|| self.lookup.standard_names.get(&object.index).map(String::as_str))?
     }
 
     /// Entries with error codes of their own for the bits of a type.

@@ -49,6 +49,8 @@ const HTML: &[(&str, &str)] = files!(
     "html/_pictures.html",
     "html/_style.css",
     "html/_script.js",
+    "html/_search.js",
+    "html/_search.html",
     "html/_user.css",
     "html/_footer.html",
     "html/index.html",

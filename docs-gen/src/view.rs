@@ -18,6 +18,8 @@ pub struct Context {
     pub language: String,
     /// Fixed words by name, in that language.
     pub words: std::collections::BTreeMap<&'static str, &'static str>,
+    /// Phrases that a search takes for one another.
+    pub synonyms: Vec<&'static [&'static str]>,
     /// The system.
     pub system: SystemView,
     /// Devices, in the order of the specification.
@@ -351,6 +353,8 @@ pub struct EntryView {
     pub high: String,
     /// One raw step: `0.1 °C`; may be empty.
     pub unit: String,
+    /// Symbol of its unit: `°C`; may be empty.
+    pub symbol: String,
     /// `no`, `communication`, `application`, `manufacturer`, `remanent`; empty where an EDS does not say it.
     pub stored: &'static str,
     /// `0x6040:00`, both hexadecimal.

@@ -143,21 +143,21 @@ for (const device of dump.devices) {
   same((await shownCards(page)).length, device.objects.length, `${device.key}: Escape shows all`);
   await page.fill("#ui_search", device.objects[3].name);
   await page.press("#ui_search", "ArrowDown");
-  same(await page.evaluate(() => document.activeElement.closest("nav")?.id), "ui_contents", `${device.key}: arrow goes to the list`);
+  same(await page.evaluate(() => document.activeElement.closest("section")?.id), "ui_results", `${device.key}: arrow goes to the results`);
   await page.keyboard.press("ArrowUp");
   same(await page.evaluate(() => document.activeElement.id), "ui_search", `${device.key}: arrow comes back`);
-  await page.fill("#ui_search", "no such thing at all");
+  await page.fill("#ui_search", "qqqqq zzzzz");
   same([await shownCards(page), await page.isVisible("#ui_nothing")], [[], true], `${device.key}: nothing found`);
   // Enter goes to the best result, not to the first.
   for (const object of device.objects.slice(-5)) {
     for (const text of [key(object.index), object.name]) {
       await page.fill("#ui_search", text);
       await page.press("#ui_search", "Enter");
-      const target = await page.evaluate(() => document.getElementById(decodeURIComponent(location.hash.slice(1)))?.querySelector("h3")?.textContent ?? "");
+      const target = await page.evaluate(() => document.getElementById(decodeURIComponent(location.hash.slice(1)))?.closest("article")?.querySelector("h3")?.textContent ?? "");
       check(clean(target).includes(clean(object.name)), `${device.key}: Enter on ${text} goes to ${target}`);
     }
   }
-  await page.fill("#ui_search", "no such thing at all");
+  await page.fill("#ui_search", "qqqqq zzzzz");
   // A link into a hidden card shows it.
   await page.evaluate((target) => { location.hash = target; }, hash);
   await page.waitForFunction((target) => document.getElementById(target).checkVisibility(), hash);
@@ -184,11 +184,22 @@ for (const device of dump.devices) {
     }
     if (values.length > 0) await page.selectOption(`select[data-filter=${name}]`, "");
   }
+  // Two filters are about the same entry.
+  const stored = await page.$$eval("select[data-filter=stored] option", (options) => options.map((one) => one.value).filter(Boolean));
+  for (const value of stored) {
+    await page.selectOption("select[data-filter=access]", { index: 1 });
+    await page.selectOption("select[data-filter=stored]", value);
+    const access = await page.inputValue("select[data-filter=access]");
+    const both = device.objects.filter((object) => facts(object).some((one) => accessCell(one) === access && one.stored === value));
+    same(await shownCards(page), both.map((object) => key(object.index)), `${device.key}: ${access} and stored ${value}`);
+  }
+  await page.press("#ui_search", "Escape");
   await page.close();
 
   // A link that is opened elsewhere leaves this page where it is; a plain click goes there.
   const clicked = await open(`${device.key}.html`, `#${hash}`);
-  await clicked.waitForTimeout(200);
+  // What was opened is followed until it stays.
+  await clicked.waitForTimeout(1000);
   await clicked.evaluate(() => scrollTo(0, 0));
   const away = clicked.locator("#ui_contents a").last();
   await away.evaluate((link) => link.dispatchEvent(new MouseEvent("click", { bubbles: true, cancelable: true, ctrlKey: true })));

@@ -3,7 +3,7 @@
 
     run.py DOCS...
 
-DOCS are directories with HTML pages, `dump.json` and `context.json`, or with `manual.adoc`, or with `hostile.json` and pages
+DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of `questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages
 that hold its texts. What npm brings is installed
 below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
 0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
@@ -12,6 +12,7 @@ below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program)
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import shutil
 import subprocess
@@ -21,7 +22,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
-SCRIPTS = ["check.mjs", "hostile.mjs", "asciidoc.mjs"]
+SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs"]
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
 
 
@@ -64,17 +65,23 @@ def main() -> int:
         print(f"error: {error}", file=sys.stderr)
         return 3
     failed = 0
+    asked = json.loads((HERE / "questions.json").read_text(encoding="utf-8"))
     for argument in sys.argv[1:]:
         docs = Path(argument).resolve()
         print(f"== {docs.name}", flush=True)
+        commands = []
         if (docs / "manual.adoc").exists():
-            command = [node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")]
+            commands.append([node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")])
         elif (docs / "hostile.json").exists():
-            command = [node, str(folder / "hostile.mjs"), str(docs), browser]
+            commands.append([node, str(folder / "hostile.mjs"), str(docs), browser])
         else:
-            command = [node, str(folder / "check.mjs"), str(docs), str(docs / "dump.json"), str(docs / "context.json")]
-            command += [str(CACHE / "seen" / docs.name), browser]
-        failed += subprocess.run(command, check=False).returncode != 0
+            if docs.name in asked:
+                commands.append([node, str(folder / "questions.mjs"), str(docs), browser])
+            if (docs / "dump.json").exists():
+                files = [docs, docs / "dump.json", docs / "context.json", CACHE / "seen" / docs.name]
+                commands.append([node, str(folder / "check.mjs"), *map(str, files), browser])
+        for command in commands:
+            failed += subprocess.run(command, check=False).returncode != 0
     return 1 if failed else 0
 
 

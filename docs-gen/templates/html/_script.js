@@ -1,7 +1,11 @@
 "use strict";
 (() => {
+{% include "_search.js" %}
+
   const byId = (id) => document.getElementById(id);
   const root = document.documentElement, search = byId("ui_search"), count = byId("ui_count");
+  const element = (name, text = "") => Object.assign(document.createElement(name), { textContent: text });
+  const show = (one, shown) => one?.classList.toggle("off", !shown);
 
   // Light or dark: as the system says, until the button is used.
   const remember = (theme) => { try { localStorage.setItem("od-theme", theme); } catch { /* not from file:// everywhere */ } };
@@ -13,78 +17,421 @@
   });
 
   // What is linked to stops below the bar, which is as high as its lines.
-  const measure = () => root.style.setProperty("--bar", `${document.querySelector(".bar").offsetHeight}px`);
+  const bar = document.querySelector(".bar");
+  const measure = () => root.style.setProperty("--bar", `${bar.offsetHeight}px`);
   measure();
   addEventListener("resize", measure);
 
-  // Every card or section with its line of the contents; texts are read once.
-  const cards = [...document.querySelectorAll("[data-search], .part")];
-  const links = new Map([...document.querySelectorAll("#ui_contents a")].map((link) => [link.hash.slice(1), link.parentElement]));
-  const items = cards.map((card) => ({
-    card,
-    link: links.get(card.id),
-    text: (card.dataset.search ?? card.textContent).toLowerCase(),
-    name: (card.querySelector("h2, h3, h4, h5, h6")?.textContent ?? "").toLowerCase().replace(/\s+/g, " ").trim(),
-    facts: Object.fromEntries(["access", "type", "pdo", "stored", "unit"].map((key) => [key, (card.dataset[key] ?? "").split("|")])),
-    shown: true,
-  }));
-  const chunks = new Map();
+  // ---- Cards and their places, read from the page once.
+  const data = JSON.parse(byId("ui_data")?.textContent ?? "{}");
+  const { words = {}, synonyms = [], elsewhere = [] } = data;
+  const index = new WordIndex(synonyms);
+  const links = new Map([...document.querySelectorAll("#ui_contents a[href^='#']")].map((link) => [decodeURIComponent(link.hash.slice(1)), link.parentElement]));
+  const items = [...document.querySelectorAll("article.object, .intro, .part")]
+    .map((card) => ({ card, link: links.get(card.id), shown: true, isObject: card.matches(".object") }));
+  const objects = items.filter((item) => item.isObject);
+  const itemOf = new Map(items.map((item) => [item.card, item]));
+  // Groups of cards, and of lines of the contents, that the browser lays out together.
+  const groups = new Map();
   for (const item of items) {
-    for (const chunk of [item.card.parentElement, item.link?.parentElement]) {
-      if (chunk?.classList.contains("chunk")) chunks.get(chunk)?.push(item) ?? chunks.set(chunk, [item]);
+    for (const [one, group] of [[item.card, item.card.closest(".chunk") ?? item.card], [item.link, item.link?.closest(".chunk")]]) {
+      if (group) groups.get(group)?.push({ one, item, shown: true }) ?? groups.set(group, [{ one, item, shown: true }]);
     }
   }
+
+  // Objects that show another one have its name, and stand behind it.
+  const views = new Set([...document.querySelectorAll("dd[data-kind=aliases] a")].map((link) => decodeURIComponent(link.hash.slice(1)).slice(0, 4)));
+
+  // What a column's words are worth in the order of results, where it is not that of a fact.
+  const FIELD_OF_COLUMN = {
+    name: NAME, title: NAME, code: NAME, abbreviation: NAME, description: TEXT, meaning: TEXT, reaction: TEXT, event: TEXT, action: TEXT,
+    place: ERRATUM, prints: ERRATUM, reads: ERRATUM, because: ERRATUM,
+  };
+  // Rows by their first column: what they are.
+  const KIND_OF_ROW = { bit: "bit", value: "value", code: "error", sub: "entry", index: "entry" };
+  const kindOf = (columns) => (columns.includes("because") ? "erratum" : KIND_OF_ROW[columns[0]] ?? "row");
+  // A name is that of an object or an entry; bits, values and errors are facts of these, and an appendix of a device only repeats.
+  const fieldOf = (column, at, kind, item) => {
+    const field = FIELD_OF_COLUMN[column] ?? FACT;
+    const isNumbered = kind === "bit" || kind === "value";
+    if (isNumbered && at === 0) return NAME;
+    if (field !== NAME) return field;
+    return isNumbered || (column === "name" && kind === "error") || (column !== "code" && !item.isObject && objects.length > 0) ? FACT : NAME;
+  };
+  const clean = (text) => text.replace(/\s+/g, " ").trim();
+  // What filters look at; many rows have the same.
+  const knownFacts = new Map();
+  const factsOf = (row) => {
+    const text = row.dataset.entry;
+    let facts = knownFacts.get(text);
+    if (!facts && text !== undefined) {
+      const [access, pdo, type, stored, ...unit] = text.split("|");
+      knownFacts.set(text, facts = { access, pdo, type, stored, unit: unit.join("|") });
+    }
+    return facts;
+  };
+  // What a list of results calls a place.
+  const titleOf = ({ title, item, row, kind }) => {
+    if (title !== undefined || !row) return title ?? item.title;
+    if (!row.matches("tr")) return clean(row.textContent);
+    const table = row.closest("table"), columns = table.dataset.columns.split(" "), name = columns.indexOf("name");
+    const label = kind === "bit" ? table.tHead.rows[0].cells[0].textContent : "";
+    return clean(`${label} ${row.cells[0].textContent} ${row.cells[name > 0 ? name : 1]?.textContent ?? ""}`);
+  };
+
+  const readRows = (item, table, inHead) => {
+    const columns = (table.dataset.columns ?? "").split(" "), kind = kindOf(columns), name = columns.indexOf("name");
+    const fieldsOfColumns = columns.map((column, at) => fieldOf(column, at, kind, item));
+    // A bit and a value are also found by what their numbers are: `bit 3`.
+    const label = kind === "bit" || kind === "value" ? table.tHead.rows[0].cells[0].textContent : "";
+    for (const row of table.tBodies[0]?.rows ?? []) {
+      const fields = inHead ?? [[], [label], [], []];
+      for (let at = 0; at < columns.length; at++) {
+        const text = row.cells[at]?.textContent;
+        // The index and name of an object of one value stand in its heading.
+        if (text && !(inHead && (at === 0 || at === name))) fields[fieldsOfColumns[at]].push(text);
+      }
+      if (inHead) continue;
+      index.place({ item, row, kind, facts: factsOf(row), later: !item.isObject && (objects.length > 0 || !row.id) }, fields);
+    }
+  };
+
+  const readTable = (item, table) => {
+    const caption = table.querySelector(":scope > .caption"), texts = [...table.querySelectorAll(":scope > p:not(.caption, .object-head)")];
+    if (caption) {
+      const title = clean(caption.textContent);
+      const fields = [[], [], texts.map((text) => text.textContent), []];
+      fields[item.isObject ? FACT : NAME].push(title);
+      index.place({ item, row: table, kind: item.isObject ? "type" : "table", title }, fields);
+    }
+    for (const one of table.children) {
+      if (one.matches(".object-head")) index.place({ item, row: one, kind: "object" }, [[one.textContent], [], [], []]);
+      else if (one.matches("table")) readRows(item, one);
+    }
+  };
+
+  const readCard = (item) => {
+    const { card } = item;
+    index.card(item);
+    const heading = card.querySelector("h1, h2, h3, h4, h5, h6"), title = clean(heading?.textContent ?? "");
+    // The index of an object stands before its name, its kind behind it.
+    const small = heading?.querySelector("small")?.textContent ?? "";
+    const [number, name] = item.isObject ? [title.slice(0, 5), clean(title.slice(5, title.length - small.length))] : ["", title];
+    item.uses = card.querySelectorAll(":scope > dl dd[data-kind]").length;
+    item.title = item.isObject ? `${number} ${name}` : title;
+    const fields = [[number, name], [small], [], []];
+    for (const one of card.children) {
+      if (one.matches("p.notes") && item.isObject) {
+        fields[FACT].push(one.textContent);
+        // The standard's name of the object, where it is another.
+        for (const standard of one.querySelectorAll("code")) fields[NAME].push(standard.textContent);
+      }
+      else if (one.matches("p:not(.notes)")) fields[TEXT].push(one.textContent);
+    }
+    const tables = [...card.querySelectorAll(":scope > table")];
+    for (const table of tables) if (table.dataset.columns?.startsWith("index")) readRows(item, table, fields);
+    index.place({ item, row: null, kind: item.isObject ? "object" : "part", title: item.title, later: views.has(card.id) }, fields);
+    let pdo = null;
+    for (const one of card.children) {
+      if (one.matches("table") && !one.dataset.columns?.startsWith("index")) readRows(item, one);
+      else if (one.matches("h3[id]") && one !== heading) {
+        pdo = [[one.textContent], [], [], []];
+        // What follows up to the next heading belongs to it.
+        for (let next = one.nextElementSibling; next && !next.matches("h3"); next = next.nextElementSibling) {
+          for (const part of next.querySelectorAll("title, td")) pdo[FACT].push(part.textContent);
+        }
+        index.place({ item, row: one, kind: "pdo" }, pdo);
+      } else if (one.matches(".table") && !pdo) readTable(item, one);
+      else if (one.matches("dl")) {
+        for (const line of one.querySelectorAll("dd")) {
+          index.place({ item, row: line, kind: "use", title: item.title }, [[], [line.textContent], [], []]);
+        }
+      } else if (one.matches("details")) {
+        for (const line of one.querySelectorAll("li")) {
+          index.place({ item, row: line, kind: "erratum", title: item.title }, [[], [], [], [line.textContent]]);
+        }
+      }
+    }
+  };
+
+  // Reading is spread over idle times; who searches before waits for the rest.
+  const reader = (function* () {
+    for (const item of items) yield readCard(item);
+    for (const [page, label, places] of elsewhere.filter(Boolean)) {
+      for (const [anchor, title, more] of places.filter(Boolean)) {
+        index.card({ page });
+        index.place({ kind: "page", label, href: `${page}#${anchor}`, title }, [[title.slice(0, 5), title], [more ?? ""], [], []]);
+        yield;
+      }
+    }
+  })();
+  let isRead = false;
+  const read = (time) => {
+    const end = performance.now() + time;
+    while (!isRead && performance.now() < end) isRead = reader.next().done;
+    return isRead;
+  };
+  const whenIdle = (work) => (window.requestIdleCallback ? requestIdleCallback((idle) => work(Math.max(idle.timeRemaining(), 4))) : setTimeout(() => work(8), 16));
+  // A first question that nobody asks makes the next ones quick.
+  const warmUp = () => {
+    for (const text of ["er", "in", "st ac", "re"]) index.search(text, null);
+    performance.mark("search-ready");
+  };
+  const readOn = (time) => whenIdle(read(time) ? warmUp : readOn);
+  addEventListener("load", () => whenIdle(readOn));
+
+  // ---- Filters: one entry has to have everything that is asked for.
   const filters = [...document.querySelectorAll("select[data-filter]")];
+  const wanted = () => filters.filter((filter) => filter.value).map((filter) => [filter.dataset.filter, filter.value]);
+  const fitsEntry = (asked, facts) => asked.every(([key, value]) => facts[key] === value || (key === "pdo" && facts.pdo === "both"));
 
   // `3020.5`, `3020:05` and `0x3020/0x05` name an entry; its card is found by the index. Behind `:` and `0x` digits are hexadecimal.
   const entry = (text) => {
     const parts = /^(?:0x)?([0-9a-f]{4})h?([.:/])(0x)?([0-9a-f]{1,3})(h?)$/i.exec(text.trim());
     if (!parts) return null;
-    const [, index, mark, prefix, digits, suffix] = parts;
+    const [, object, mark, prefix, digits, suffix] = parts;
     const sub = parseInt(digits, mark === ":" || prefix || suffix ? 16 : 10);
-    return Number.isNaN(sub) ? null : `${index.toUpperCase()}.${sub}`;
+    return Number.isNaN(sub) ? null : `${object.toUpperCase()}.${sub}`;
+  };
+  // What an address names: an id, in any case of letters; sub-index 0 of an object without others is the object.
+  const targetOf = (name) => byId(name) ?? byId(name.toUpperCase()) ?? byId(name.replace(/^[0-9a-f]{4}/i, (digits) => digits.toUpperCase()))
+    ?? (/^[0-9a-f]{4}\.0$/i.test(name) ? byId(name.slice(0, 4).toUpperCase()) : null);
+
+  // ---- Showing what was found.
+  // What was found: on this page, and on others.
+  let here = [], there = [];
+  let landing = 0, working = 0, found = null, marked = null, dressed = new Set(), round = 0;
+  const near = new Set();
+
+  const showRows = (item) => {
+    for (const row of item.off ?? []) show(row, true);
+    item.off = [];
+    show(item.all, false);
+  };
+  const undress = (item) => {
+    for (const mark of item.marks ?? []) {
+      const parent = mark.parentNode;
+      if (!parent) continue;
+      mark.replaceWith(mark.firstChild);
+      parent.normalize();
+    }
+    item.marks = [];
+    showRows(item);
   };
 
-  // The best of what is shown: the index itself, the name itself, a name that begins so, a name that holds it, anything.
-  const best = () => {
-    const text = search.value.toLowerCase().replace(/\s+/g, " ").trim();
-    const index = /^(?:0x)?([0-9a-f]{4})h?$/.exec(text)?.[1].toUpperCase();
-    const rank = ({ card, name }) => {
-      const own = name.replace(/^[0-9a-f]{4}h /, "").replace(/ (var|array|record|domain)$/, "");
-      return card.id === index ? 0 : own === text ? 1 : own.startsWith(text) ? 2 : name.includes(text) ? 3 : 4;
-    };
-    return items.filter((item) => item.shown).reduce((one, other) => (one && rank(one) <= rank(other) ? one : other), null);
+  const markText = (item, within) => {
+    const walker = document.createTreeWalker(within, NodeFilter.SHOW_TEXT), nodes = [];
+    while (walker.nextNode()) if (!walker.currentNode.parentElement.closest("svg, button")) nodes.push(walker.currentNode);
+    for (const node of nodes) {
+      const pieces = index.marks(node.data, marked);
+      let end = node.length;
+      for (const [from, to] of pieces.reverse()) {
+        if (to > end) continue;
+        end = from;
+        const mark = document.createElement("mark"), piece = node.splitText(from);
+        piece.splitText(to - from);
+        piece.replaceWith(mark);
+        mark.append(piece);
+        item.marks.push(mark);
+      }
+    }
   };
+
+  // Of a card that is found by some of its rows, the others are put away.
+  const dress = (item) => {
+    if (dressed.has(item)) return;
+    dressed.add(item);
+    undress(item);
+    const asked = wanted();
+    const places = item.found ? index.placesOf(item.found, found) : [];
+    const rows = places.map((at) => index.places[at].row).filter((row) => row?.matches("tr"));
+    // A card that is found by its heading is shown as a whole.
+    const keep = new Set(places.includes(item.first) ? [] : rows);
+    const hasEntries = rows.some((row) => row.dataset.entry);
+    for (const table of item.card.querySelectorAll("table")) {
+      const list = [...table.tBodies[0].rows], isOfEntries = list[0]?.dataset.entry !== undefined;
+      const some = list.some((row) => keep.has(row));
+      for (const row of list) {
+        const fits = asked.length === 0 || row.dataset.entry === undefined || fitsEntry(asked, factsOf(row));
+        const away = !fits || (keep.size > 0 && !keep.has(row) && (isOfEntries ? hasEntries && list.length > 1 : true));
+        if (away) { show(row, false); item.off.push(row); }
+      }
+      const box = table.parentElement;
+      // A table of which nothing is left goes with its caption and picture.
+      if (box.matches(".table") && list.length > 0 && !some && keep.size > 0 && !box.querySelector("tbody tr:not(.off)")) { show(box, false); item.off.push(box); }
+    }
+    if (item.off.length > 0) {
+      if (!item.all) {
+        item.all = Object.assign(element("button", words.rows_all), { type: "button", className: "all" });
+        item.all.addEventListener("click", () => showRows(item));
+        item.card.querySelector("h1, h2, h3, h4, h5, h6").after(item.all);
+      }
+      show(item.all, true);
+    }
+    if (marked) markText(item, item.card);
+  };
+
+  // Work that is not needed at once is done in pieces; a new question ends that of the last one.
+  const inPieces = (list, work) => {
+    const mine = round;
+    let at = 0;
+    const go = () => {
+      const end = performance.now() + 2;
+      while (mine === round && at < list.length && performance.now() < end) work(list[at++]);
+      if (mine === round && at < list.length) requestAnimationFrame(go); else working -= 1;
+    };
+    working += 1;
+    go();
+  };
+  const place = ([group, members]) => {
+    const some = members.some(({ item }) => item.shown);
+    if (group.matches(".chunk")) show(group, some);
+    // What lies in a group that is put away need not be.
+    if (!some && group.matches(".chunk")) return;
+    for (const member of members) {
+      if (member.shown === member.item.shown) continue;
+      member.shown = member.item.shown;
+      show(member.one, member.shown);
+    }
+  };
+  const cardsOf = (group) => groups.get(group).filter(({ one, item }) => one === item.card && item.shown && !dressed.has(item)).map(({ item }) => item);
+  const dressGroups = (list) => inPieces(list.flatMap(cardsOf), dress);
+  const watcher = new IntersectionObserver((changes) => {
+    for (const { target, isIntersecting } of changes) if (isIntersecting) near.add(target); else near.delete(target);
+    if (root.classList.contains("searching")) dressGroups([...near]);
+  }, { rootMargin: "300px" });
+  for (const [group, [{ one, item }]] of groups) if (one === item.card) watcher.observe(group);
+
+  // ---- The list of results, the best first.
+  const results = byId("ui_results"), [own, other] = results.querySelectorAll("ol"), more = results.querySelector("button");
+  const FEW_GROUPS = 100, FIRST = 12, LONGEST_TITLE = 90;
+  const cut = (text) => (text.length > LONGEST_TITLE ? `${text.slice(0, LONGEST_TITLE - 1)}…` : text);
+  const anchorOf = (at) => {
+    const { row, item } = index.places[at];
+    return row?.id || row?.closest("[id]:not(main)")?.id || item.card.id || item.card.querySelector("[id]")?.id || "";
+  };
+  const result = (one) => {
+    const { at } = one;
+    const target = index.places[at], line = element("li"), link = element("a");
+    link.href = target.href ?? `#${anchorOf(at)}`;
+    const title = titleOf(target);
+    link.append(element("b", target.href ? title : target.item.title));
+    if (target.row && title !== target.item.title) link.append(` › ${cut(title)}`);
+    // A row without an address of its own is reached from the list all the same.
+    if (target.row && !target.row.id) {
+      link.className = "inside";
+      link.addEventListener("click", (event) => {
+        if (event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return;
+        event.preventDefault();
+        event.stopPropagation();
+        try { history.pushState(null, "", link.hash); } catch { /* not allowed everywhere */ }
+        settle(target.row);
+      });
+    }
+    line.append(link);
+    const note = target.href ? target.label : words[target.kind] ?? "";
+    const places = index.placesOf(one, found).length;
+    line.append(" ", element("small", places > 1 ? `${note} (${places})` : note));
+    return line;
+  };
+  const list = (limit) => {
+    own.replaceChildren(...here.slice(0, limit).map(result));
+    other.replaceChildren(...there.slice(0, 6).map(result));
+    more.textContent = `${here.length - limit} ${words.more}`;
+    show(more, here.length > limit);
+    show(other.previousElementSibling, there.length > 0);
+  };
+  more.addEventListener("click", () => list(Infinity));
 
   const apply = () => {
     performance.clearMeasures("search");
     performance.mark("search");
-    const named = entry(search.value);
-    const text = named ? named.slice(0, 4) : search.value;
-    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-    const wanted = filters.filter((filter) => filter.value).map((filter) => [filter.dataset.filter, filter.value]);
-    let found = 0;
+    const asked = wanted(), text = search.value.trim(), isAsked = text !== "";
+    if (isAsked && !read(100)) { whenIdle(apply); return; }
+    round += 1;
+    for (const item of dressed) undress(item);
+    dressed = new Set();
+    if (asked.length > 0) for (const item of items) item.fits = rowsOf(item).some((facts) => fitsEntry(asked, facts));
+    const named = entry(text), allowed = asked.length === 0 ? null
+      : ({ item, facts }) => !item || (item.fits && (!facts || fitsEntry(asked, facts)));
+    found = isAsked ? index.search(named ? named.slice(0, 4) : text, allowed) : null;
+    if (found && named) {
+      // An entry by its address comes first, before anything else of its card.
+      const target = targetOf(named), at = index.places.findIndex(({ row }) => row === target);
+      const first = found.cards.find(({ number }) => index.cards[number].card === target?.closest("article"));
+      if (at >= 0 && first) { first.at = at; found.cards = [first, ...found.cards.filter((one) => one !== first)]; }
+    }
+    marked = found && WordIndex.marked(found.meanings);
+    here = [];
+    there = [];
+    for (const one of found?.cards ?? []) {
+      const item = index.cards[one.number];
+      if (item.page) { there.push(one); continue; }
+      here.push(one);
+      item.found = one;
+      item.round = round;
+    }
+    let shown = 0, shownObjects = 0;
     for (const item of items) {
-      const fits = words.every((word) => item.text.includes(word))
-        && wanted.every(([key, value]) => item.facts[key].includes(value));
-      if (fits) found += 1;
-      if (fits !== item.shown) {
-        item.shown = fits;
-        item.card.hidden = !fits;
-        if (item.link) item.link.hidden = !fits;
-      }
+      if (item.round !== round) item.found = null;
+      item.shown = (asked.length === 0 || item.fits) && (!found || item.found !== null);
+      if (item.shown) shown += 1;
+      if (item.shown && item.isObject) shownObjects += 1;
     }
-    // Whole groups that show nothing cost the browser nothing.
-    for (const [chunk, members] of chunks) {
-      const none = !members.some((item) => item.shown);
-      if (chunk.hidden !== none) chunk.hidden = none;
-    }
-    const searching = words.length > 0 || wanted.length > 0;
+    const searching = isAsked || asked.length > 0;
     root.classList.toggle("searching", searching);
-    if (searching) scrollTo(0, 0);
-    count.textContent = searching ? `${found} / ${items.length}` : "";
-    byId("ui_nothing").hidden = found > 0;
+    show(results, found !== null && found.cards.length > 0);
+    show(byId("ui_similar"), found?.similar === true);
+    if (found) list(FIRST);
+    count.textContent = searching ? counts(shown, shownObjects) : "";
+    show(byId("ui_nothing"), searching && shown === 0);
+    landing += 1;
+    // On a large page the list of results comes first, and the cards follow.
+    if (groups.size > FEW_GROUPS) requestAnimationFrame(() => inPieces([...groups], place)); else inPieces([...groups], place);
+    keep();
     performance.measure("search", "search");
+    if (searching) {
+      scrollTo(0, 0);
+      requestAnimationFrame(() => dressGroups([...near]));
+    }
+  };
+  const rowsOf = (item) => {
+    item.facts ??= [...item.card.querySelectorAll("tr[data-entry]")].map(factsOf);
+    return item.facts;
+  };
+  // How many of what: objects of all, then places by their kind.
+  const counts = (shown, shownObjects) => {
+    const first = objects.length > 0 ? `${words.object} ${shownObjects} / ${objects.length}` : `${shown} / ${items.length}`;
+    const kinds = KINDS.filter((kind) => found?.kinds.has(kind)).map((kind) => `${words[kind]} ${found.kinds.get(kind)}`);
+    return [first, ...kinds].join(", ");
+  };
+  const KINDS = ["entry", "bit", "value", "error", "pdo", "table", "erratum"];
+
+  // ---- The question stands in the address, so that it can be sent, kept and gone back to.
+  let keeping = 0;
+  const asAddress = () => {
+    const parts = new URLSearchParams();
+    if (search.value.trim()) parts.set("q", search.value);
+    for (const [key, value] of wanted()) parts.set(key, value);
+    return parts.size > 0 ? `?${parts}` : "";
+  };
+  const keep = (now = false) => {
+    clearTimeout(keeping);
+    if (!now) { keeping = setTimeout(keep, 250, true); return; }
+    const address = asAddress();
+    if (address === location.search) return;
+    // From no question to the first one there is a step back.
+    const step = location.search === "" && address !== "" ? "pushState" : "replaceState";
+    try { history[step](null, "", `${location.pathname}${address}${location.hash}`); } catch { /* not allowed everywhere */ }
+  };
+  const fromAddress = () => {
+    const parts = new URLSearchParams(location.search);
+    search.value = parts.get("q") ?? "";
+    for (const filter of filters) {
+      filter.value = parts.get(filter.dataset.filter) ?? "";
+      if (filter.selectedIndex < 0) filter.value = "";
+    }
+    apply();
   };
   const clear = () => {
     search.value = "";
@@ -94,54 +441,76 @@
   search.addEventListener("input", apply);
   for (const filter of filters) filter.addEventListener("change", apply);
 
-  const visible = () => items.filter((item) => item.shown && item.link).map((item) => item.link.firstElementChild);
+  // ---- Keys.
   search.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
-      const named = entry(search.value), found = best();
-      const target = named && byId(named) ? named : found && (!named || found.card.id === named.slice(0, 4)) ? found.card.id : "";
-      if (target) { location.hash = target; reveal(true); }
+      keep(true);
+      (own.querySelector("a") ?? other.querySelector("a"))?.click();
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
-      visible()[0]?.focus();
+      (results.querySelector("a") ?? byId("ui_contents").querySelector("li:not(.off) a"))?.focus();
     }
   });
-  byId("ui_contents").addEventListener("keydown", (event) => {
-    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (!step || event.target.tagName !== "A") return;
-    event.preventDefault();
-    const list = visible(), next = list.indexOf(event.target) + step;
-    if (next < 0) search.focus(); else list[next]?.focus();
-  });
+  for (const box of [results, byId("ui_contents")]) {
+    box.addEventListener("keydown", (event) => {
+      const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+      if (!step || event.target.tagName !== "A") return;
+      event.preventDefault();
+      const all = [...box.querySelectorAll("a")].filter((link) => link.checkVisibility?.() ?? link.offsetParent);
+      const next = all.indexOf(event.target) + step;
+      if (next < 0) search.focus(); else all[next]?.focus();
+    });
+  }
   document.addEventListener("keydown", (event) => {
     const typing = event.target.matches?.("input, select, textarea");
     if (event.key === "/" && !typing && !event.ctrlKey && !event.metaKey) { event.preventDefault(); search.focus(); search.select(); }
     if (event.key === "Escape" && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
   });
 
-  // What is laid out on the way to the target moves it, so a jump is repeated for some frames.
-  const settle = (target, frames) => {
-    target.scrollIntoView();
-    if (frames > 1) requestAnimationFrame(() => settle(target, frames - 1));
+  // ---- Links that land: what is laid out on the way moves the target, so it is followed until it stays below the bar.
+  const GAP = 4, STILL = 12, LONGEST = 180;
+  const settle = (target) => {
+    const mine = landing += 1;
+    let still = 0, frames = 0;
+    const step = () => {
+      if (mine !== landing) return;
+      const covered = getComputedStyle(bar).position === "sticky" ? bar.getBoundingClientRect().bottom : 0;
+      const off = target.getBoundingClientRect().top - Math.max(covered, 0) - GAP;
+      if (Math.abs(off) > 1) { scrollBy({ top: off, behavior: "instant" }); still = 0; } else still = working > 0 ? 0 : still + 1;
+      frames += 1;
+      if (still < STILL && frames < LONGEST) requestAnimationFrame(step);
+    };
+    step();
   };
-  // A link into something that the search has hidden shows it again. Going back returns to where the reader was.
-  const reveal = (jump) => {
+  // Whoever scrolls is not held.
+  for (const kind of ["wheel", "touchmove", "pointerdown"]) addEventListener(kind, () => { landing += 1; }, { passive: true });
+  addEventListener("keydown", (event) => { if (/^(Page|Arrow|Home|End| )/.test(event.key)) landing += 1; });
+
+  const reveal = () => {
     let name = location.hash.slice(1);
     try { name = decodeURIComponent(name); } catch { /* a `%` of its own */ }
-    const target = byId(name) ?? byId(name.toUpperCase());
-    if (!target) return;
-    const card = target.closest("[data-search], .part");
-    if (card?.hidden) clear();
-    if (card?.hidden !== true && (jump || target.id !== name || root.classList.contains("searching"))) settle(target, 6);
+    const target = targetOf(name);
+    if (!name || !target) return;
+    const item = itemOf.get(target.closest("article.object, .intro, .part"));
+    // What the search has put away is shown again: the row, or the card with everything.
+    if (item && !item.shown) clear();
+    if (target.closest(".off")) showRows(item);
+    if (target.closest("details")) target.closest("details").open = true;
+    settle(target);
   };
-  addEventListener("hashchange", () => reveal(false));
-  if (location.hash) reveal(false);
-  addEventListener("load", () => { if (location.hash && performance.getEntriesByType("navigation")[0]?.type === "navigate") reveal(true); });
-  // On paper, everything.
-  addEventListener("beforeprint", clear);
+  addEventListener("popstate", () => {
+    if (asAddress() !== location.search) fromAddress();
+    reveal();
+  });
   document.addEventListener("click", (event) => {
     const elsewhere = event.ctrlKey || event.metaKey || event.shiftKey || event.altKey;
-    if (!elsewhere && event.target.closest?.("a[href^='#']")) setTimeout(() => reveal(true));
+    const link = event.target.closest?.("a[href^='#']");
+    // A link to where one is already changes no address.
+    if (!elsewhere && link) setTimeout(reveal);
   });
+  if (location.search) fromAddress();
+  reveal();
+  addEventListener("load", () => reveal());
 
   const copy = async (text) => {
     try { await navigator.clipboard.writeText(text); }

@@ -1,0 +1,140 @@
+// Asks the pages what readers ask, and compares the first result; follows links in every way, and measures where they land.
+//
+//   node questions.mjs DOCS CHROMIUM
+import { readFileSync } from "node:fs";
+import { basename, dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const [docs, executablePath] = process.argv.slice(2).map((path) => resolve(path));
+const table = JSON.parse(readFileSync(join(dirname(fileURLToPath(import.meta.url)), "questions.json")))[basename(docs)] ?? {};
+const WIDTHS = [390, 800, 1400];
+// How far below the bar a target may stand.
+const NEAR = 8;
+
+let passed = 0, farthest = 0;
+const failures = [];
+const check = (holds, text) => { if (holds) passed += 1; else failures.push(text); };
+
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+const context = await browser.newContext();
+
+const open = async (address, width) => {
+  const page = await context.newPage();
+  page.on("pageerror", (error) => failures.push(`${address}: ${error.message}`));
+  await page.setViewportSize({ width, height: 900 });
+  await page.goto(address);
+  return page;
+};
+
+// Where a target stands below what covers the top, once it has stood still.
+const gap = (page, id) => page.evaluate(async (name) => {
+  const frame = () => new Promise((done) => requestAnimationFrame(done));
+  let still = 0, last = NaN;
+  for (let frames = 0; still < 20 && frames < 240; frames++) {
+    await frame();
+    const bar = document.querySelector(".bar"), covered = getComputedStyle(bar).position === "sticky" ? bar.getBoundingClientRect().bottom : 0;
+    const target = document.getElementById(name);
+    const here = target?.checkVisibility() ? target.getBoundingClientRect().top - Math.max(covered, 0) : NaN;
+    still = here === last ? still + 1 : 0;
+    last = here;
+  }
+  return last;
+}, id);
+const lands = async (page, id, text) => {
+  const here = await gap(page, id);
+  farthest = Math.max(farthest, Math.abs(here));
+  check(here >= -0.5 && here <= NEAR, `${text}: #${id} stands ${here} px below the bar`);
+};
+
+const firstOf = (page) => page.evaluate(() => {
+  const link = document.querySelector("#ui_results:not(.off) ol a");
+  return link ? decodeURIComponent(link.hash.slice(1)) : null;
+});
+
+let asked = 0, followed = 0;
+for (const [name, { questions, links }] of Object.entries(table)) {
+  const address = pathToFileURL(join(docs, name)).href;
+  for (const width of WIDTHS) {
+    const page = await open(address, width);
+    for (const [at, [question, expected]] of questions.entries()) {
+      const place = `${name} at ${width} px: ${question}`;
+      await page.fill("#ui_search", question);
+      const first = await firstOf(page);
+      check(first === expected, `${place}: #${first} instead of #${expected}`);
+      asked += 1;
+      // Enter goes there; one width for each question is enough of that.
+      if (WIDTHS[at % WIDTHS.length] === width && first === expected) {
+        await page.press("#ui_search", "Enter");
+        // A row without an address of its own is reached inside of what has one.
+        if (await page.locator("#ui_results ol a").first().evaluate((link) => !link.matches(".inside"))) await lands(page, expected, `${place}, Enter`);
+        check(new URL(page.url()).searchParams.get("q") === question, `${place}: ${page.url()} does not hold the question`);
+      }
+    }
+    await page.close();
+
+    for (const id of links) {
+      const hash = `#${id}`, place = `${name} at ${width} px`;
+      const opened = await open(address + hash, width);
+      await lands(opened, id, `${place}, opened`);
+      // As if typed into the address bar, in small letters, from the end of the page.
+      await opened.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+      await opened.evaluate((text) => { location.hash = text; }, "#");
+      await opened.evaluate((text) => { location.hash = text; }, hash.toLowerCase());
+      await lands(opened, id, `${place}, typed`);
+      // A link in the page, while the search has put the target away.
+      await opened.fill("#ui_search", "qqqqq");
+      await opened.evaluate((text) => {
+        const link = Object.assign(document.createElement("a"), { href: text, textContent: "link" });
+        document.querySelector(".bar").append(link);
+        link.click();
+        link.remove();
+      }, hash);
+      await lands(opened, id, `${place}, followed`);
+      // Away, to another place of the page, and back.
+      await opened.evaluate(() => { location.hash = "#ui_nowhere"; scrollTo(0, document.documentElement.scrollHeight / 2); });
+      await opened.waitForTimeout(50);
+      await opened.goBack();
+      await lands(opened, id, `${place}, back`);
+      // To another page and back.
+      await opened.goto("about:blank");
+      await opened.goBack();
+      await lands(opened, id, `${place}, back from another page`);
+      await opened.close();
+      followed += 5;
+    }
+  }
+}
+
+// The question stays: in the address, when the page is loaded again, and on the way back.
+for (const [name, { questions }] of Object.entries(table)) {
+  const address = pathToFileURL(join(docs, name)).href, [question, expected] = questions[0];
+  const page = await open(`${address}?q=${encodeURIComponent(question)}`, 1400);
+  const state = async () => [await page.inputValue("#ui_search"), await firstOf(page)].join(" → ");
+  const wanted = `${question} → ${expected}`;
+  check(await state() === wanted, `${name}: opened with a question, ${await state()}`);
+  await page.reload();
+  check(await state() === wanted, `${name}: loaded again, ${await state()}`);
+  await page.goto(address);
+  await page.fill("#ui_search", question);
+  await page.waitForFunction(() => location.search !== "");
+  await page.goBack();
+  check(await page.inputValue("#ui_search") === "", `${name}: back before the question, ${await state()}`);
+  await page.goForward();
+  check(await state() === wanted, `${name}: forward, ${await state()}`);
+  // Words are marked, rows that do not fit are away, and all can be shown.
+  check(await page.locator("mark").count() > 0, `${name}: nothing is marked`);
+  // On paper everything stands, also while the page is filtered.
+  const away = () => page.$$eval("article, .part, article tr", (all) => all.filter((one) => !one.checkVisibility()).length);
+  await page.fill("#ui_search", question);
+  check(await away() > 0, `${name}: ${question} puts nothing away`);
+  await page.emulateMedia({ media: "print" });
+  check(await away() === 0, `${name}: ${await away()} cards and rows are missing on paper`);
+  await page.close();
+}
+await browser.close();
+
+for (const failure of failures.slice(0, 60)) console.error(`FAILED ${failure}`);
+console.log(`${asked} questions, ${followed} links, at most ${farthest} px from the bar`);
+console.log(`${passed} passed, ${failures.length} failed`);
+process.exit(failures.length ? 1 : 0);
