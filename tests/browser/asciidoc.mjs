@@ -11,7 +11,7 @@ const text = readFileSync(process.argv[2], "utf8");
 const html = await convert(text, { safe: "safe", standalone: true });
 const ids = new Set([...html.matchAll(/id="([^"]+)"/g)].map((match) => match[1]));
 const dead = [...html.matchAll(/href="#([^"]+)"/g)].map((match) => match[1]).filter((id) => !ids.has(id));
-const wanted = (text.match(/^\[cols=/gm) ?? []).length, tables = (html.match(/<table class="tableblock/g) ?? []).length;
+const wanted = (text.match(/^\[cols=/gm) ?? []).length, tables = (html.match(/<table[^>]* class="tableblock/g) ?? []).length;
 const messages = log.getMessages().length;
 const failed = (messages > 0) + (dead.length > 0) + (tables !== wanted) + (wanted === 0);
 console.log(`asciidoctor: ${messages} messages, ${tables} of ${wanted} tables, ${dead.length} dead links`);
