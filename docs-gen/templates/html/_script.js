@@ -199,7 +199,7 @@
 
   // ---- Showing what was found.
   // What was found: on this page, and on others.
-  let here = [], there = [];
+  let hits = [], hitsElsewhere = [];
   let landing = 0, working = 0, found = null, marked = null, dressed = new Set(), round = 0;
   const near = new Set();
 
@@ -273,12 +273,12 @@
 
   // Work that is not needed at once is done in pieces; a new question ends that of the last one.
   const inPieces = (list, work) => {
-    const mine = round;
+    const begun = round;
     let at = 0;
     const go = () => {
       const end = performance.now() + 2;
-      while (mine === round && at < list.length && performance.now() < end) work(list[at++]);
-      if (mine === round && at < list.length) requestAnimationFrame(go); else working -= 1;
+      while (begun === round && at < list.length && performance.now() < end) work(list[at++]);
+      if (begun === round && at < list.length) requestAnimationFrame(go); else working -= 1;
     };
     working += 1;
     go();
@@ -303,7 +303,7 @@
   for (const [group, [{ one, item }]] of groups) if (one === item.card) watcher.observe(group);
 
   // ---- The list of results, the best first.
-  const results = byId("ui_results"), [own, other] = results.querySelectorAll("ol"), more = results.querySelector("button");
+  const results = byId("ui_results"), [listOfPage, listElsewhere] = results.querySelectorAll("ol"), more = results.querySelector("button");
   const FEW_GROUPS = 100, FIRST = 12, LONGEST_TITLE = 90;
   const cut = (text) => (text.length > LONGEST_TITLE ? `${text.slice(0, LONGEST_TITLE - 1)}…` : text);
   const anchorOf = (at) => {
@@ -335,11 +335,11 @@
     return line;
   };
   const list = (limit) => {
-    own.replaceChildren(...here.slice(0, limit).map(result));
-    other.replaceChildren(...there.slice(0, 6).map(result));
-    more.textContent = `${here.length - limit} ${words.more}`;
-    show(more, here.length > limit);
-    show(other.previousElementSibling, there.length > 0);
+    listOfPage.replaceChildren(...hits.slice(0, limit).map(result));
+    listElsewhere.replaceChildren(...hitsElsewhere.slice(0, 6).map(result));
+    more.textContent = `${hits.length - limit} ${words.more}`;
+    show(more, hits.length > limit);
+    show(listElsewhere.previousElementSibling, hitsElsewhere.length > 0);
   };
   more.addEventListener("click", () => list(Infinity));
 
@@ -362,12 +362,12 @@
       if (at >= 0 && first) { first.at = at; found.cards = [first, ...found.cards.filter((one) => one !== first)]; }
     }
     marked = found && WordIndex.marked(found.meanings);
-    here = [];
-    there = [];
+    hits = [];
+    hitsElsewhere = [];
     for (const one of found?.cards ?? []) {
       const item = index.cards[one.number];
-      if (item.page) { there.push(one); continue; }
-      here.push(one);
+      if (item.page) { hitsElsewhere.push(one); continue; }
+      hits.push(one);
       item.found = one;
       item.round = round;
     }
@@ -445,7 +445,7 @@
   search.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
       keep(true);
-      (own.querySelector("a") ?? other.querySelector("a"))?.click();
+      (listOfPage.querySelector("a") ?? listElsewhere.querySelector("a"))?.click();
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
       (results.querySelector("a") ?? byId("ui_contents").querySelector("li:not(.off) a"))?.focus();
@@ -470,10 +470,10 @@
   // ---- Links that land: what is laid out on the way moves the target, so it is followed until it stays below the bar.
   const GAP = 4, STILL = 12, LONGEST = 180;
   const settle = (target) => {
-    const mine = landing += 1;
+    const begun = landing += 1;
     let still = 0, frames = 0;
     const step = () => {
-      if (mine !== landing) return;
+      if (begun !== landing) return;
       const covered = getComputedStyle(bar).position === "sticky" ? bar.getBoundingClientRect().bottom : 0;
       const off = target.getBoundingClientRect().top - Math.max(covered, 0) - GAP;
       if (Math.abs(off) > 1) { scrollBy({ top: off, behavior: "instant" }); still = 0; } else still = working > 0 ? 0 : still + 1;
