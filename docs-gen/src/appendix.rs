@@ -224,7 +224,12 @@ impl Source<'_> {
                     self.wording.storage_group_of(group, device)
                 );
                 let anchor = format!("storage-{}-{}", device.key, group.word());
-                tables.push(Table::unnumbered(anchor, "storage", Cell::plain(title), vec![grid]));
+                tables.push(Table::unnumbered(
+                    anchor,
+                    "storage",
+                    self.linked(&Devices::one(&device.key), &title, ""),
+                    vec![grid],
+                ));
             }
         }
         tables

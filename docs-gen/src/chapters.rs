@@ -23,7 +23,7 @@ impl Source<'_> {
                 let section = &self.document().sections[plan.position];
                 views.push(Section {
                     number: section.number.clone(),
-                    title: self.text(&section.title),
+                    title: Cell::words(&section.title, self.language),
                     anchor: section_anchor(self.document(), plan.position),
                     level: plan.level,
                     content: self.content(section, tables),

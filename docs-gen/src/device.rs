@@ -1,10 +1,10 @@
 //! A device: its objects with everything that refers to them, and its PDOs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{
-    Devices, Dictionary, Direction, Entry, EntryId, Fact, NamedType, Object, ObjectKind, PdoMapping, Storage,
-    SystemSource, TypeKind, Value,
+    Devices, Dictionary, Direction, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, PdoMapping,
+    Storage, SystemSource, TypeKind, Value,
 };
 
 use crate::cell::{entry_anchor, object_anchor, slug};
@@ -13,10 +13,12 @@ use crate::long_list::LongList;
 use crate::outline::section_anchor;
 use crate::source::Source;
 use crate::tables::Columns;
-use crate::tables::bits::types_of;
+use crate::tables::bits::{type_anchor, types_of};
 use crate::tables::overview::among;
 use crate::uses::Uses;
-use crate::view::{Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, Place, Row, Table};
+use crate::view::{
+    Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, PdoView, Place, Row, Table,
+};
 
 impl Source<'_> {
     /// The page of a device: all links stay on it. The source is that of the device alone.
@@ -28,6 +30,7 @@ impl Source<'_> {
         let overview =
             Table::unnumbered("overview", "overview", Cell::default(), vec![self.overview_grid(rows)]);
         let filters = self.filters(device, &objects);
+        let pdos: Vec<PdoView> = device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect();
         DeviceView {
             key: device.key.clone(),
             name: device.name.clone(),
@@ -35,11 +38,22 @@ impl Source<'_> {
             facts: self.facts(device),
             dynamic_channels: self.dynamic_channels(device),
             overview,
+            details: self.not_in_chapters(device, &pdos),
             objects,
-            pdos: device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect(),
+            groups: self.groups(device),
+            pdos,
             appendices: self.device_appendices(),
             filters,
         }
+    }
+
+    /// The objects that no chapter shows in detail, and the PDOs: their names by anchor.
+    fn not_in_chapters(&self, device: &Dictionary, pdos: &[PdoView]) -> BTreeMap<String, String> {
+        let in_chapters: BTreeSet<Index> =
+            self.outline.detailed(self.document()).map(|(index, _)| index).collect();
+        let outside = device.objects.values().filter(|object| !in_chapters.contains(&object.index));
+        let objects = outside.map(|object| (object_anchor(object.index), object.name.clone()));
+        objects.chain(pdos.iter().map(|pdo| (pdo.anchor.clone(), pdo.name.clone()))).collect()
     }
 
     /// What a filter can offer: whatever occurs.
@@ -240,10 +254,7 @@ impl Source<'_> {
     /// The entries of one object.
     fn detail(&self, device: &Dictionary, object: &Object) -> Grid {
         // The card itself is what links to an object lead to.
-        let mut rows = self.entry_rows(device, object, object.is_structured());
-        if let Some(count) = rows.first_mut().filter(|_| object.is_structured()) {
-            count.anchor = format!("{}.0", object_anchor(object.index));
-        }
+        let rows = self.entry_rows(device, object, object.is_structured());
         let grid = self.entry_columns(object).grid(rows, crate::tables::objects::ALWAYS);
         if !object.is_structured() {
             return grid;
@@ -336,9 +347,7 @@ impl Source<'_> {
         let sections = self.sections_of(object.index).iter();
         sections
             .map(|at| {
-                let section = &self.document().sections[*at];
-                let title = self.text(&section.title).text;
-                let text = format!("{} {title}", section.number).trim().to_owned();
+                let text = self.heading(*at);
                 Place { text, anchor: section_anchor(self.document(), *at), page: self.outline.page_of(*at) }
             })
             .collect()
@@ -349,13 +358,13 @@ impl Source<'_> {
 fn anchored(mut grid: Grid, object: &Object, named: &NamedType) -> Grid {
     let has_it =
         |entry: &&Entry| entry.named_type.as_deref().is_some_and(|its_type| its_type.name == named.name);
-    let Some(entry) = object.entries.iter().find(has_it) else { return grid };
-    let entry = entry_anchor(EntryId { index: object.index, sub: entry.sub });
+    let first = object.entries.iter().find(has_it);
+    let Some(entry) = first.and_then(|entry| type_anchor(object, entry.sub)) else { return grid };
     let parts: Vec<String> = match &named.kind {
         TypeKind::Bits(fields) => fields.iter().map(|field| format!("b{}", field.first)).collect(),
         TypeKind::Enum(values) => values.iter().map(|value| format!("v{}", value.value)).collect(),
     };
-    for (row, part) in grid.rows.iter_mut().zip(parts) {
+    for (row, part) in grid.rows.items_mut().iter_mut().zip(parts) {
         row.anchor = format!("{entry}.{part}");
     }
     grid
@@ -392,7 +401,7 @@ fn search(object: &Object, view: &ObjectView) -> String {
     for grid in view.types.iter().chain([&view.table]).flat_map(|table| &table.grids) {
         let wanted =
             |at: &usize| matches!(grid.columns[*at].key, "name" | "description" | "meaning" | "error_codes");
-        for row in &grid.rows {
+        for row in grid.rows.iter() {
             (0..grid.columns.len()).filter(wanted).for_each(|at| add(&row.cells[at].text));
         }
     }

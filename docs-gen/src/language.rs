@@ -52,14 +52,17 @@ words! {
     AddressDifference "address_difference": "Address difference", "Adressabstand";
     Alias "alias": "View", "Abbild";
     AliasOf "alias_of": "View of", "Abbild von";
+    AfterPrinted "after_printed": "After the printed manual:", "Nach dem gedruckten Handbuch:";
     Aliases "aliases": "Aliases", "Abbilder";
     AliasesIntro "aliases_intro":
         "Objects that show another object in a narrower type or another unit. They have no value of their own: what is written to them goes to the object that they show.",
         "Objekte, die ein anderes Objekt in einem kleineren Typ oder einer anderen Einheit zeigen. Sie haben keinen eigenen Wert: was in sie geschrieben wird, geht an das gezeigte Objekt.";
     All "all": "all", "alle";
+    AllBits "all_bits": "all bits", "alle Bits";
     AllTables "all_tables": "Index of tables", "Verzeichnis der Tabellen";
     BaseUnit "base_unit": "Base unit", "Basiseinheit";
     Because "because": "Why", "Begründung";
+    Before "before": "Before", "Vorher";
     Bit "bit": "Bit", "Bit";
     Bits "bits": "Bits", "Bits";
     BitOf "bit_of": "bit {n} of", "Bit {n} von";
@@ -67,10 +70,14 @@ words! {
     BothEdges "both_edges": "0↔1", "0↔1";
     Byte "byte": "Byte", "Byte";
     Category "category": "Category", "Kategorie";
+    CausedBy "caused_by": "Caused by step", "Ausgelöst von Schritt";
     Chapters "chapters": "Chapters", "Kapitel";
+    ChosenBy "chosen_by": "As chosen by {n}.", "Wie mit {n} gewählt.";
+    Chooses "chooses": "Chooses the reaction to", "Wählt die Reaktion auf";
     Clamp "clamp": "Clamp", "Klemme";
     CobId "cob_id": "COB-ID", "COB-ID";
     Command "command": "Command", "Befehl";
+    CommunicationObjects "communication_objects": "Communication objects", "Kommunikationsobjekte";
     Condition "condition": "Condition", "Bedingung";
     Constraint "constraint": "Constraint", "Bedingung";
     Constraints "constraints": "Constraints", "Bedingungen";
@@ -102,9 +109,13 @@ words! {
     Formula "formula": "Formula", "Formel";
     From "from": "From", "Von";
     FromStandard "from_standard": "From", "Aus";
+    FurtherObjects "further_objects": "Further objects", "Weitere Objekte";
     Gates "gates": "Decides about writing to", "Entscheidet über das Schreiben von";
     Generated "generated": "Table here", "Tabelle hier";
+    GoesOffAt "goes_off_at": "Off again at", "Wieder aus bei";
+    GoesOn "goes_on": "On at", "Ein bei";
     Index "index": "Index", "Index";
+    IndexOfObjects "index_of_objects": "Index of objects", "Verzeichnis der Objekte";
     InhibitTime "inhibit_time": "Inhibit time", "Sperrzeit";
     Issue "issue": "Issue", "Ausgabe";
     Kind "kind": "Kind", "Art";
@@ -115,9 +126,11 @@ words! {
         "Attr: ro can be read, wo written, rw both; rwr and rww are rw for TPDOs and RPDOs alone; r(w) can be read, and written once the device is unlocked for service, (w) only the latter; const never changes. Map: N not mappable, Y (R) into RPDOs, Y (T) into TPDOs, Y (RT) into both. Mem.: Y can be stored; about the others the EDS says nothing, and where it says it of none, the column is missing. Behind a value in a unit stands the raw value where the two differ; special values are raw.",
         "Zugriff: ro ist lesbar, wo schreibbar, rw beides; rwr und rww sind rw nur für TPDOs und nur für RPDOs; r(w) ist lesbar und, wenn das Gerät für den Service entsperrt ist, schreibbar, (w) nur das Letztere; const ändert sich nie. Map: N nicht mappbar, Y (R) in RPDOs, Y (T) in TPDOs, Y (RT) in beide. Sp.: Y speicherbar; über die anderen sagt die EDS nichts, und wo sie es von keinem sagt, fehlt die Spalte. Hinter einem Wert mit Einheit steht der Rohwert, wo beide sich unterscheiden; besondere Werte sind Rohwerte.";
     Links "links": "See also", "Siehe auch";
+    ListOfTables "list_of_tables": "Tables", "Tabellen";
     LockedNote "locked": "Writable only when the device is unlocked for service.", "Nur schreibbar, wenn das Gerät für den Service entsperrt ist.";
     Machines "machines": "State machines", "Zustandsmaschinen";
     Manual "manual": "Manual", "Handbuch";
+    ManufacturerObjects "manufacturer_objects": "Manufacturer-specific objects", "Herstellerspezifische Objekte";
     Map "map": "Map", "Map";
     Meaning "meaning": "Meaning", "Bedeutung";
     Mem "mem": "Mem.", "Sp.";
@@ -128,12 +141,18 @@ words! {
     NoMatch "no_match":
         "Nothing fits. Escape clears the search.",
         "Nichts passt. Esc leert die Suche.";
+    Notation "notation": "Notation", "Schreibweise";
     NotSupported "not_supported": "not supported", "nicht unterstützt";
     Number "number": "No.", "Nr.";
     Offset "offset": "Offset", "Offset";
     Object "object": "Object", "Objekt";
     Objects "objects": "Objects", "Objekte";
+    ObjectsOutside "objects_outside":
+        "The objects of the device that no chapter shows.",
+        "Die Objekte des Geräts, die kein Kapitel zeigt.";
     Off "off": "off after start-up", "nach dem Einschalten aus";
+    OffFrom "off_from": "Off value from", "Ausschaltwert aus";
+    OnFrom "on_from": "On value from", "Einschaltwert aus";
     OnlyThere "only_there": "Only while", "Nur solange";
     OrderCode "order_code": "Order code", "Bestellnummer";
     Parameter "parameter": "Parameter", "Parameter";
@@ -149,6 +168,7 @@ words! {
     Priority "priority": "Prio.", "Prio.";
     Product "product": "Product code", "Produktcode";
     ProductRevision "product_revision": "Product revision", "Produktrevision";
+    ProfileObjects "profile_objects": "Device profile objects", "Objekte des Geräteprofils";
     Range "range": "Range", "Bereich";
     Reaction "reaction": "Reaction", "Reaktion";
     Reads "reads": "Read as", "Gelesen als";
@@ -171,6 +191,7 @@ words! {
     SearchHint "search_hint": "index, name or word", "Index, Name oder Wort";
     Section "section": "Section", "Abschnitt";
     Send "send": "Code", "Code";
+    SetByDefault "set_by_default": "Set by default: {n}.", "Als Vorgabe gesetzt: {n}.";
     Since "since": "Since issue", "Seit Ausgabe";
     SkipLink "skip": "Skip to the objects", "Zu den Objekten";
     SkipContents "skip_contents": "Skip to the text", "Zum Text";
@@ -178,10 +199,14 @@ words! {
     Status "status": "Status", "Status";
     Storage "storage": "Storage", "Speicherung";
     StorageIntro "storage_intro":
-        "What is kept over power-off: the entries that each command of store parameters (1010h) saves and that restore default parameters (1011h) sets back, and what the device keeps by itself.",
-        "Was das Ausschalten überdauert: die Einträge, die jeder Befehl von 1010h (Parameter speichern) sichert und 1011h (Vorgaben wiederherstellen) zurücksetzt, und was das Gerät von sich aus hält.";
+        "What is kept over power-off: the entries that each command of store parameters saves and that restore default parameters sets back, and what the device keeps by itself.",
+        "Was das Ausschalten überdauert: die Einträge, die jeder Befehl zum Speichern der Parameter sichert und der zum Wiederherstellen der Vorgaben zurücksetzt, und was das Gerät von sich aus hält.";
     Stored "stored": "Stored", "Gespeichert";
     Step "step": "One step", "Ein Schritt";
+    StepNumber "step_number": "Step", "Schritt";
+    SwitchedOff "switched_off": "off", "aus";
+    SwitchedOn "switched_on": "on", "ein";
+    Switches "switches": "Switches", "Schaltet";
     SubIndex "sub": "Sub-Index", "Subindex";
     Sub "sub_short": "Sub", "Sub";
     Supported "supported": "Supported", "Unterstützt";
@@ -220,6 +245,7 @@ const TABLE_KINDS: &[(&str, &str)] = &[
     ("errors", "Fehlercodes"),
     ("glossary", "Glossar"),
     ("history", "Änderungen"),
+    ("hysteresis", "Hysterese"),
     ("ladder", "Stufenfolge"),
     ("objects", "Objekte"),
     ("overview", "Übersicht"),
@@ -227,6 +253,7 @@ const TABLE_KINDS: &[(&str, &str)] = &[
     ("reactions", "Reaktionen"),
     ("rows", "Zeilen"),
     ("states", "Zustände"),
+    ("timing", "Ablauf"),
     ("transitions", "Übergänge"),
     ("values", "Werte"),
 ];

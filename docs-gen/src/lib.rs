@@ -9,6 +9,8 @@ mod cell;
 mod chapters;
 mod conditions;
 mod device;
+mod groups;
+mod indices;
 mod language;
 mod long_list;
 mod markdown;
@@ -41,6 +43,7 @@ pub fn context(system: &System, options: &Options) -> Context {
         language: source.language.code.to_owned(),
         words: source.words(),
         synonyms: source.language.synonyms(),
+        errata: options.errata,
         system: view::SystemView {
             title: system.title.clone(),
             vendor: system.vendor.name.clone(),

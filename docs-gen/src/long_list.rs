@@ -18,6 +18,19 @@ impl<T> Deref for LongList<T> {
     }
 }
 
+impl<T> Default for LongList<T> {
+    fn default() -> Self {
+        Self(Arc::default())
+    }
+}
+
+impl<T: Clone> LongList<T> {
+    /// The items, to be changed.
+    pub(crate) fn items_mut(&mut self) -> &mut [T] {
+        Arc::<Vec<T>>::make_mut(&mut self.0)
+    }
+}
+
 impl<T> FromIterator<T> for LongList<T> {
     fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
         Self(Arc::new(items.into_iter().collect()))

@@ -47,7 +47,8 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
     let mut text = String::new();
     // The word of a standard is in italics; a line break ends them.
     let italics = if cell.get_attr("standard")?.is_true() { "*" } else { "" };
-    for part in cell.get_attr("parts")?.try_iter()? {
+    let mut parts = cell.get_attr("parts")?.try_iter()?.peekable();
+    while let Some(part) = parts.next() {
         let words = part.get_attr("text")?.to_string();
         match part.get_attr("kind")?.as_str() {
             Some("break") => text.push_str("<br>"),
@@ -77,11 +78,13 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
                 } else {
                     text.push_str(&words.replace(inner, &format!("{italics}{inner}{italics}")));
                 }
-                let language = part.get_attr("language")?.to_string();
-                if !language.is_empty() {
-                    let _ = write!(text, " *({language})*");
-                }
             }
+        }
+        // Behind the last of the parts that are in another language.
+        let language = part.get_attr("language")?.to_string();
+        let behind = parts.peek().map(|next| next.get_attr("language")).transpose()?;
+        if !language.is_empty() && behind.is_none_or(|next| next.to_string() != language) {
+            let _ = write!(text, " *({language})*");
         }
     }
     Ok(text)

@@ -11,6 +11,8 @@ pub struct Options {
     pub devices: Devices,
     /// Language; that of the specification unless given.
     pub language: Option<String>,
+    /// Whether a printed manual shows where it differs from the issue that it takes the place of.
+    pub errata: bool,
     /// Calls of the accessors in generated Rust, by key of the device, then by entry.
     pub accessors: BTreeMap<String, BTreeMap<EntryId, String>>,
 }

@@ -85,13 +85,8 @@ impl Outline {
     /// that of a device.
     pub(crate) fn homes(&self, document: &Document, devices: &[&Dictionary]) -> BTreeMap<Index, String> {
         let mut homes = BTreeMap::new();
-        for ChapterPlan { page, sections } in &self.0 {
-            for table in sections.iter().flat_map(|plan| &document.sections[plan.position].tables) {
-                let TableContent::Objects(list) = &table.content else { continue };
-                for index in list {
-                    homes.entry(*index).or_insert_with(|| page.clone());
-                }
-            }
+        for (index, page) in self.detailed(document) {
+            homes.entry(index).or_insert_with(|| page.to_owned());
         }
         for device in devices {
             for index in device.objects.keys() {
@@ -99,6 +94,18 @@ impl Outline {
             }
         }
         homes
+    }
+
+    /// The objects that chapters show in detail, in their order, with the page of the chapter.
+    pub(crate) fn detailed(&self, document: &Document) -> impl Iterator<Item = (Index, &str)> {
+        self.0.iter().flat_map(move |ChapterPlan { page, sections }| {
+            let tables = sections.iter().flat_map(|plan| &document.sections[plan.position].tables);
+            let lists = tables.filter_map(|table| match &table.content {
+                TableContent::Objects(list) => Some(list),
+                _ => None,
+            });
+            lists.flatten().map(|index| (*index, page.as_str()))
+        })
     }
 }
 
@@ -160,6 +167,8 @@ pub(crate) const fn kind_of(content: &TableContent) -> &'static str {
         TableContent::Transitions(_) => "transitions",
         TableContent::Commands(_) => "commands",
         TableContent::Ladder(_) => "ladder",
+        TableContent::Timing(_) => "timing",
+        TableContent::Hysteresis(_) => "hysteresis",
         TableContent::Pdos(_) => "pdos",
         TableContent::Rows { .. } => "rows",
         TableContent::Glossary => "glossary",

@@ -10,7 +10,8 @@ use od_spec::model::{
 };
 use od_spec::wording::Wording;
 
-use crate::cell::{entry_anchor, slug};
+use crate::cell::{entry_anchor, object_anchor, slug};
+use crate::indices::{self, Written};
 use crate::language::{Language, Word};
 use crate::options::Options;
 use crate::outline::Outline;
@@ -75,6 +76,8 @@ pub(crate) struct Source<'a> {
     pub system: &'a System,
     /// The devices to show.
     pub devices: Vec<&'a Dictionary>,
+    /// The devices that have a page: those shown, and where only one is shown, the others that links lead to.
+    with_page: Vec<&'a Dictionary>,
     pub language: Language<'a>,
     /// How facts are worded in that language.
     pub wording: Wording,
@@ -100,6 +103,7 @@ impl<'a> Source<'a> {
             accessors: &options.accessors,
             homes: outline.homes(&system.document, &devices),
             outline: Rc::new(outline),
+            with_page: devices.clone(),
             devices,
             lookup: Rc::default(),
         };
@@ -112,6 +116,7 @@ impl<'a> Source<'a> {
         let homes = device.objects.keys().map(|index| (*index, device.key.clone())).collect();
         Self {
             devices: vec![device],
+            with_page: self.with_page.clone(),
             homes,
             outline: Rc::clone(&self.outline),
             lookup: Rc::clone(&self.lookup),
@@ -234,6 +239,12 @@ impl<'a> Source<'a> {
         self.lookup.places.get(&index).map_or(&[], Vec::as_slice)
     }
 
+    /// Number and title of a section of the manual.
+    pub(crate) fn heading(&self, section: usize) -> String {
+        let section = &self.document().sections[section];
+        format!("{} {}", section.number, self.text(&section.title).text).trim().to_owned()
+    }
+
     /// The printed manual.
     pub(crate) const fn document(&self) -> &'a Document {
         &self.system.document
@@ -244,9 +255,42 @@ impl<'a> Source<'a> {
         self.language.word(word)
     }
 
-    /// A text of the specification.
+    /// A text of the specification, in which each index of an object shown is a link.
     pub(crate) fn text(&self, text: &Text) -> Cell {
-        Cell::words(text, self.language)
+        let words = Cell::words(text, self.language);
+        let linked = words.parts().map(|part| self.linked(&Devices::All, part.text, part.language));
+        linked.fold(Cell::default(), Cell::and)
+    }
+
+    /// A text in which each index of an object of these devices is a link, in another language where one is named.
+    pub(crate) fn linked(&self, devices: &Devices, text: &str, language: &str) -> Cell {
+        let mut cell = Cell::default();
+        let mut start = 0;
+        for one in indices::written(text) {
+            let Some((end, anchor)) = self.named_in_text(devices, one) else { continue };
+            let link = self.link_on(devices, one.id.index, text[one.start..end].to_owned(), anchor);
+            cell = cell.in_language(&text[start..one.start], language).and(link.all_in_language(language));
+            start = end;
+        }
+        cell.in_language(&text[start..], language)
+    }
+
+    /// What is named in a running text: where its name ends, and the anchor that it leads to. Of an object without the sub-index
+    /// only the index counts. Nothing where the number is an error code, too: no text says which of them it means.
+    fn named_in_text(&self, devices: &Devices, one: Written) -> Option<(usize, String)> {
+        let EntryId { index, sub } = one.id;
+        if self.system.errors.binary_search_by_key(&index.0, |error| error.code).is_ok() {
+            return None;
+        }
+        let mut objects =
+            self.led_to(devices, index).filter_map(|device| device.objects.get(&index)).peekable();
+        objects.peek()?;
+        let has_entry = |object: &Object| object.is_structured() && object.entry(sub).is_some();
+        Some(if one.end > one.index_end && objects.any(has_entry) {
+            (one.end, format!("{}.{sub}", object_anchor(index)))
+        } else {
+            (one.index_end, object_anchor(index))
+        })
     }
 
     /// The page that shows an object in detail.
@@ -254,25 +298,36 @@ impl<'a> Source<'a> {
         self.homes.get(&index).map_or("", String::as_str)
     }
 
-    /// A link to an entry, as `6040h` or `3020h.5`; of a device that is not shown, the id alone.
+    /// Those of these devices that a link to an object can lead to: shown ones, or else others with a page.
+    fn led_to(&self, devices: &Devices, index: Index) -> impl Iterator<Item = &'a Dictionary> + use<'a> {
+        let of = |some: &[&'a Dictionary]| {
+            let having = some.iter().copied();
+            having
+                .filter(|device| devices.includes(&device.key) && device.objects.contains_key(&index))
+                .collect::<Vec<_>>()
+        };
+        let shown = of(&self.devices);
+        if shown.is_empty() { of(&self.with_page) } else { shown }.into_iter()
+    }
+
+    /// A link to an entry, as `6040h` or `3020h.5`; of a device without a page, the id alone.
     pub(crate) fn entry_link(&self, id: EntryId) -> Cell {
         self.link(id.index, id.to_string(), entry_anchor(id))
     }
 
-    /// A link to something of an object, if a device shown has the object.
+    /// A link to something of an object, if a device with a page has the object.
     pub(crate) fn link(&self, index: Index, text: String, anchor: String) -> Cell {
         self.link_on(&Devices::All, index, text, anchor)
     }
 
     /// A link to something of an object of these devices.
     pub(crate) fn link_on(&self, devices: &Devices, index: Index, text: String, anchor: String) -> Cell {
-        let has =
-            |device: &&&Dictionary| devices.includes(&device.key) && device.objects.contains_key(&index);
-        let Some(device) = self.devices.iter().find(has) else { return Cell::plain(text) };
-        // What no chapter details stands on the page of its device: each device has one.
+        let Some(device) = self.led_to(devices, index).next() else { return Cell::plain(text) };
+        // What no chapter details stands on the page of its device: each device has one. So does what another device has.
         let home = self.home(index);
-        let is_device = self.devices.iter().any(|device| device.key == home);
-        Cell::default().link(text, anchor, if is_device { &device.key } else { home })
+        let is_shown = self.devices.iter().any(|one| one.key == device.key);
+        let is_on_page_of_device = !is_shown || self.devices.iter().any(|device| device.key == home);
+        Cell::default().link(text, anchor, if is_on_page_of_device { &device.key } else { home })
     }
 
     /// A link to an entry of a device.

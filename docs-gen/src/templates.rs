@@ -23,6 +23,8 @@ pub enum Format {
     Markdown,
     /// HTML: a page for the system and one per device, each complete in itself.
     Html,
+    /// HTML to be printed: one page for everything, with title, contents and page numbers.
+    Print,
 }
 
 impl Format {
@@ -31,6 +33,7 @@ impl Format {
         match self {
             Format::Markdown => MARKDOWN,
             Format::Html => HTML,
+            Format::Print => PRINT,
         }
     }
 }
@@ -55,6 +58,14 @@ const HTML: &[(&str, &str)] = files!(
     "html/_footer.html",
     "html/index.html",
     "html/device.html",
+);
+const PRINT: &[(&str, &str)] = files!(
+    "html/_macros.html",
+    "html/_pictures.html",
+    "html/_user.css",
+    "print/_manual.css",
+    "print/_picture.css",
+    "print/manual.html",
 );
 
 /// `md/chapter.md` → `chapter.md`.

@@ -9,7 +9,7 @@ use od_spec::model::{
 
 use crate::language::Word;
 use crate::source::Source;
-use crate::tables::{errors, pdos};
+use crate::tables::pdos;
 use crate::view::{Cell, Used};
 
 /// What refers to each object of a device, worked out once.
@@ -21,6 +21,7 @@ impl Uses {
         let mut uses = Self(BTreeMap::new());
         uses.add_pdos(source, device);
         uses.add_entries(source, device);
+        uses.add_option_codes(source, device);
         uses.add_constraints(source, device);
         uses.add_machines(source, device);
         uses
@@ -48,11 +49,19 @@ impl Uses {
             }
             for code in codes(entry) {
                 let error = source.system.errors.iter().find(|error| error.code == code);
-                let line = Cell::default()
-                    .link(source.error_code(code), errors::anchor(code), "errors")
-                    .text(format!(" {}", error.map_or("", |error| &error.name)));
+                let name = format!(" {}", error.map_or("", |error| &error.name));
+                let line = source.error_link(code).text(name);
                 self.add(id, "errors", source.word(Word::ErrorCodes), line);
             }
+        }
+    }
+
+    fn add_option_codes(&mut self, source: &Source<'_>, device: &Dictionary) {
+        let errors = source.system.errors.iter().filter(|error| error.devices.includes(&device.key));
+        for error in errors {
+            let Some(id) = error.option_code.filter(|id| device.entry(*id).is_some()) else { continue };
+            let line = source.error_link(error.code).text(format!(" {}", error.name));
+            self.add(id, "reactions", source.word(Word::Chooses), line);
         }
     }
 

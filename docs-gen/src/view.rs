@@ -2,6 +2,8 @@
 //!
 //! A table is data: columns, and rows of cells. A template only decides how a table looks, so that every format shows the same.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 pub use crate::long_list::LongList;
@@ -17,9 +19,11 @@ pub struct Context {
     /// Code of the language.
     pub language: String,
     /// Fixed words by name, in that language.
-    pub words: std::collections::BTreeMap<&'static str, &'static str>,
+    pub words: BTreeMap<&'static str, &'static str>,
     /// Phrases that a search takes for one another.
     pub synonyms: Vec<&'static [&'static str]>,
+    /// Whether a printed manual shows where it differs from the issue that it takes the place of.
+    pub errata: bool,
     /// The system.
     pub system: SystemView,
     /// Devices, in the order of the specification.
@@ -100,7 +104,7 @@ pub struct Table {
     /// More about what it shows; may be empty.
     pub about: Cell,
     /// What fills it: `overview`, `objects`, `bits`, `values`, `errors`, `reactions`, `states`, `transitions`, `commands`,
-    /// `ladder`, `pdos`, `rows`, `glossary`, `history`, or the name of an appendix.
+    /// `ladder`, `timing`, `hysteresis`, `pdos`, `rows`, `glossary`, `history`, or the name of an appendix.
     pub kind: &'static str,
     /// Its grids.
     pub grids: Vec<Grid>,
@@ -118,9 +122,15 @@ pub struct Grid {
     /// Columns.
     pub columns: Vec<Column>,
     /// Rows; each has a cell for every column.
-    pub rows: Vec<Row>,
+    pub rows: LongList<Row>,
     /// A picture of the bits.
     pub bits: Option<BitPicture>,
+    /// A picture of the state machine whose states these are.
+    pub machine: Option<MachinePicture>,
+    /// A picture of the sequence of events whose steps these are.
+    pub timing: Option<TimingPicture>,
+    /// A picture of the switches whose values these are.
+    pub hysteresis: Option<HysteresisPicture>,
 }
 
 /// Index, name and shape above the entries of an object.
@@ -178,30 +188,40 @@ pub struct Row {
     pub errata: Vec<usize>,
 }
 
-/// The contents of a cell, or another piece of text.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+/// The contents of a cell, or another piece of text. A document has very many, most of them one plain text.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Cell {
     /// The text alone; lines are separated by line breaks.
     pub text: String,
-    /// The same in parts.
-    pub parts: Vec<Part>,
+    /// What its parts are; nothing where it is one plain text, or empty.
+    pub(crate) spans: Vec<Span>,
     /// Whether a standard says it, and the maker does not.
     pub standard: bool,
 }
 
+/// What a part of a [`Cell`] is, and where it ends in the text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Span {
+    pub end: usize,
+    pub kind: PartKind,
+    pub anchor: Box<str>,
+    pub page: Box<str>,
+    pub language: Box<str>,
+}
+
 /// A part of a [`Cell`].
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Part {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Part<'a> {
     /// What it is.
     pub kind: PartKind,
     /// The text; empty for a break.
-    pub text: String,
+    pub text: &'a str,
     /// Anchor that a link leads to.
-    pub anchor: String,
+    pub anchor: &'a str,
     /// Page that has the anchor, where pages are small.
-    pub page: String,
+    pub page: &'a str,
     /// Language of the text, where it is not that of the document.
-    pub language: String,
+    pub language: &'a str,
 }
 
 /// What a [`Part`] is.
@@ -237,12 +257,36 @@ pub struct DeviceView {
     pub overview: Table,
     /// The objects.
     pub objects: LongList<ObjectView>,
+    /// The objects by what they are for: the manual's functions in its order, then what it has no chapter for, and the communication objects last.
+    pub groups: Vec<GroupView>,
+    /// The objects and PDOs that no chapter shows in detail, by anchor: their names.
+    pub details: BTreeMap<String, String>,
     /// Factory PDOs.
     pub pdos: Vec<PdoView>,
     /// Error codes, aliases, units, storage and constraints of this device alone.
     pub appendices: Vec<Appendix>,
     /// Data types, units, groups and accesses that occur, for filters.
     pub filters: Filters,
+}
+
+/// Objects that belong together.
+#[derive(Debug, Clone, Serialize)]
+pub struct GroupView {
+    /// The chapter or section of the manual that tells of them, or the area of the object dictionary.
+    pub title: String,
+    /// The objects, ascending.
+    pub objects: LongList<ObjectName>,
+}
+
+/// What an object is called.
+#[derive(Debug, Clone, Serialize)]
+pub struct ObjectName {
+    /// `6040h`.
+    pub index: String,
+    /// Where links lead: `6040`.
+    pub anchor: String,
+    /// Name.
+    pub name: String,
 }
 
 /// What a filter can offer.
@@ -290,7 +334,7 @@ pub struct ObjectView {
     /// Errata about it.
     pub errata: Vec<ErratumView>,
     /// Its entries, in the order of the detail table.
-    pub entries: Vec<EntryView>,
+    pub entries: LongList<EntryView>,
     /// For filters, each once: accesses.
     pub access: Vec<String>,
     /// For filters: data types.
@@ -319,7 +363,7 @@ pub struct Place {
 /// Lines of one kind of use.
 #[derive(Debug, Clone, Serialize)]
 pub struct Used {
-    /// `pdos`, `aliases`, `constraints`, `conditions`, `errors`, `machines`.
+    /// `pdos`, `aliases`, `constraints`, `conditions`, `errors`, `reactions`, `machines`.
     pub kind: &'static str,
     /// Heading.
     pub title: String,
@@ -451,6 +495,159 @@ pub struct PdoField {
     pub anchor: String,
     /// Name.
     pub name: String,
+}
+
+/// A state machine, to be drawn; all lengths are in the units of the picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct MachinePicture {
+    /// Width of the picture.
+    pub width: u32,
+    /// Height of the picture.
+    pub height: u32,
+    /// Its states, from the top.
+    pub states: Vec<MachineState>,
+    /// Its transitions.
+    pub lines: Vec<MachineLine>,
+}
+
+/// A state in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct MachineState {
+    /// Name.
+    pub name: String,
+    /// Bits that show it.
+    pub pattern: String,
+    /// Left edge.
+    pub x: u32,
+    /// Upper edge.
+    pub y: u32,
+    /// Width.
+    pub width: u32,
+    /// Height.
+    pub height: u32,
+}
+
+/// A transition in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct MachineLine {
+    /// Its number.
+    pub number: u8,
+    /// The line, as SVG writes it.
+    pub path: String,
+    /// The tip of its arrow, as SVG writes it.
+    pub tip: String,
+    /// Where the start is, for a transition from there.
+    pub start: Option<(u32, u32)>,
+    /// Where the number stands.
+    pub label: (u32, u32),
+}
+
+/// A sequence of events, to be drawn; all lengths are in the units of the picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct TimingPicture {
+    /// Width of the picture.
+    pub width: u32,
+    /// Height of the picture.
+    pub height: u32,
+    /// Its signals, from the top.
+    pub signals: Vec<TimingSignal>,
+    /// Its steps, in order.
+    pub marks: Vec<TimingMark>,
+    /// From causes to effects.
+    pub arrows: Vec<TimingArrow>,
+}
+
+/// A signal in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct TimingSignal {
+    /// Name; may be empty.
+    pub name: String,
+    /// Where it stands: `controlword, Bit 4` or `607Ah`.
+    pub place: String,
+    /// The middle of its wave.
+    pub y: u32,
+    /// Where it is 0 or 1, as SVG writes it; may be empty.
+    pub line: String,
+    /// Where it has another level, as SVG writes it.
+    pub bands: Vec<String>,
+    /// Texts of its levels.
+    pub levels: Vec<TimingLevel>,
+}
+
+/// The text of a level in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct TimingLevel {
+    /// The text.
+    pub text: String,
+    /// Its middle.
+    pub x: u32,
+    /// Its lower edge.
+    pub y: u32,
+}
+
+/// A step in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct TimingMark {
+    /// Its number.
+    pub number: u32,
+    /// Where it lies.
+    pub x: u32,
+    /// What happens.
+    pub event: String,
+}
+
+/// An arrow in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct TimingArrow {
+    /// The line, as SVG writes it.
+    pub path: String,
+    /// The tip, as SVG writes it.
+    pub tip: String,
+}
+
+/// Switches with a hysteresis, to be drawn; all lengths are in the units of the picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct HysteresisPicture {
+    /// Width of the picture.
+    pub width: u32,
+    /// Height of the picture.
+    pub height: u32,
+    /// The axis of the values, as SVG writes it.
+    pub axis: String,
+    /// The tip of the axis, as SVG writes it.
+    pub tip: String,
+    /// The switches, from the top.
+    pub switches: Vec<SwitchPicture>,
+}
+
+/// A switch in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct SwitchPicture {
+    /// What goes on.
+    pub name: String,
+    /// Where that stands.
+    pub y: u32,
+    /// The values at which it stays what it was, as SVG writes them.
+    pub band: String,
+    /// On and off, as SVG writes it.
+    pub line: String,
+    /// Which way the state changes at the edges of the band, as SVG writes it.
+    pub tips: Vec<String>,
+    /// On and off in words, and the values at the edges of the band.
+    pub texts: Vec<PictureText>,
+}
+
+/// A text in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct PictureText {
+    /// The text.
+    pub text: String,
+    /// Where it begins or ends.
+    pub x: u32,
+    /// Its lower edge.
+    pub y: u32,
+    /// Whether it begins there (`left`) or ends there (`right`).
+    pub align: Align,
 }
 
 /// Thresholds in their order.

@@ -107,7 +107,7 @@ fn words(system: &System, language: &str) -> Words {
         words.iter().filter(|(_, text)| in_view(text)).map(|(key, _)| *key).collect();
     let markers: Vec<(&'static str, String)> = words.keys().map(|key| (*key, marker(key))).collect();
     context.words = markers.iter().map(|(key, marker)| (*key, &*marker.clone().leak())).collect();
-    let pages = [Format::Markdown, Format::Html]
+    let pages = [Format::Markdown, Format::Html, Format::Print]
         .into_iter()
         .flat_map(|format| Templates::new(Some(format), &[]).unwrap().print(&context).unwrap());
     for page in pages {

@@ -3861,7 +3861,7 @@ pub mod records {
 
         /// `6510h.8` error flags: Faults that are present.
         ///
-        /// UNSIGNED16, ro, TPDO.
+        /// UNSIGNED16, ro, TPDO. Errors: 2320h at bit 0, 3210h at bit 2, 3220h at bit 3, 7305h at bit 4, 4210h at bit 5, 6320h at bit 6, 2310h at bit 7, 4310h at bit 8, 6380h at bit 9, 8400h at bit 10, 7320h at bit 11, 6010h at bit 12, 7321h at bit 13, 8611h at bit 14, 6080h at bit 15.
         #[inline]
         pub fn error_flags(&self) -> super::types::ErrorFlags {
             super::types::ErrorFlags(super::glue::get_u16(&self.0.borrow().0, 692))
@@ -5338,7 +5338,7 @@ pub mod types {
     pub struct ErrorFlags(pub u16);
 
     impl ErrorFlags {
-        /// Bit 0, short circuit motor side: Short circuit or earth fault between output stage and motor. Error 2320h.
+        /// Bit 0, short circuit motor side: Short circuit or earth fault between output stage and motor.
         #[inline]
         pub const fn short_circuit_motor_side(self) -> bool {
             self.0 & 1 != 0
@@ -5351,7 +5351,7 @@ pub mod types {
             Self(self.0 & !(1) | (value as u16))
         }
 
-        /// Bit 2, dc link over voltage: Voltage of the PMC's DC link too high. Error 3210h.
+        /// Bit 2, dc link over voltage: Voltage of the PMC's DC link too high.
         #[inline]
         pub const fn dc_link_over_voltage(self) -> bool {
             self.0 >> 2 & 1 != 0
@@ -5364,7 +5364,7 @@ pub mod types {
             Self(self.0 & !(1 << 2) | (value as u16) << 2)
         }
 
-        /// Bit 3, dc link under voltage: Voltage of the DC link too low. Error 3220h.
+        /// Bit 3, dc link under voltage: Voltage of the DC link too low.
         #[inline]
         pub const fn dc_link_under_voltage(self) -> bool {
             self.0 >> 3 & 1 != 0
@@ -5377,7 +5377,7 @@ pub mod types {
             Self(self.0 & !(1 << 3) | (value as u16) << 3)
         }
 
-        /// Bit 4, motor encoder sine cosine: Analogue tracks of the motor encoder faulty. Error 7305h.
+        /// Bit 4, motor encoder sine cosine: Analogue tracks of the motor encoder faulty.
         #[inline]
         pub const fn motor_encoder_sine_cosine(self) -> bool {
             self.0 >> 4 & 1 != 0
@@ -5390,7 +5390,7 @@ pub mod types {
             Self(self.0 & !(1 << 4) | (value as u16) << 4)
         }
 
-        /// Bit 5, heat sink temperature: Heat sink of the unit too hot. Error 4210h.
+        /// Bit 5, heat sink temperature: Heat sink of the unit too hot.
         #[inline]
         pub const fn heat_sink_temperature(self) -> bool {
             self.0 >> 5 & 1 != 0
@@ -5403,7 +5403,7 @@ pub mod types {
             Self(self.0 & !(1 << 5) | (value as u16) << 5)
         }
 
-        /// Bit 6, wrong parameter: A parameter is not acceptable. Error 6320h.
+        /// Bit 6, wrong parameter: A parameter is not acceptable.
         #[inline]
         pub const fn wrong_parameter(self) -> bool {
             self.0 >> 6 & 1 != 0
@@ -5416,7 +5416,7 @@ pub mod types {
             Self(self.0 & !(1 << 6) | (value as u16) << 6)
         }
 
-        /// Bit 7, output over current: Motor current at the controller output too high. Error 2310h.
+        /// Bit 7, output over current: Motor current at the controller output too high.
         #[inline]
         pub const fn output_over_current(self) -> bool {
             self.0 >> 7 & 1 != 0
@@ -5429,7 +5429,7 @@ pub mod types {
             Self(self.0 & !(1 << 7) | (value as u16) << 7)
         }
 
-        /// Bit 8, motor temperature: Motor too hot. Error 4310h.
+        /// Bit 8, motor temperature: Motor too hot.
         #[inline]
         pub const fn motor_temperature(self) -> bool {
             self.0 >> 8 & 1 != 0
@@ -5442,7 +5442,7 @@ pub mod types {
             Self(self.0 & !(1 << 8) | (value as u16) << 8)
         }
 
-        /// Bit 9, output stage unknown: The output stage could not be identified. Error 6380h.
+        /// Bit 9, output stage unknown: The output stage could not be identified.
         #[inline]
         pub const fn output_stage_unknown(self) -> bool {
             self.0 >> 9 & 1 != 0
@@ -5455,7 +5455,7 @@ pub mod types {
             Self(self.0 & !(1 << 9) | (value as u16) << 9)
         }
 
-        /// Bit 10, maximum velocity exceeded: Velocity controller above its maximum. Error 8400h.
+        /// Bit 10, maximum velocity exceeded: Velocity controller above its maximum.
         #[inline]
         pub const fn maximum_velocity_exceeded(self) -> bool {
             self.0 >> 10 & 1 != 0
@@ -5468,7 +5468,7 @@ pub mod types {
             Self(self.0 & !(1 << 10) | (value as u16) << 10)
         }
 
-        /// Bit 11, motor encoder data channel: Digital channel of the motor encoder faulty. Error 7320h.
+        /// Bit 11, motor encoder data channel: Digital channel of the motor encoder faulty.
         #[inline]
         pub const fn motor_encoder_data_channel(self) -> bool {
             self.0 >> 11 & 1 != 0
@@ -5481,7 +5481,7 @@ pub mod types {
             Self(self.0 & !(1 << 11) | (value as u16) << 11)
         }
 
-        /// Bit 12, watchdog reset: The watchdog has restarted the unit. Error 6010h.
+        /// Bit 12, watchdog reset: The watchdog has restarted the unit.
         #[inline]
         pub const fn watchdog_reset(self) -> bool {
             self.0 >> 12 & 1 != 0
@@ -5494,7 +5494,7 @@ pub mod types {
             Self(self.0 & !(1 << 12) | (value as u16) << 12)
         }
 
-        /// Bit 13, blade encoder: The additional (second) encoder is faulty. Error 7321h.
+        /// Bit 13, blade encoder: The additional (second) encoder is faulty.
         #[inline]
         pub const fn blade_encoder(self) -> bool {
             self.0 >> 13 & 1 != 0
@@ -5507,7 +5507,7 @@ pub mod types {
             Self(self.0 & !(1 << 13) | (value as u16) << 13)
         }
 
-        /// Bit 14, following error: Following error longer above its window than allowed. Error 8611h.
+        /// Bit 14, following error: Following error longer above its window than allowed.
         #[inline]
         pub const fn following_error(self) -> bool {
             self.0 >> 14 & 1 != 0
@@ -5520,7 +5520,7 @@ pub mod types {
             Self(self.0 & !(1 << 14) | (value as u16) << 14)
         }
 
-        /// Bit 15, software trap: Firmware fault. Error 6080h.
+        /// Bit 15, software trap: Firmware fault.
         #[inline]
         pub const fn software_trap(self) -> bool {
             self.0 >> 15 & 1 != 0
@@ -6798,13 +6798,13 @@ pub mod errors {
     /// Encoder error (general).
     pub const ENCODER_ERROR_GENERAL: u16 = 0x7300;
 
-    /// Encoder error (motor), sine/cosine. As chosen by fault reaction option code (605Eh). Priority B.
+    /// Encoder error (motor), sine/cosine. 605Eh chooses the reaction. Priority B.
     pub const ENCODER_ERROR_MOTOR_SINE_COSINE: u16 = 0x7305;
 
-    /// Encoder error (motor), data channel. As chosen by fault reaction option code (605Eh). Priority B.
+    /// Encoder error (motor), data channel. 605Eh chooses the reaction. Priority B.
     pub const ENCODER_ERROR_MOTOR_DATA_CHANNEL: u16 = 0x7320;
 
-    /// 2nd Encoder error (blade encoder). As chosen by fault reaction option code (605Eh). Priority B.
+    /// 2nd Encoder error (blade encoder). 605Eh chooses the reaction. Priority B.
     pub const N2ND_ENCODER_ERROR_BLADE_ENCODER: u16 = 0x7321;
 
     /// CAN communication, general.
@@ -6828,7 +6828,7 @@ pub mod errors {
     /// Velocity controller, maximum speed frequency exceeded. The motor is switched off. Priority B.
     pub const VELOCITY_CONTROLLER_MAXIMUM_SPEED_FREQUENCY_EXCEEDED: u16 = 0x8400;
 
-    /// following error too large. As chosen by fault reaction option code (605Eh). Priority B.
+    /// following error too large. 605Eh chooses the reaction. Priority B.
     pub const FOLLOWING_ERROR_TOO_LARGE: u16 = 0x8611;
 
     /// Difference motor encoder – blade encoder too large.

@@ -754,7 +754,7 @@ impl Pmm {
 
     /// `3006h` battery temperature status: Monitoring (3110h) and control (3201h) of the battery temperature.
     ///
-    /// UNSIGNED8, ro, TPDO.
+    /// UNSIGNED8, ro, TPDO. Errors: 4420h at bit 0, 4410h at bit 4, 4410h at bit 5.
     #[inline]
     pub fn battery_temperature_status(&self) -> types::TemperatureStatus {
         types::TemperatureStatus(glue::get_u8(&self.0, 674))
@@ -768,7 +768,7 @@ impl Pmm {
 
     /// `3007h` heat sink temperature status: Monitoring (3111h) of the heat sink temperature. It has no controller, hence bits 1, 2 and 3 stay 0.
     ///
-    /// UNSIGNED8, ro, TPDO.
+    /// UNSIGNED8, ro, TPDO. Errors: 4220h at bit 0, 4210h at bit 4, 4210h at bit 5.
     #[inline]
     pub fn heat_sink_temperature_status(&self) -> types::TemperatureStatus {
         types::TemperatureStatus(glue::get_u8(&self.0, 675))
@@ -782,7 +782,7 @@ impl Pmm {
 
     /// `3008h` sensor1 temperature status: Monitoring (3112h) and control (3202h) of external sensor 1 at X15.1/X15.2.
     ///
-    /// UNSIGNED8, ro, TPDO.
+    /// UNSIGNED8, ro, TPDO. Errors: 4120h at bit 0, 4110h at bit 4, 4110h at bit 5.
     #[inline]
     pub fn sensor1_temperature_status(&self) -> types::TemperatureStatus {
         types::TemperatureStatus(glue::get_u8(&self.0, 676))
@@ -796,7 +796,7 @@ impl Pmm {
 
     /// `3009h` sensor2 temperature status: Monitoring (3113h) and control (3203h) of external sensor 2 at X15.3/X15.4.
     ///
-    /// UNSIGNED8, ro, TPDO.
+    /// UNSIGNED8, ro, TPDO. Errors: 4121h at bit 0, 4111h at bit 4, 4111h at bit 5.
     #[inline]
     pub fn sensor2_temperature_status(&self) -> types::TemperatureStatus {
         types::TemperatureStatus(glue::get_u8(&self.0, 677))

@@ -11,6 +11,12 @@ pub(crate) const ENTRIES_OF_FILE: usize = 200_000;
 pub(crate) const TABLES_OF_ERRATA: usize = 20_000;
 /// States of a state machine. Transitions have the numbers 0 to 255, so that more could not be reached one by one.
 pub(crate) const STATES: usize = 256;
+/// Steps of a sequence of events. A picture of more would be too wide to be read.
+pub(crate) const TIMING_STEPS: usize = 64;
+/// Signals of a sequence of events.
+pub(crate) const TIMING_SIGNALS: usize = 32;
+/// Switches with a hysteresis in one picture: each is compared with the others.
+pub(crate) const SWITCHES: usize = 32;
 /// Bytes that are written once and stand for many: the texts of a run, of the elements of an array, of an object that several
 /// devices have. It is the size of the largest file.
 pub(crate) const REPEATED_TEXT: usize = 64 << 20;

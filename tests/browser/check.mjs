@@ -45,6 +45,22 @@ const search = async (page, text) => {
   return page.evaluate(() => performance.getEntriesByName("search", "measure").at(-1).duration);
 };
 const key = (index) => index.slice(2);
+// Run in a page: indices of objects on it that stand in a running text and lead nowhere. Headings, first cells of rows and pictures name what they show;
+// a number that is an error code, too, is left plain.
+const unlinked = (codes) => {
+  const named = "a, h1, h2, h3, h4, h5, h6, .object-head, td:first-child, button, code, svg, #ui_contents, .bar, option";
+  const errors = new Set(codes.map((code) => code.slice(2)));
+  const found = [];
+  const walker = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const text = walker.currentNode;
+    if (text.parentElement.closest(named)) continue;
+    for (const [, index] of text.data.matchAll(/(?<![\p{L}\p{N}_])([0-9A-F]{4})h(?![\p{L}\p{N}_])/gu)) {
+      if (document.getElementById(index) && !errors.has(index)) found.push(`${index}: ${text.data.slice(0, 80)}`);
+    }
+  }
+  return found;
+};
 
 // ---------------------------------------------------------------- what the tables say
 check(await (async () => {
@@ -241,6 +257,7 @@ for (const device of dump.devices) {
   same(ids.filter((id, at) => ids.indexOf(id) !== at), [], "index.html: ids stand once");
   const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.hash.slice(1))).filter((id) => id && !document.getElementById(id)));
   same(dead, [], "index.html: links");
+  same(await page.evaluate(unlinked, dump.errors.map((error) => error.code)), [], "index.html: indices without a link");
   const duration = await search(page, "table");
   check(duration < 50, `index.html: a search took ${duration} ms`);
   await page.close();
@@ -252,6 +269,105 @@ for (const device of dump.devices) {
   same(ids.filter((id, at) => ids.indexOf(id) !== at), [], `${device.key}: ids stand once`);
   const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.hash.slice(1))).filter((id) => id && !document.getElementById(id)));
   same([...new Set(dead)], [], `${device.key}: links`);
+  same(await page.evaluate(unlinked, dump.errors.map((error) => error.code)), [], `${device.key}: indices without a link`);
+  await page.close();
+}
+
+// ---------------------------------------------------------------- the contents: where the reader is
+for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}.html`)]) {
+  const page = await open(name);
+  await page.setViewportSize({ width: 1400, height: 900 });
+  const marked = (id) => page.waitForFunction((wanted) => {
+    const all = [...document.querySelectorAll("#ui_contents [aria-current]")];
+    return all.length === 1 && decodeURIComponent(all[0].hash.slice(1)) === wanted;
+  }, id, { timeout: 4000 }).then(() => true, () => false);
+  const isSeen = () => page.$eval("#ui_contents [aria-current]", (line) => {
+    const frame = document.getElementById("ui_contents").getBoundingClientRect(), { top, bottom } = line.getBoundingClientRect();
+    return line.checkVisibility() && top >= frame.top - 1 && bottom <= Math.min(frame.bottom, innerHeight) + 1;
+  }).catch(() => false);
+  const cards = await page.$$eval("article.object, .part", (all) => all.map((one) => one.id));
+  const listed = await page.$$eval("#ui_contents a[href^='#']", (all) => all.map((one) => decodeURIComponent(one.hash.slice(1))));
+  same([...listed].sort(), [...cards].sort(), `${name}: each card stands once in the contents`);
+  const places = [0.2, 0.5, 0.9].map((part) => cards[Math.floor(part * (cards.length - 1))]);
+  for (const id of places) {
+    await page.evaluate((hash) => { location.hash = hash; }, id);
+    check(await marked(id), `${name}: after a jump the contents do not mark #${id}`);
+    check(await isSeen(), `${name}: the mark of #${id} is out of sight`);
+  }
+  for (const id of places) {
+    // As the wheel does, until the card is at the top: cards on the way get their height only then.
+    await page.evaluate(async (target) => {
+      dispatchEvent(new WheelEvent("wheel"));
+      for (let frames = 0; frames < 30; frames++) {
+        const bar = document.querySelector(".bar").getBoundingClientRect().bottom;
+        scrollBy({ top: document.getElementById(target).getBoundingClientRect().top - bar - 4, behavior: "instant" });
+        await new Promise(requestAnimationFrame);
+      }
+    }, id);
+    check(await marked(id), `${name}: after scrolling the contents do not mark #${id}`);
+  }
+
+  // On a phone they open over the page at the place where the reader is, and close after a choice.
+  const [, here, there] = places;
+  await page.setViewportSize({ width: 390, height: 800 });
+  await page.evaluate((hash) => { location.hash = hash; }, here);
+  await page.waitForTimeout(500);
+  check(!await page.isVisible("#ui_contents"), `${name}: the contents cover a phone`);
+  const press = () => page.click("#ui_open");
+  await press();
+  check(await page.isVisible("#ui_contents"), `${name}: the button does not open the contents`);
+  check(await marked(here) && await isSeen(), `${name}: on a phone the contents do not mark #${here}`);
+  await page.keyboard.press("Escape");
+  check(!await page.isVisible("#ui_contents"), `${name}: Escape does not close the contents`);
+  await press();
+  // A group may have to be opened first.
+  await page.$eval(`#ui_contents a[href="#${there}"]`, (link) => { const group = link.closest("details"); if (group) group.open = true; });
+  await page.click(`#ui_contents a[href="#${there}"]`);
+  check(!await page.isVisible("#ui_contents"), `${name}: a choice does not close the contents`);
+  check(await marked(there), `${name}: after a choice the contents do not mark #${there}`);
+  await page.waitForTimeout(300);
+  const top = await page.evaluate((id) => document.getElementById(id).getBoundingClientRect().top, there);
+  check(top >= -0.5 && top <= 8, `${name}: after a choice #${there} stands ${top} px below the top`);
+  await page.close();
+}
+
+// ---------------------------------------------------------------- pictures: every name is whole and inside
+const figured = (table) => table.grids.flatMap((grid) => [
+  ...(grid.timing?.signals ?? []).flatMap((signal) => [signal.name, signal.place, ...signal.levels.map((level) => level.text)]),
+  ...(grid.hysteresis?.switches ?? []).flatMap((one) => [one.name, ...one.texts.map((text) => text.text)]),
+]);
+const pictured = (table) => table.grids.flatMap((grid) => grid.bits?.rows ?? []).flatMap((row) => row.fields.map((field) => field.name));
+const picturesOf = async (page, name) => {
+  await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  const shown = await page.$$eval(".picture", (all) => all.map((one) => {
+    const box = one.getBoundingClientRect();
+    const texts = [...one.querySelectorAll("text")];
+    const sticksOut = (text) => {
+      const { left, right, top, bottom } = text.getBoundingClientRect();
+      return left < box.left - 1 || right > box.right + 1 || top < box.top - 1 || bottom > box.bottom + 1;
+    };
+    return { texts: texts.map((text) => text.textContent), outside: texts.filter(sticksOut).map((text) => text.textContent) };
+  }));
+  same(shown.flatMap((one) => one.outside), [], `${name}: names that stick out of their picture`);
+  return shown;
+};
+{
+  const page = await open("index.html");
+  const shown = await picturesOf(page, "index.html");
+  const tables = context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)).filter((table) => figured(table).length);
+  const texts = shown.map((one) => new Set(one.texts));
+  const missing = tables.filter((table) => !texts.some((all) => figured(table).every((text) => !text || all.has(text))));
+  same(missing.map((table) => table.anchor), [], "index.html: figures whose texts no picture shows whole");
+  await page.close();
+}
+for (const device of context.devices) {
+  const page = await open(`${device.key}.html`);
+  const shown = await picturesOf(page, device.key);
+  const names = device.objects.flatMap((object) => object.types.flatMap(pictured)).filter((name) => name);
+  const texts = new Set(shown.flatMap((one) => one.texts));
+  same(names.filter((name) => !texts.has(name)), [], `${device.key}: names that no picture shows whole`);
+  const fields = device.pdos.flatMap((pdo) => pdo.fields).filter((field) => !texts.has(`${field.entry} ${field.name}`));
+  same(fields.map((field) => field.name), [], `${device.key}: mapped entries that no picture names whole`);
   await page.close();
 }
 
@@ -270,36 +386,115 @@ if (dump.devices.some((device) => device.key === "pmc")) {
 
 // ---------------------------------------------------------------- both themes, barriers, paper
 const names = ["index.html", ...dump.devices.map((device) => `${device.key}.html`)];
+// Off by default, and what small screens are about.
+const rules = { "target-size": { enabled: true }, "scrollable-region-focusable": { enabled: true } };
+const layout = { runOnly: { type: "rule", values: Object.keys(rules) } };
+const colours = { runOnly: { type: "rule", values: ["color-contrast", "link-in-text-block"] } };
+// At one width axe looks at everything. What is small or scrolled is looked for everywhere at the others, too; for the rest those cards are enough there that have,
+// all together, each kind of element: axe takes half a minute for a page.
+const looks = {
+  page: [[1400, "light", { rules }], [1400, "dark", colours], [390, "light", layout], [800, "light", layout]],
+  kinds: [[390, "light", { rules }], [390, "dark", colours], [800, "light", { rules }], [800, "dark", colours]],
+};
+const keepKinds = () => {
+  const kinds = new Set();
+  for (const card of document.querySelectorAll(".object, .part")) {
+    const before = kinds.size;
+    for (const one of card.querySelectorAll("*")) kinds.add([one.parentElement, one].map(({ localName, classList }) => `${localName}.${classList}`).join(" "));
+    // The heading stays: the next one has its level below it.
+    if (kinds.size === before) card.replaceChildren(card.querySelector("h1, h2, h3, h4, h5, h6"));
+  }
+};
+let spent = 0;
 for (const name of names) {
   const page = await open(name);
+  await page.setViewportSize({ width: 1400, height: 900 });
+  const backs = new Set();
   for (const colorScheme of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme });
     await page.screenshot({ path: join(out, `${name}-${colorScheme}.png`) });
-    await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
-    await page.evaluate(axe);
-    const { violations, passes } = await page.evaluate(() => axe.run(document, { resultTypes: ["violations"] }));
-    check(passes.length > 10, `${name}: axe looked at ${passes.length} rules`);
-    for (const one of violations) failures.push(`${name} (${colorScheme}): axe ${one.id}: ${one.help}: ${one.nodes[0].html.slice(0, 160)}`);
+    backs.add(await page.evaluate(() => getComputedStyle(document.body).backgroundColor));
+  }
+  check(backs.size === 2, `${name}: looks alike in both schemes`);
+  await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  await page.evaluate(axe);
+  for (const [where, list] of Object.entries(looks)) {
+    const begun = performance.now();
+    if (where === "kinds") await page.evaluate(keepKinds);
+    for (const [width, colorScheme, options] of list) {
+      await page.setViewportSize({ width, height: 900 });
+      await page.emulateMedia({ colorScheme });
+      const { violations, passes } = await page.evaluate((given) => axe.run(document, { ...given, resultTypes: ["violations"] }), options);
+      const looked = passes.map((one) => one.id);
+      check(looked.includes(options === colours ? "color-contrast" : "target-size"), `${name} (${width} px): axe looked at ${looked}`);
+      for (const one of violations) {
+        failures.push(`${name} (${width} px, ${colorScheme}): axe ${one.id}, ${one.nodes.length} times: ${one.help}: ${one.nodes[0].html.slice(0, 160)}`);
+      }
+    }
+    spent += performance.now() - begun;
   }
   const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   await page.click("#ui_theme");
   check(back !== await page.evaluate(() => getComputedStyle(document.body).backgroundColor), `${name}: the button changes the theme`);
+  // The pages share what the button keeps: the next one has to look as the system says again.
+  await page.evaluate(() => localStorage.clear());
   await page.close();
 
-  // On small screens, what is wider than the screen can be scrolled to.
-  for (const width of [400, 1000]) {
-    const small = await open(name);
-    await small.setViewportSize({ width, height: 800 });
-    await small.addStyleTag({ content: "* { content-visibility: visible !important }" });
-    const lost = await small.$$eval("table", (all) => all.filter((one) => {
-      const box = one.closest(".object, .part") ?? document.documentElement;
-      const out = one.getBoundingClientRect().right - box.getBoundingClientRect().left > box.scrollWidth + 1;
-      const scrolls = ["auto", "scroll"].includes(getComputedStyle(box).overflowX) || box === document.documentElement;
-      return out || (box.scrollWidth > box.clientWidth + 1 && !scrolls);
-    }).map((one) => one.closest("[id]")?.id));
-    same(lost, [], `${name}: tables out of reach at ${width} px`);
-    await small.close();
-  }
+  // Below the width of a desk, what is wider than the screen can be scrolled to.
+  const tablet = await open(name);
+  await tablet.setViewportSize({ width: 1000, height: 800 });
+  await tablet.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  const lost = await tablet.$$eval("table", (all) => all.filter((one) => {
+    const box = one.closest(".object, .part") ?? document.documentElement;
+    const out = one.getBoundingClientRect().right - box.getBoundingClientRect().left > box.scrollWidth + 1;
+    const scrolls = ["auto", "scroll"].includes(getComputedStyle(box).overflowX) || box === document.documentElement;
+    return out || (box.scrollWidth > box.clientWidth + 1 && !scrolls);
+  }).map((one) => one.closest("[id]")?.id));
+  same(lost, [], `${name}: tables out of reach at 1000 px`);
+  await tablet.close();
+
+  // On a phone the cells of a row stand below one another, each behind the title of its column, and only pictures are scrolled.
+  const phone = await open(name);
+  await phone.setViewportSize({ width: 390, height: 800 });
+  await phone.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  const { unnamed, unsaid, narrow, sideways } = await phone.evaluate(() => {
+    const place = (one) => `${one.closest("[id]")?.id} ${one.textContent.slice(0, 40)}`;
+    const unnamed = [], unsaid = [], narrow = [], sideways = [];
+    // What is laid out as something else loses its role with some screen readers.
+    for (const one of document.querySelectorAll("table, thead, tbody, tr, th, td")) {
+      if (one.checkVisibility() && !getComputedStyle(one).display.startsWith("table") && !one.role) unsaid.push(`${one.localName} ${place(one)}`);
+    }
+    for (const table of document.querySelectorAll("table")) {
+      const titles = [...table.tHead.rows[0].cells].map((cell) => cell.textContent);
+      for (const cell of table.querySelectorAll("tbody td")) {
+        if (!cell.checkVisibility()) { if (cell.textContent) unnamed.push(place(cell)); continue; }
+        const { width, left, right } = cell.getBoundingClientRect(), { paddingLeft, paddingRight } = getComputedStyle(cell);
+        // A table of two columns stays one.
+        const isOne = titles.length <= 2;
+        if (!isOne && getComputedStyle(cell, "::before").content.split(" / ")[0] !== JSON.stringify(titles[cell.cellIndex])) unnamed.push(place(cell));
+        if (width - (isOne ? 0 : parseFloat(paddingLeft) + parseFloat(paddingRight)) < 114) narrow.push(`${place(cell)}: ${width}`);
+        if (left < 0 || right > innerWidth) sideways.push(place(cell));
+      }
+    }
+    for (const one of document.querySelectorAll("body, body *")) {
+      if (one.scrollWidth <= one.clientWidth + 1 || one.clientWidth === 0 || one.closest("svg, thead, .unseen") || !one.checkVisibility()) continue;
+      if (getComputedStyle(one).display === "inline") continue;
+      if (!(one.tabIndex === 0 && one.localName === "section" && one.ariaLabel)) sideways.push(`${one.localName}.${one.className} ${place(one)}`);
+    }
+    return { unnamed, unsaid, narrow, sideways };
+  });
+  same(unnamed, [], `${name}: cells without the title of their column on a phone`);
+  same(unsaid, [], `${name}: parts of tables that do not say what they are on a phone`);
+  same(narrow, [], `${name}: columns narrower than 114 px on a phone`);
+  same(sideways, [], `${name}: wider than a phone`);
+  same(await phone.evaluate(() => document.documentElement.scrollWidth), 390, `${name}: width on a phone`);
+  // What is read aloud is a table all the same.
+  const { nodes } = await (await browserContext.newCDPSession(phone)).send("Accessibility.getFullAXTree");
+  const heard = (role) => nodes.filter((node) => !node.ignored && node.role.value === role).length;
+  const seen = (selector) => phone.$$eval(selector, (all) => all.filter((one) => one.checkVisibility()).length);
+  same([heard("table"), heard("row"), heard("columnheader")], [await seen("table"), await seen("tr"), await seen("thead th")], `${name}: tables, rows and titles read aloud on a phone`);
+  same(heard("cell"), await seen("td"), `${name}: cells read aloud on a phone`);
+  await phone.close();
 
   // On paper nothing may stick out: A4 less the margins of the style sheet.
   const paper = await open(name);
@@ -327,6 +522,7 @@ for (const name of names) {
   console.log(`${name}: ${(statSync(join(docs, name)).size / 1024).toFixed(0)} kB, ${cells.length} cells, ${pages.length} pages of PDF, ${missing.length} cells over the end of a page`);
 }
 await browser.close();
+console.log(`axe took ${(spent / 1000).toFixed(0)} s`);
 
 for (const failure of failures.slice(0, 40)) console.error(`FAILED ${failure}`);
 writeFileSync(join(out, "result.json"), JSON.stringify({ passed, failed: failures.length }));

@@ -4,7 +4,7 @@
     run.py DOCS...
 
 DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of `questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages
-that hold its texts. What npm brings is installed
+that hold its texts. Every HTML page is held against the HTML standard. What npm brings is installed
 below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
 0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
 """
@@ -22,7 +22,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
-SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs"]
+SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs"]
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
 
 
@@ -64,10 +64,13 @@ def main() -> int:
     except Missing as error:
         print(f"error: {error}", file=sys.stderr)
         return 3
+    directories = [Path(argument).resolve() for argument in sys.argv[1:]]
+    pages = [str(docs) for docs in directories if any(docs.rglob("*.html"))]
+    # Beside the browser, which waits a lot.
+    validator = subprocess.Popen([node, str(folder / "validate.mjs"), *pages], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) if pages else None
     failed = 0
     asked = json.loads((HERE / "questions.json").read_text(encoding="utf-8"))
-    for argument in sys.argv[1:]:
-        docs = Path(argument).resolve()
+    for docs in directories:
         print(f"== {docs.name}", flush=True)
         commands = []
         if (docs / "manual.adoc").exists():
@@ -82,6 +85,10 @@ def main() -> int:
                 commands.append([node, str(folder / "check.mjs"), *map(str, files), browser])
         for command in commands:
             failed += subprocess.run(command, check=False).returncode != 0
+    if validator:
+        print("== all pages", flush=True)
+        print(validator.communicate()[0], end="", flush=True)
+        failed += validator.returncode != 0
     return 1 if failed else 0
 
 

@@ -30,7 +30,7 @@ fn escaped(text: &str) -> String {
 /// The text with the other names, in small and large letters, and as bytes.
 fn renamed(text: &str) -> String {
     let title = |word: &str| format!("{}{}", word[..1].to_uppercase(), &word[1..]);
-    NAMES.iter().fold(text.to_owned(), |text, (name, other_name)| {
+    let text = NAMES.iter().fold(text.to_owned(), |text, (name, other_name)| {
         let spellings = [
             (str::to_owned(name), str::to_owned(other_name)),
             (title(name), title(other_name)),
@@ -39,7 +39,9 @@ fn renamed(text: &str) -> String {
         spellings.iter().fold(text, |text, (name, other_name)| {
             text.replace(name, other_name).replace(&escaped(name), &escaped(other_name))
         })
-    })
+    });
+    // A word of style sheets holds the name of a maker.
+    text.replace("floau", "float")
 }
 
 /// Everything that a specification becomes: name and contents of each file.
@@ -50,7 +52,8 @@ fn outputs(text: &str) -> Vec<(String, String)> {
     let mut diagnostics = Diagnostics::new();
     let rust = rust::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &mut diagnostics);
     assert!(!diagnostics.has_errors());
-    let templates = [Format::Markdown, Format::Html].map(|format| Templates::new(Some(format), &[]).unwrap());
+    let templates = [Format::Markdown, Format::Html, Format::Print]
+        .map(|format| Templates::new(Some(format), &[]).unwrap());
     let documents =
         docs::artifacts(&system, "docs/", "spec", &docs::options(&system, &[], None), &templates).unwrap();
     let files = artifacts(&system, "spec", &Selection { node: Some(1), ..Selection::default() });

@@ -1,8 +1,8 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
 use od_spec::model::{
-    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EnumValue, ModeMeaning,
-    NamedType, Object,
+    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EntryId, EnumValue,
+    ModeMeaning, NamedType, Object, SubIndex,
 };
 
 use super::Columns;
@@ -66,13 +66,13 @@ impl Source<'_> {
                 cell = cell.text(format!(" ({})", self.word(Word::NotSupported)));
             }
             if !value.about.is_empty() {
-                cell = cell.text(": ").and_words(&value.about, self.language);
+                cell = cell.text(": ").and(self.text(&value.about));
             }
         }
         for ModeMeaning { mode, name, about, .. } in &field.modes {
             cell = cell.line().text(format!("{mode}: {name}"));
             if !about.is_empty() {
-                cell = cell.text("; ").and_words(about, self.language);
+                cell = cell.text("; ").and(self.text(about));
             }
         }
         cell
@@ -81,7 +81,7 @@ impl Source<'_> {
     /// Error codes of a bit: those of the type, then those of each entry that has the type. Where devices differ, they are
     /// named.
     fn codes(&self, named: &NamedType, field: &BitField) -> Cell {
-        let mut cell = Cell::plain(self.error_codes(&field.error_codes().collect::<Vec<_>>()));
+        let mut cell = self.error_codes(&field.error_codes().collect::<Vec<_>>());
         let codes_of = |entry: &Entry| -> Vec<u16> {
             let of_field =
                 entry.bit_errors.iter().filter(|errors| (field.first..=field.last).contains(&errors.bit));
@@ -105,15 +105,52 @@ impl Source<'_> {
                 cell = cell
                     .line()
                     .and(self.link_on(&Devices::one(&device.key), id.index, place, entry_anchor(id)))
-                    .text(format!(": {codes}"));
+                    .text(": ")
+                    .and(codes);
             }
         }
         cell
     }
 
-    /// Error codes, separated by commas.
-    fn error_codes(&self, codes: &[u16]) -> String {
-        codes.iter().map(|code| self.error_code(*code)).collect::<Vec<_>>().join(", ")
+    /// Links to error codes, separated by commas.
+    fn error_codes(&self, codes: &[u16]) -> Cell {
+        let mut cell = Cell::default();
+        for code in codes {
+            if !cell.is_empty() {
+                cell = cell.text(", ");
+            }
+            cell = cell.and(self.error_link(*code));
+        }
+        cell
+    }
+
+    /// What a raw value of a bit field sets: its bits and runs by name; nothing for 0.
+    pub(crate) fn set_bits(&self, fields: &[BitField], raw: i128) -> Option<String> {
+        let value = |field: &BitField| (raw >> field.first) & !(!0 << (field.last - field.first + 1));
+        let set: Vec<&BitField> = fields.iter().filter(|field| value(field) != 0).collect();
+        if set.is_empty() {
+            return None;
+        }
+        if set.len() == fields.len() && fields.iter().all(|field| field.first == field.last) {
+            return Some(self.word(Word::AllBits).to_owned());
+        }
+        let named = set.into_iter().map(|field| {
+            let mut text = match (field.name.as_str(), field.first == field.last) {
+                ("", true) => format!("{} {}", self.word(Word::Bit), field.first),
+                ("", false) => format!("{} {}..{}", self.word(Word::Bits), field.first, field.last),
+                (name, _) => name.to_owned(),
+            };
+            if field.first != field.last {
+                let value = value(field);
+                let known = field.values.iter().find(|known| known.value == value);
+                text = match known {
+                    Some(known) => format!("{text} = {value} {}", known.name),
+                    None => format!("{text} = {value}"),
+                };
+            }
+            text
+        });
+        Some(named.collect::<Vec<_>>().join(", "))
     }
 
     /// The values of an enum.
@@ -136,6 +173,14 @@ impl Source<'_> {
             .center(self, "supported", Word::Supported)
             .grid(rows, &["value", "name"])
     }
+}
+
+/// Below what anchor the rows of an entry's type stand on the page of its device: that of the object's first entry of the type.
+pub(crate) fn type_anchor(object: &Object, sub: SubIndex) -> Option<String> {
+    let name = |entry: &Entry| entry.named_type.as_ref().map(|named| named.name.clone());
+    let named = object.entry(sub).and_then(name)?;
+    let first = object.entries.iter().find(|entry| name(entry).as_ref() == Some(&named))?;
+    Some(entry_anchor(EntryId { index: object.index, sub: first.sub }))
 }
 
 /// The named types of an object's entries, each once.

@@ -1,12 +1,12 @@
 //! Error codes and what the devices do about them.
 
-use od_spec::model::{Devices, Dictionary, ErrorCode};
+use od_spec::model::{Dictionary, ErrorCode};
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
+use crate::tables::bits::type_anchor;
 use crate::view::{Align, Cell, Grid, Row};
 
 /// Where links to an error code lead.
@@ -18,6 +18,15 @@ impl Source<'_> {
     /// An error code as people know it: `8611h`.
     pub(crate) fn error_code(&self, code: u16) -> String {
         self.wording.hexadecimal(code.into(), 4)
+    }
+
+    /// A link to what the list of errors says about a code.
+    pub(crate) fn error_link(&self, code: u16) -> Cell {
+        let text = self.error_code(code);
+        if self.wanted(&[code]).next().is_none() {
+            return Cell::plain(text);
+        }
+        Cell::default().link(text, anchor(code), "errors")
     }
 
     /// The wanted codes of the devices shown; none means all.
@@ -62,11 +71,7 @@ impl Source<'_> {
         let rows = self
             .wanted(codes)
             .map(|error| {
-                Row::of(vec![
-                    Cell::plain(&error.name),
-                    Cell::default().link(self.error_code(error.code), anchor(error.code), "errors"),
-                    self.text(&error.reaction),
-                ])
+                Row::of(vec![Cell::plain(&error.name), self.error_link(error.code), self.reaction(error)])
             })
             .collect();
         Columns::new()
@@ -91,7 +96,7 @@ impl Source<'_> {
                         Cell::plain(&error.name),
                         Cell::plain(device_keys(&devices)),
                         error.priority.as_ref().map_or_else(Cell::default, Cell::plain),
-                        self.text(&error.reaction),
+                        self.reaction(error),
                         self.reported_by(error.code),
                         self.text(&error.about),
                     ])
@@ -107,6 +112,20 @@ impl Source<'_> {
             .left(self, "reported_by", Word::ReportedBy)
             .left(self, "description", Word::Description)
             .grid(rows, &["code", "name"])
+    }
+
+    /// What the devices do, and what entry chooses it.
+    fn reaction(&self, error: &ErrorCode) -> Cell {
+        let cell = self.text(&error.reaction);
+        let Some(id) = error.option_code else { return cell };
+        let its_device =
+            |device: &&Dictionary| error.devices.includes(&device.key) && device.entry(id).is_some();
+        // Where the devices shown do not have it, the one that has it is another.
+        let mut devices = self.devices.iter().copied().chain(&self.system.devices);
+        let Some(device) = devices.find(its_device) else { return cell };
+        let words = self.word(Word::ChosenBy);
+        let (before, behind) = words.split_once("{n}").unwrap_or((words, ""));
+        cell.line().text(before).and(self.named_entry(device, id)).text(behind)
     }
 
     /// The bits that are set together with a code. Where devices differ, they are named.
@@ -125,9 +144,13 @@ impl Source<'_> {
                     } else {
                         id.to_string()
                     };
-                    let of_device = Devices::one(&device.key);
-                    cell = cell.line().and(self.link_on(&of_device, id.index, place, entry_anchor(id)));
-                    cell = cell.text(format!(" {} {bit}", self.word(Word::Bit)));
+                    let text = format!("{place} {} {bit}", self.word(Word::Bit));
+                    let object = device.objects.get(&id.index);
+                    cell = cell.line();
+                    cell = match object.and_then(|object| type_anchor(object, id.sub)) {
+                        Some(row) => cell.link(text, format!("{row}.b{bit}"), &*device.key),
+                        None => cell.text(text),
+                    };
                 }
             }
         }

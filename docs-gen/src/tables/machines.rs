@@ -3,6 +3,7 @@
 use od_spec::model::{BitPattern, Dictionary, Entry, EntryId, PatternBit, StateMachine, TypeKind};
 
 use super::Columns;
+use super::machine_picture::picture;
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::{Align, Cell, Grid, Row};
@@ -49,11 +50,13 @@ impl Source<'_> {
             .collect();
         let title =
             self.name_of(machine, machine.status).unwrap_or_else(|| self.word(Word::Pattern).to_owned());
-        Columns::new()
+        let grid = Columns::new()
             .with("pattern", title, Align::Left)
             .left(self, "state", Word::State)
             .left(self, "meaning", Word::Meaning)
-            .grid(rows, &["pattern", "state"])
+            .grid(rows, &["pattern", "state"]);
+        let patterns: Vec<String> = machine.states.iter().map(|state| pattern(&state.pattern)).collect();
+        Grid { machine: Some(picture(machine, &patterns)), ..grid }
     }
 
     pub(crate) fn transitions(&self, machine: &StateMachine) -> Grid {

@@ -2,11 +2,16 @@
 
 pub(crate) mod bits;
 pub(crate) mod errors;
+mod hysteresis;
+mod hysteresis_picture;
+mod machine_picture;
 pub(crate) mod machines;
 pub(crate) mod objects;
 pub(crate) mod overview;
 pub(crate) mod pdos;
 pub(crate) mod texts;
+mod timing_picture;
+mod timings;
 pub(crate) mod variants;
 
 use od_spec::model::{Constraint, Dictionary, Index, TableContent, TableId, TypeKind};
@@ -61,14 +66,16 @@ impl Columns {
             self.0.into_iter().enumerate().filter(|(at, _)| kept(*at)).map(|(_, column)| column).collect();
         let rows = rows.into_iter().map(|row| {
             let cells = row.cells.into_iter().enumerate().filter(|(at, _)| kept(*at)).map(|(_, cell)| cell);
-            Row { cells: cells.collect(), ..row }
+            let mut cells: Vec<Cell> = cells.collect();
+            cells.shrink_to_fit();
+            Row { cells, ..row }
         });
         Grid { columns, rows: rows.collect(), ..Grid::default() }
     }
 
     /// A grid of all columns.
     pub(crate) fn full(self, rows: Vec<Row>) -> Grid {
-        Grid { columns: self.0, rows, ..Grid::default() }
+        Grid { columns: self.0, rows: rows.into_iter().collect(), ..Grid::default() }
     }
 }
 
@@ -128,6 +135,8 @@ impl Source<'_> {
                 about = self.text(&constraint.about);
                 vec![self.ladder_rows(constraint)]
             }
+            TableContent::Hysteresis(switches) => vec![self.hysteresis(switches)?],
+            TableContent::Timing(timing) => vec![self.timing(timing)?],
             TableContent::Pdos(pdos) => {
                 let device = self.devices.iter().find(|device| device.key == pdos.device)?;
                 vec![self.pdo_rows(device, pdos.direction)]

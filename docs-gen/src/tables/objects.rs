@@ -1,6 +1,8 @@
 //! Detail tables: one row per entry.
 
-use od_spec::model::{Devices, Dictionary, Entry, EntryId, Fact, Index, Object, Origin, Storage};
+use od_spec::model::{
+    Devices, Dictionary, Entry, EntryId, Fact, Index, Object, Origin, Storage, TypeKind, Value,
+};
 
 use super::Columns;
 use super::variants::device_keys;
@@ -98,7 +100,12 @@ impl Source<'_> {
                 let id = EntryId { index: object.index, sub: entry.sub };
                 let place =
                     if object.is_structured() { entry.sub.to_string() } else { object.index.to_string() };
-                let anchored = anchors && (entry.sub.0 > 0 || !object.is_structured());
+                let anchor = match (anchors, entry.sub.0) {
+                    (false, _) => String::new(),
+                    // The count of entries; links to the object lead to its heading.
+                    (true, 0) if object.is_structured() => format!("{}.0", object_anchor(object.index)),
+                    (true, _) => entry_anchor(id),
+                };
                 let from_standard = |facts: &[Fact]| {
                     says_where_words_come_from(object)
                         && facts.iter().any(|fact| entry.is_only_standard(*fact))
@@ -107,7 +114,7 @@ impl Source<'_> {
                 let unit = entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit));
                 let range = self.wording.range(object.index, entry).unwrap_or_default();
                 Row {
-                    anchor: if anchored { entry_anchor(id) } else { String::new() },
+                    anchor,
                     cells: vec![
                         Cell::plain(place),
                         cell(entry.name.clone(), &[Fact::Name]),
@@ -141,10 +148,16 @@ impl Source<'_> {
             let label = format!("{}:", self.word(Word::Warning));
             cell = cell.line().strong(label).text(" ").and(self.text(&entry.warning));
         }
+        if let (Some(TypeKind::Bits(fields)), Some(Value::Integer(raw))) =
+            (entry.named_type.as_ref().map(|named| &named.kind), &entry.default)
+            && let Some(bits) = self.set_bits(fields, *raw)
+        {
+            cell = cell.line().text(self.word(Word::SetByDefault).replace("{n}", &bits));
+        }
         for special in &entry.special {
             cell = cell.line().text(self.wording.special(entry, special));
             if !special.about.is_empty() {
-                cell = cell.text("; ").and_words(&special.about, self.language);
+                cell = cell.text("; ").and(self.text(&special.about));
             }
         }
         if let Some(alias) = &entry.alias {

@@ -3,7 +3,7 @@
 {% include "_search.js" %}
 
   const byId = (id) => document.getElementById(id);
-  const root = document.documentElement, search = byId("ui_search"), count = byId("ui_count");
+  const root = document.documentElement, search = byId("ui_search"), count = byId("ui_count"), contents = byId("ui_contents"), main = byId("ui_content");
   const element = (name, text = "") => Object.assign(document.createElement(name), { textContent: text });
   const show = (one, shown) => one?.classList.toggle("off", !shown);
 
@@ -26,7 +26,7 @@
   const data = JSON.parse(byId("ui_data")?.textContent ?? "{}");
   const { words = {}, synonyms = [], elsewhere = [] } = data;
   const index = new WordIndex(synonyms);
-  const links = new Map([...document.querySelectorAll("#ui_contents a[href^='#']")].map((link) => [decodeURIComponent(link.hash.slice(1)), link.parentElement]));
+  const links = new Map([...contents.querySelectorAll("a[href^='#']")].map((link) => [decodeURIComponent(link.hash.slice(1)), link.parentElement]));
   const items = [...document.querySelectorAll("article.object, .intro, .part")]
     .map((card) => ({ card, link: links.get(card.id), shown: true, isObject: card.matches(".object") }));
   const objects = items.filter((item) => item.isObject);
@@ -390,6 +390,7 @@
     if (groups.size > FEW_GROUPS) requestAnimationFrame(() => inPieces([...groups], place)); else inPieces([...groups], place);
     keep();
     performance.measure("search", "search");
+    markSoon();
     if (searching) {
       scrollTo(0, 0);
       requestAnimationFrame(() => dressGroups([...near]));
@@ -448,10 +449,10 @@
       (listOfPage.querySelector("a") ?? listElsewhere.querySelector("a"))?.click();
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
-      (results.querySelector("a") ?? byId("ui_contents").querySelector("li:not(.off) a"))?.focus();
+      (results.querySelector("a") ?? [...contents.querySelectorAll("a")].find((link) => link.checkVisibility()))?.focus();
     }
   });
-  for (const box of [results, byId("ui_contents")]) {
+  for (const box of [results, contents]) {
     box.addEventListener("keydown", (event) => {
       const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
       if (!step || event.target.tagName !== "A") return;
@@ -464,7 +465,58 @@
   document.addEventListener("keydown", (event) => {
     const typing = event.target.matches?.("input, select, textarea");
     if (event.key === "/" && !typing && !event.ctrlKey && !event.metaKey) { event.preventDefault(); search.focus(); search.select(); }
-    if (event.key === "Escape" && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
+    if (event.key === "Escape" && !isOver() && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
+  });
+
+  // ---- The contents: they mark where the reader is. What stands below the bar is asked for, so that no card has to be watched.
+  const isOver = () => "popover" in contents && contents.matches(":popover-open");
+  const below = () => (getComputedStyle(bar).position === "sticky" ? Math.max(bar.getBoundingClientRect().bottom, 0) : 0);
+  let here = null, opened = null, isAsking = false, retries = 0;
+  const showLine = () => {
+    const frame = contents.getBoundingClientRect(), line = here.getBoundingClientRect();
+    if (line.top < frame.top || line.bottom > frame.bottom) contents.scrollTop += line.top - frame.top - frame.height / 3;
+  };
+  const mark = () => {
+    isAsking = false;
+    if (isOver()) return;
+    const { left, width } = main.getBoundingClientRect(), top = below();
+    // Between two cards there is a gap.
+    const cards = [12, 40, 80].map((down) => document.elementFromPoint(left + width / 2, top + down)?.closest("article.object, .part, .intro"));
+    const card = cards.find((one) => one);
+    // What has just come into sight is not laid out yet, and stands nowhere.
+    if (!card) {
+      if (retries > 0) { retries -= 1; markOnNextFrame(); }
+      return;
+    }
+    const link = links.get(card.id)?.querySelector("a") ?? null;
+    if (link === here) return;
+    here?.removeAttribute("aria-current");
+    here = link;
+    if (!here) return;
+    here.setAttribute("aria-current", "location");
+    const group = here.closest("details");
+    // Of the groups only that of the place stays open; those that the reader opened do, too.
+    if (opened && opened !== group) { opened.open = false; opened = null; }
+    if (group && !group.open) { group.open = true; opened = group; }
+    if (here.checkVisibility()) showLine();
+  };
+  const markOnNextFrame = () => {
+    if (isAsking) return;
+    isAsking = true;
+    requestAnimationFrame(mark);
+  };
+  const markSoon = () => { retries = 12; markOnNextFrame(); };
+  for (const kind of ["scroll", "scrollend"]) addEventListener(kind, markSoon, { passive: true });
+  addEventListener("resize", markSoon);
+  contents.addEventListener("click", (event) => {
+    // What the reader opens or closes is the reader's.
+    if (event.target.closest("summary")) opened = null;
+    if (event.target.closest("a") && isOver()) contents.hidePopover();
+  });
+  contents.addEventListener("toggle", (event) => {
+    if (event.target !== contents || !isOver() || !here) return;
+    showLine();
+    here.focus({ preventScroll: true });
   });
 
   // ---- Links that land: what is laid out on the way moves the target, so it is followed until it stays below the bar.
@@ -474,8 +526,7 @@
     let still = 0, frames = 0;
     const step = () => {
       if (begun !== landing) return;
-      const covered = getComputedStyle(bar).position === "sticky" ? bar.getBoundingClientRect().bottom : 0;
-      const off = target.getBoundingClientRect().top - Math.max(covered, 0) - GAP;
+      const off = target.getBoundingClientRect().top - below() - GAP;
       if (Math.abs(off) > 1) { scrollBy({ top: off, behavior: "instant" }); still = 0; } else still = working > 0 ? 0 : still + 1;
       frames += 1;
       if (still < STILL && frames < LONGEST) requestAnimationFrame(step);
@@ -510,6 +561,7 @@
   });
   if (location.search) fromAddress();
   reveal();
+  markSoon();
   addEventListener("load", () => reveal());
 
   const copy = async (text) => {

@@ -77,8 +77,11 @@ impl Systems<'_> {
                 .map(|change| change.so(Class::Behaviour, "the device treats the error otherwise"));
         let reaction = texts(&place, Fact::Reaction, &before.reaction, &after.reaction, language);
         let reaction = reaction.into_iter().map(|change| behaves(change, DOES_SOMETHING_ELSE));
+        let chosen = |error: &ErrorCode| error.option_code.map(|id| id.to_string());
+        let option_code = Change::of(place.clone(), Fact::OptionCode, chosen(before), chosen(after))
+            .map(|change| behaves(change, DOES_SOMETHING_ELSE));
         let about = texts(&place, Fact::About, &before.about, &after.about, language);
-        let found = name.into_iter().chain(priority).chain(reaction).chain(about);
+        let found = name.into_iter().chain(priority).chain(reaction).chain(option_code).chain(about);
         found.map(|change| change.named(&after.name)).collect()
     }
 

@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::model::{self, Content, System, Table, TableContent};
+use od_spec::model::{
+    self, Content, Dictionary, Level, Signal, SignalCarrier, Switch, SwitchBack, SwitchSide, System, Table,
+    TableContent, Timing,
+};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::{Words, date, index, words};
+use super::{Words, date, device, entry_id, index, integer, words};
 use crate::hexadecimal;
 
 #[derive(Serialize)]
@@ -62,7 +65,7 @@ pub(super) fn document(system: &System) -> DocumentView<'_> {
             .map(|section| SectionView {
                 section: &section.number,
                 title: words(&section.title),
-                tables: section.tables.iter().map(table).collect(),
+                tables: section.tables.iter().map(|one| table(system, one)).collect(),
                 content: section.content.iter().map(content).collect(),
             })
             .collect(),
@@ -82,7 +85,7 @@ fn content(content: &Content) -> ContentView<'_> {
     }
 }
 
-fn table(table: &Table) -> TableView<'_> {
+fn table<'a>(system: &System, table: &'a Table) -> TableView<'a> {
     let indices = |list: &[model::Index]| list.iter().map(|one| index(*one)).collect::<Vec<_>>();
     let codes = |list: &[u16]| -> Json {
         if list.is_empty() {
@@ -102,6 +105,10 @@ fn table(table: &Table) -> TableView<'_> {
         TableContent::Transitions(name) => json!({"transitions": name}),
         TableContent::Commands(name) => json!({"commands": name}),
         TableContent::Ladder(name) => json!({"ladder": name}),
+        TableContent::Hysteresis(switches) => {
+            json!({"hysteresis": switches.iter().map(switch).collect::<Vec<_>>()})
+        }
+        TableContent::Timing(one) => json!({"timing": timing(system, one)}),
         TableContent::Pdos(pdos) => {
             json!({"pdos": {"device": pdos.device, "direction": pdos.direction.word()}})
         }
@@ -114,4 +121,46 @@ fn table(table: &Table) -> TableView<'_> {
         TableContent::History => json!({"history": true}),
     };
     TableView { number: table.number, title: words(&table.title), content }
+}
+
+fn timing(system: &System, timing: &Timing) -> Json {
+    let signals: Vec<Json> = timing.signals.iter().map(|one| signal(system, one)).collect();
+    let steps: Vec<Json> =
+        timing.steps.iter().map(|step| json!({"event": words(&step.event), "cause": step.cause})).collect();
+    json!({"signals": signals, "steps": steps})
+}
+
+fn signal(system: &System, signal: &Signal) -> Json {
+    let level = |level: &Level| match (level, &signal.carrier) {
+        (Level::Any, _) => Json::Null,
+        (Level::Letter(letter), _) => json!({"letter": letter}),
+        (Level::Value(value), SignalCarrier::Bits { .. }) => json!({"raw": value.integer().map(integer)}),
+        (Level::Value(value), SignalCarrier::Entry(id)) => {
+            let entry = system.devices.iter().find_map(|device: &Dictionary| device.entry(*id));
+            json!(entry.map(|entry| device::value(id.index, entry, value)))
+        }
+    };
+    let levels: Vec<Json> = signal.levels.iter().map(level).collect();
+    match &signal.carrier {
+        SignalCarrier::Bits { named_type, first, last, name } => {
+            json!({"type": named_type, "first": first, "last": last, "name": name, "levels": levels})
+        }
+        SignalCarrier::Entry(id) => json!({"entry": entry_id(*id), "levels": levels}),
+    }
+}
+
+fn switch(switch: &Switch) -> Json {
+    let side = match switch.side {
+        SwitchSide::Below => "below",
+        SwitchSide::Above => "above",
+    };
+    let back = match switch.back {
+        SwitchBack::By(_) => "back-by",
+        SwitchBack::At(_) => "back-at",
+    };
+    json!({
+        "switches": words(&switch.what),
+        side: entry_id(switch.threshold),
+        back: entry_id(switch.back.entry()),
+    })
 }

@@ -16,6 +16,7 @@ pub(super) struct ErrorView<'a> {
     on: &'a [String],
     priority: Option<&'a str>,
     reaction: Words<'a>,
+    option_code: Option<String>,
     about: Words<'a>,
 }
 
@@ -26,6 +27,7 @@ pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
         on: error.devices.keys(),
         priority: error.priority.as_deref(),
         reaction: words(&error.reaction),
+        option_code: error.option_code.map(entry_id),
         about: words(&error.about),
     }
 }

@@ -28,6 +28,23 @@ fn docs_prints_both_formats_of_a_small_specification() {
 }
 
 #[test]
+fn a_manual_to_be_printed_shows_errata_on_request() {
+    let scratch = Scratch::new("print");
+    scratch.file("lamp.od.yaml", LAMP);
+    let print = ["docs", "lamp.od.yaml", "--format", "print", "--out", "out"];
+    let output = odgen(&scratch.0, &print);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    assert_eq!(files(&scratch.0.join("out")), ["lamp/manual.html"]);
+    assert_eq!(code(&odgen(&scratch.0, &[&print[..], &["--errata"]].concat())), 0);
+    // Nobody waits for marks that never come.
+    let output =
+        odgen(&scratch.0, &["docs", "lamp.od.yaml", "--format", "html", "--errata", "--out", "none"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("add `--format print`"), "{}", stderr(&output));
+    assert!(!scratch.0.join("none").exists());
+}
+
+#[test]
 fn a_mistake_in_a_template_has_a_place_and_nothing_is_written() {
     let scratch = Scratch::new("templates");
     scratch.file("lamp.od.yaml", LAMP);

@@ -8,7 +8,8 @@ use std::ops::RangeInclusive;
 use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
     channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys,
-    machine_keys, revision_keys, source_keys, state_keys, transition_keys, unit_keys, vendor_keys,
+    machine_keys, revision_keys, signal_keys, source_keys, state_keys, switch_keys, timing_keys,
+    timing_step_keys, transition_keys, unit_keys, vendor_keys,
 };
 use crate::model::{
     Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, ProseKind,
@@ -450,6 +451,36 @@ pub(crate) struct PartDecl {
     pub contents: Vec<Spanned<ContentDecl>>,
 }
 
+timing_keys! { declaration
+    #[derive(Debug)]
+    TimingDecl {}
+}
+
+signal_keys! { declaration
+    #[derive(Debug)]
+    SignalDecl {
+        /// Something here was refused.
+        unsure: bool,
+    }
+}
+
+/// The levels of a signal, of which none was refused.
+#[derive(Debug)]
+pub(crate) struct Levels(pub Vec<Name>);
+
+timing_step_keys! { declaration
+    #[derive(Debug)]
+    TimingStepDecl {}
+}
+
+switch_keys! { declaration
+    #[derive(Debug)]
+    SwitchDecl {
+        /// Something here was refused.
+        unsure: bool,
+    }
+}
+
 #[derive(Debug)]
 pub(crate) enum ContentDecl {
     Prose(ProseKind, Vec<Text>),
@@ -463,6 +494,8 @@ pub(crate) enum ContentDecl {
     Transitions(Name),
     Commands(Name),
     Ladder(Name),
+    Timing(TimingDecl),
+    Hysteresis(Vec<Spanned<SwitchDecl>>),
     Pdos { device: Option<Name>, direction: Option<Spanned<Direction>> },
     Rows { columns: Vec<Text>, rows: Vec<Spanned<Vec<Text>>> },
     Glossary,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::findings::Findings;
 use super::rule::{Check, Needs, Rule};
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Author, Dictionary, Statement, System, TableContent};
+use crate::model::{Author, Dictionary, SignalCarrier, Statement, System, TableContent};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::System(check) };
 
@@ -63,8 +63,27 @@ fn used(system: &System) -> Used<'_> {
         used.types.extend(entry.named_type.as_ref().map(|named| named.name.as_str()));
     }
     for (.., table) in system.document.tables() {
-        if let TableContent::Bits(name) | TableContent::Values(name) = &table.content {
-            used.types.insert(name);
+        match &table.content {
+            TableContent::Bits(name) | TableContent::Values(name) => drop(used.types.insert(name)),
+            TableContent::Timing(timing) => {
+                used.types.extend(timing.signals.iter().filter_map(|signal| match &signal.carrier {
+                    SignalCarrier::Bits { named_type, .. } => Some(named_type.as_str()),
+                    SignalCarrier::Entry(_) => None,
+                }));
+            }
+            TableContent::Overview(_)
+            | TableContent::Objects(_)
+            | TableContent::Errors(_)
+            | TableContent::Reactions(_)
+            | TableContent::States(_)
+            | TableContent::Transitions(_)
+            | TableContent::Commands(_)
+            | TableContent::Ladder(_)
+            | TableContent::Hysteresis(_)
+            | TableContent::Pdos(_)
+            | TableContent::Rows { .. }
+            | TableContent::Glossary
+            | TableContent::History => {}
         }
     }
     used

@@ -100,6 +100,7 @@ pub mod codes {
     pub use super::texts_fit_eds::CODE as NOT_FOR_EDS;
     pub use super::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
     pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
+    pub(crate) use super::value_within_limits::CODE as OUTSIDE_LIMITS;
 }
 
 use std::collections::BTreeSet;

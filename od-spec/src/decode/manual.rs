@@ -1,26 +1,70 @@
 //! What a specification says about the printed manual.
 
-use super::read::{Field, Reader, reader};
-use crate::ast::{ContentDecl, ErratumDecl, IssueDecl, PartDecl, SectionDecl, SourceDecl};
+use super::read::{Field, FromNode, Reader, reader};
+use crate::ast::{
+    ContentDecl, ErratumDecl, IssueDecl, Levels, PartDecl, SectionDecl, SignalDecl, SourceDecl, SwitchDecl,
+    TimingDecl, TimingStepDecl,
+};
 use crate::diag::Diagnostics;
-use crate::keys::{self, erratum_keys, revision_keys, source_keys};
+use crate::keys::{
+    self, erratum_keys, revision_keys, signal_keys, source_keys, switch_keys, timing_keys, timing_step_keys,
+};
 use crate::model::{Direction, ProseKind};
 use crate::scalar;
 use crate::source::Spanned;
+use crate::yaml::NodeKind;
 
 source_keys! { reader pub(super) fn source() -> SourceDecl }
 revision_keys! { reader pub(super) fn issue() -> IssueDecl }
 erratum_keys! { reader pub(super) fn erratum() -> ErratumDecl }
+timing_keys! { reader fn timing() -> TimingDecl }
+switch_keys! { reader fn switch(unsure: bool) -> SwitchDecl }
+signal_keys! { reader fn signal(unsure: bool) -> SignalDecl }
+timing_step_keys! { reader fn timing_step() -> TimingStepDecl }
 
-pub(super) fn section(r: Reader<'_>) -> SectionDecl {
-    SectionDecl {
-        number: r.text("section"),
-        title: r.words("title"),
-        content: r.items("content").map(part).collect(),
+impl FromNode for SignalDecl {
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
+        let unsure = reader.has_unknown_key(&keys::SIGNAL) || has_no_text(reader, &["type", "bit", "entry"]);
+        Some(signal(unsure, reader, diagnostics))
     }
 }
 
-fn part(r: Reader<'_>) -> PartDecl {
+impl FromNode for SwitchDecl {
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
+        let keys = ["below", "above", "back-by", "back-at"];
+        let unsure = reader.has_unknown_key(&keys::SWITCH) || has_no_text(reader, &keys);
+        Some(switch(unsure, reader, diagnostics))
+    }
+}
+
+/// Whether one of these keys has something else than a text.
+fn has_no_text(reader: Reader<'_>, keys: &[&str]) -> bool {
+    keys.iter().any(|key| reader.child(key).is_some_and(|child| child.node.text().is_none()))
+}
+
+impl FromNode for Levels {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        let level = |node| reader.at(node).scalar(|text| Some(text.to_owned()));
+        let levels: Option<Vec<_>> = reader.node.items().iter().map(level).collect();
+        levels.filter(|_| matches!(reader.node.kind, NodeKind::List(_))).map(Levels)
+    }
+}
+
+impl FromNode for TimingStepDecl {
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
+        Some(timing_step(reader, diagnostics))
+    }
+}
+
+pub(super) fn section(r: Reader<'_>, diagnostics: &mut Diagnostics) -> SectionDecl {
+    SectionDecl {
+        number: r.text("section"),
+        title: r.words("title"),
+        content: r.items("content").map(|item| part(item, diagnostics)).collect(),
+    }
+}
+
+fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
     let contents = r.node.entries().iter().filter_map(|(key, node)| {
         let value = r.at(node);
         let key_name = key.value.as_str();
@@ -43,6 +87,8 @@ fn part(r: Reader<'_>) -> PartDecl {
             "transitions" => ContentDecl::Transitions(name()?),
             "commands" => ContentDecl::Commands(name()?),
             "ladder" => ContentDecl::Ladder(name()?),
+            "timing" => ContentDecl::Timing(timing(value, diagnostics)),
+            "hysteresis" => ContentDecl::Hysteresis(Field::read(r, key_name, diagnostics)),
             "pdos" => ContentDecl::Pdos {
                 device: value.text("device"),
                 direction: value.value("direction", Direction::from_word),

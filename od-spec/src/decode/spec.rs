@@ -60,7 +60,7 @@ pub(super) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics)
         machines: top.entries("state-machines").map(|(name, r)| machine(name, r, diagnostics)).collect(),
         constraints: constraints(top, diagnostics),
         errata: top.items("errata").map(|r| erratum(r, diagnostics)).collect(),
-        sections: top.items("document").map(section).collect(),
+        sections: top.items("document").map(|item| section(item, diagnostics)).collect(),
         front_end: FrontEnd::Specification,
         languages,
     }

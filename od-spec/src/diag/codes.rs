@@ -57,7 +57,7 @@ codes! {
     TURNED_TEXT Error "OD0115" "a character that hides what a text says":
         "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape. A setting of a node has no escapes, and holds no control character either."
     TOO_MUCH Error "OD0116" "a file describes too much":
-        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or a list of devices wrong? A family of devices that is really larger goes into several files."
+        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, a sequence of events has 64 steps and 32 signals, a picture of switches 32 of them, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or a list of devices wrong? A family of devices that is really larger goes into several files."
     MISSING_PART Error "OD0117" "a part cannot be read":
         "`parts:` names files that hold more of the specification, each relative to the file that names it. There is no such file, or it may not be read."
     NOT_A_PART Error "OD0118" "a file that is no part of the specification":
@@ -108,6 +108,10 @@ codes! {
         "`like:` takes what is not written from another object. Objects that are like each other in a circle, or one that is like itself, leave nobody to say what they are. Describe one of them in full."
     DIFFERENT_OBJECTS Error "OD0325" "a reference to different objects":
         "Devices of one file may have different objects at one index. What names the index for several of these devices, a condition, an erratum or a state machine, would mean another object on each. Say for which device it is."
+    WRONG_CAUSE Error "OD0326" "a step that answers no earlier one":
+        "`cause:` of a step names the earlier step that it answers, and the picture draws an arrow from what changes there to what changes here. A cause is earlier than its effect, and at both steps at least one signal changes. Correct the number or the levels, or leave `cause:` out: steps follow each other without it."
+    NO_HYSTERESIS Error "OD0327" "a switch without a hysteresis":
+        "What goes on below a threshold goes off at a higher value, and what goes on above one at a lower value; a heater is off before a cooler goes on. The values are those of the entries' defaults, so that each of them has a whole number in a unit as its default. Correct the defaults, or name other entries."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":
@@ -125,7 +129,7 @@ codes! {
     BITS_MISSING Error "OD0411" "bits without a meaning":
         "A bit field says something about every bit, and be it `reserved` or `unused`; otherwise a forgotten row of the manual would go unnoticed. `rest: reserved` covers what is not listed."
     UNKNOWN_BIT Error "OD0413" "a bit that does not exist":
-        "`bit-errors:` and a `default:` that is a list name bits of the entry's bit field type."
+        "`bit-errors:` and a `default:` that is a list name bits of the entry's bit field type, and so does a condition; a signal of `timing:` names one of its `type:`."
     BAD_ALIAS Error "OD0418" "an alias that cannot show its target":
         "An alias is a second view of an integer entry: in a narrower type of the same sign, or in another unit of the same base."
     ALIAS_OF_ALIAS Error "OD0419" "an alias of an alias":

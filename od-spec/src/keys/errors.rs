@@ -11,6 +11,7 @@ macro_rules! error_keys {
             "devices": NAMES => devices: Option<Vec<Name>>, "devices that report it; all unless given";
             "priority": Shape::Text => priority: Option<Name>, "priority, as the manual classes it";
             "reaction": Shape::Words => reaction: Words, "what the device does";
+            "option-code": Shape::Entry => option_code: Option<Name>, "entry whose value chooses the reaction", "0x605E";
             "about": Shape::Words => about: Words, "more about it";
         } }
     };

@@ -54,6 +54,8 @@ keys! {
         "transitions": Shape::Text, "transitions of a state machine";
         "commands": Shape::Text, "commands of a state machine";
         "ladder": Shape::Text, "entries of an ordering constraint with their defaults";
+        "timing": Shape::Map(&TIMING), "a sequence of events, drawn as levels of signals";
+        "hysteresis": Shape::OneOrMore(&Shape::Map(&SWITCH)), "what goes on beyond a threshold and off behind it, drawn with the values of the defaults";
         "pdos": Shape::Map(&TABLE_PDOS), "default PDOs of a device", "{device: pmc, direction: receive}";
         "rows": Shape::Map(&TABLE_ROWS), "rows of text", "{columns: [Index, Use], rows: [[0000h, not used]]}";
         "glossary": Shape::YesNo, "abbreviations";
@@ -75,4 +77,69 @@ keys! {
         "columns" required: Shape::List(&Shape::Words), "column headings";
         "rows" required: Shape::List(&Shape::List(&Shape::Words)), "cells";
     }
+}
+
+macro_rules! timing_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "signals" required: Shape::OneOrMore(&Shape::Map(&SIGNAL)) => signals: Vec<Spanned<SignalDecl>>, "what changes, from the top of the picture";
+            "steps" required: Shape::OneOrMore(&Shape::Map(&TIMING_STEP)) => steps: Vec<Spanned<TimingStepDecl>>, "what happens, one after the other";
+        } }
+    };
+}
+pub(crate) use timing_keys;
+
+timing_keys! { keys
+    /// `timing:` of a table.
+    TIMING = "a sequence of events"
+}
+
+macro_rules! signal_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "type": Shape::Text => named_type: Option<Name>, "bit field type that has the bit", "controlword";
+            "bit": Shape::Text => bit: Option<Name>, "bit or run of bits of the type: its name, also one that it has in a mode of operation only, or its number", "new set-point";
+            "entry": Shape::Entry => entry: Option<Name>, "entry whose value it is, in place of `type` and `bit`", "0x607A";
+            "levels" required: Shape::List(&Shape::Value) => levels: Option<Spanned<Levels>>, "the level before the first step, then that behind each step", "[0, 0, 1, 1, 0]";
+        } }
+    };
+}
+pub(crate) use signal_keys;
+
+signal_keys! { keys
+    /// A signal of a sequence of events.
+    SIGNAL = "a signal"
+}
+
+macro_rules! timing_step_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "event" required: Shape::Words => event: Words, "what happens", "The device sets bit 12 of 6041h.";
+            "cause": Shape::Integer(1, 64) => cause: Option<Spanned<i128>>, "number of the earlier step that this one answers; an arrow leads from there", "2";
+        } }
+    };
+}
+pub(crate) use timing_step_keys;
+
+timing_step_keys! { keys
+    /// A step of a sequence of events.
+    TIMING_STEP = "a step of a sequence"
+}
+
+macro_rules! switch_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "switches" required: Shape::Words => what: Words, "what goes on", "heater and fan";
+            "below": Shape::Entry => below: Option<Name>, "entry with the value below which it goes on", "0x3201.1";
+            "above": Shape::Entry => above: Option<Name>, "entry with the value above which it goes on", "0x3201.2";
+            "back-by": Shape::Entry => back_by: Option<Name>, "entry with the difference behind the threshold at which it goes off again", "0x3201.3";
+            "back-at": Shape::Entry => back_at: Option<Name>, "entry with the value at which it goes off again", "0x30FC.2";
+        } }
+    };
+}
+pub(crate) use switch_keys;
+
+switch_keys! { keys
+    /// A switch with a hysteresis.
+    SWITCH = "a switch with a hysteresis"
 }

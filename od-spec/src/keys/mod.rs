@@ -22,7 +22,7 @@ pub use errors::ERROR;
 pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, VENDOR};
 pub use libraries::{AXES, FEATURE};
 pub use machines::{COMMAND, MACHINE, STATE, TRANSITION};
-pub use manual::{CONTENT, ERRATUM, SECTION, TABLE_PDOS, TABLE_ROWS};
+pub use manual::{CONTENT, ERRATUM, SECTION, SIGNAL, SWITCH, TABLE_PDOS, TABLE_ROWS, TIMING, TIMING_STEP};
 pub use objects::{ARRAY, OBJECT, SUB0};
 pub use pdos::{
     PDO, PDO_COMMUNICATION, PDO_DIRECTIONS, PDO_MAPPED_ENTRY, PDO_MAPPING, PDO_PARAMETER, PDO_PARAMETERS,
@@ -37,6 +37,6 @@ pub(crate) use entry::entry_keys;
 pub(crate) use errors::error_keys;
 pub(crate) use file::{revision_keys, source_keys, vendor_keys};
 pub(crate) use machines::{command_keys, machine_keys, state_keys, transition_keys};
-pub(crate) use manual::erratum_keys;
+pub(crate) use manual::{erratum_keys, signal_keys, switch_keys, timing_keys, timing_step_keys};
 pub(crate) use pdos::{pdo_communication_keys, pdo_keys, pdo_mapping_keys, pdo_parameters_keys};
 pub(crate) use types::unit_keys;

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{Date, Devices, Direction, EntryId, Index, Text};
+use super::{Date, Devices, Direction, EntryId, Index, Switch, Text, Timing};
 
 /// The printed manual that a specification stands for.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Document {
     /// Title of the manual.
@@ -55,7 +55,7 @@ pub struct Issue {
 }
 
 /// A chapter or section.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Section {
     /// Number, as printed: `4.1.1`; empty for parts without one.
@@ -118,7 +118,7 @@ impl ProseKind {
 }
 
 /// A table of the manual.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Table {
     /// Number, as printed; `None` for tables without one.
@@ -130,7 +130,7 @@ pub struct Table {
 }
 
 /// What fills a table.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum TableContent {
     /// One row per object: index, object type, name, type, access, storage.
     Overview(Vec<Index>),
@@ -152,6 +152,10 @@ pub enum TableContent {
     Commands(String),
     /// The entries of an ordering constraint with their defaults.
     Ladder(String),
+    /// A sequence of events, step by step.
+    Timing(Timing),
+    /// Switches with a hysteresis, and the values at which they go on and off.
+    Hysteresis(Vec<Switch>),
     /// Default PDOs.
     Pdos(PdoTable),
     /// Rows of text.

@@ -107,6 +107,8 @@ facts! {
     Requirement = "require",
     /// What the device does on an error.
     Reaction = "reaction",
+    /// What entry chooses the reaction to an error.
+    OptionCode = "option-code",
     /// How urgent an error is.
     Priority = "priority",
     /// The languages of the texts.
@@ -166,6 +168,7 @@ impl Fact {
             | Self::Alias
             | Self::Requirement
             | Self::Reaction
+            | Self::OptionCode
             | Self::Priority
             | Self::Languages
             | Self::Document

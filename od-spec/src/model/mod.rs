@@ -11,6 +11,7 @@ mod download;
 mod dynamic_channel;
 mod fact;
 mod held;
+mod hysteresis;
 mod machine;
 mod named_type;
 mod object;
@@ -20,6 +21,7 @@ mod ratio;
 mod real;
 mod role;
 mod text;
+mod timing;
 mod types;
 mod unit;
 mod value;
@@ -41,6 +43,7 @@ pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub(crate) use held::Held;
+pub use hysteresis::{Switch, SwitchBack, SwitchPoints, SwitchSide};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{
     BitErrors, BitField, BitUsage, Edge, EnumValue, EnumValues, ModeMeaning, NamedType, TypeKind,
@@ -52,6 +55,7 @@ pub use ratio::Ratio;
 pub use real::Real;
 pub use role::Role;
 pub use text::Text;
+pub use timing::{Level, Signal, SignalCarrier, Timing, TimingStep};
 pub use types::{
     Access, AccessRight, Category, DataType, Direction, EntryId, Family, Index, Outside, PdoMapping,
     Rounding, Storage, SubIndex,
@@ -162,6 +166,8 @@ pub struct ErrorCode {
     pub priority: Option<String>,
     /// What the device does.
     pub reaction: Text,
+    /// The entry whose value chooses the reaction (CiA 402: 605Eh and its like).
+    pub option_code: Option<EntryId>,
     /// More about it.
     pub about: Text,
 }

@@ -47,7 +47,7 @@ pub(super) fn read(
     let before = diagnostics.errors_found();
     for item in list {
         let Some(SetBits { name, value }) = SetBits::of(item, diagnostics) else { continue };
-        let Some(field) = field(fields, &name, diagnostics) else { continue };
+        let Some(field) = field(fields, &name, BY_NUMBER, diagnostics) else { continue };
         if let Some((_, other)) = taken.iter().find(|(first, _)| *first == field.first) {
             diagnostics.push(
                 Diagnostic::new(
@@ -89,10 +89,14 @@ fn signed(raw: i128, data_type: DataType) -> i128 {
     }
 }
 
-/// The field of a name, which may be one that it has in a mode of operation only.
+/// What says the value of an entry without the names of its bits.
+pub(super) const BY_NUMBER: &str = "the value as a number";
+
+/// The field of a name, which may be one that it has in a mode of operation only. In its place, `instead` can be written.
 pub(super) fn field<'a>(
     fields: &'a [BitField],
     name: &Name,
+    instead: &str,
     diagnostics: &mut Diagnostics,
 ) -> Option<&'a BitField> {
     let names = |field: &'a BitField| {
@@ -110,7 +114,7 @@ pub(super) fn field<'a>(
                     name.span,
                     format!("`{}` means several bits, each in a mode of operation", shorten(&name.value)),
                 )
-                .help("write the value as a number"),
+                .help(format!("write {instead}")),
             );
             None
         }
@@ -118,12 +122,12 @@ pub(super) fn field<'a>(
             let diagnostic = Diagnostic::new(
                 codes::UNKNOWN_BIT,
                 name.span,
-                format!("the type of the entry has no bit `{}`", shorten(&name.value)),
+                format!("the type has no bit `{}`", shorten(&name.value)),
             );
             let meant = diagnostics.suggestions.nearest(&name.value, fields.iter().flat_map(names));
             diagnostics.push(match meant {
                 Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-                None => diagnostic.help("write the name of a bit, or the value as a number"),
+                None => diagnostic.help(format!("write the name of a bit, or {instead}")),
             });
             None
         }
@@ -150,7 +154,7 @@ fn without_value(field: &BitField, name: &Name) -> Diagnostic {
 }
 
 /// A value of a field, by number or by name.
-fn value_of(field: &BitField, text: &Name, diagnostics: &mut Diagnostics) -> Option<i128> {
+pub(super) fn value_of(field: &BitField, text: &Name, diagnostics: &mut Diagnostics) -> Option<i128> {
     let named = field.values.iter().find(|value| value.name == text.value).map(|value| value.value);
     let flag = scalar::yes_no(&text.value).filter(|_| field.first == field.last).map(i128::from);
     let number = scalar::integer(&text.value).ok();

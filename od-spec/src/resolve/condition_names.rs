@@ -252,7 +252,12 @@ impl Lookup for OfDevice<'_, '_> {
             );
             return None;
         };
-        let field = bit_values::field(fields, &Spanned::new(name.text.to_owned(), place), self.diagnostics)?;
+        let field = bit_values::field(
+            fields,
+            &Spanned::new(name.text.to_owned(), place),
+            bit_values::BY_NUMBER,
+            self.diagnostics,
+        )?;
         if field.first != field.last {
             let message = format!("`{}` is bits {} to {}", shorten(name.text), field.first, field.last);
             self.diagnostics.push(

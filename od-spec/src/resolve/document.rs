@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::figures::Figures;
 use super::numbers::to_u16;
 use super::places::{self, Places};
 use super::refs::{Broken, NamesOf};
@@ -18,7 +19,7 @@ use crate::model::{
 };
 use crate::source::{Span, Spanned};
 
-pub(super) fn resolve(root: &Spec) -> Document {
+pub(super) fn resolve(root: &Spec, figures: &Figures<'_, '_>, diagnostics: &mut Diagnostics) -> Document {
     let source = root.source.as_ref();
     Document {
         source: source.and_then(|source| {
@@ -32,7 +33,7 @@ pub(super) fn resolve(root: &Spec) -> Document {
         revision: root.revision.as_ref().and_then(issue),
         history: root.history.iter().filter_map(issue).collect(),
         glossary: root.glossary.iter().map(|(name, text)| (name.value.clone(), text.clone())).collect(),
-        sections: root.sections.iter().map(section).collect(),
+        sections: root.sections.iter().map(|decl| section(decl, figures, diagnostics)).collect(),
     }
 }
 
@@ -41,7 +42,7 @@ fn issue(decl: &IssueDecl) -> Option<Issue> {
     Some(Issue { number, date, about: words(&decl.about) })
 }
 
-fn section(decl: &SectionDecl) -> Section {
+fn section(decl: &SectionDecl, figures: &Figures<'_, '_>, diagnostics: &mut Diagnostics) -> Section {
     let mut section = Section {
         number: decl.number.as_ref().map_or(String::new(), |number| number.value.clone()),
         title: words(&decl.title),
@@ -54,7 +55,7 @@ fn section(decl: &SectionDecl) -> Section {
                 section.content.push(Content::Prose(Prose { kind: *kind, items: items.clone() }));
             }
             Some(content) => {
-                if let Some(table) = table(part, content) {
+                if let Some(table) = table(part, content, figures, diagnostics) {
                     section.content.push(Content::Table(section.tables.len()));
                     section.tables.push(table);
                 }
@@ -65,7 +66,12 @@ fn section(decl: &SectionDecl) -> Section {
     section
 }
 
-fn table(decl: &PartDecl, content: &ContentDecl) -> Option<Table> {
+fn table(
+    decl: &PartDecl,
+    content: &ContentDecl,
+    figures: &Figures<'_, '_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Table> {
     let indices = |list: &[Spanned<Index>]| list.iter().map(|index| index.value).collect();
     let content = match content {
         // It is no table.
@@ -80,6 +86,8 @@ fn table(decl: &PartDecl, content: &ContentDecl) -> Option<Table> {
         ContentDecl::Transitions(name) => TableContent::Transitions(name.value.clone()),
         ContentDecl::Commands(name) => TableContent::Commands(name.value.clone()),
         ContentDecl::Ladder(name) => TableContent::Ladder(name.value.clone()),
+        ContentDecl::Timing(decl) => TableContent::Timing(figures.timing(decl, diagnostics)?),
+        ContentDecl::Hysteresis(decls) => TableContent::Hysteresis(figures.switches(decls, diagnostics)?),
         ContentDecl::Pdos { device, direction } => {
             let (device, direction) = (device.as_ref()?.value.clone(), direction.as_ref()?.value);
             TableContent::Pdos(PdoTable { device, direction })

@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::libraries::{self, Libraries};
+use super::refs::{Broken, NamesOf};
 use super::types::words;
+use super::varied::Varied;
 use crate::ast::{CodeRange, ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Devices, ErrorCode, Text};
+use crate::model::{Devices, EntryId, ErrorCode, Text};
 use crate::source::Span;
 
 pub(super) fn resolve(
@@ -44,6 +46,33 @@ pub(super) fn resolve(
         }
     }
     codes.into_values().map(|(_, error)| error).collect()
+}
+
+/// The entries that choose the reactions, by error code.
+pub(super) fn option_codes(
+    root: &Spec,
+    libraries: &Libraries<'_>,
+    names: &NamesOf<'_>,
+    broken: &Broken,
+    diagnostics: &mut Diagnostics,
+) -> BTreeMap<u16, EntryId> {
+    let mut found = BTreeMap::new();
+    let varied = Varied::of(root);
+    for decl in &root.errors {
+        // A library that is not there is reported where the codes are resolved.
+        let from = decl.from.as_ref().and_then(|from| libraries.named(from, &mut Diagnostics::default()));
+        let below = from.and_then(|library| libraries.error(library, decl.codes.value.first));
+        let below = below.and_then(|below| below.option_code.as_ref());
+        let Some(reference) = decl.option_code.as_ref().or(below) else { continue };
+        let on = Devices::listed(decl.devices.iter().flatten().map(|key| key.value.as_str()));
+        let Some(id) = names.entry(&on, reference, broken, diagnostics) else { continue };
+        let keys = names.each(&on).map(|(device, _)| device.key.as_str());
+        let help = "say in `devices:` for which device it is";
+        if !varied.is_refused(id.index, reference.span, keys, help, diagnostics) {
+            found.extend(decl.codes.value.codes().map(|code| (code, id)));
+        }
+    }
+    found
 }
 
 /// One code of a declaration, over what the library says about it.
@@ -86,6 +115,8 @@ fn error(
             .or_else(|| below?.priority.as_ref())
             .map(|priority| priority.value.clone()),
         reaction: text(words(&decl.reaction), below.map(|below| words(&below.reaction))),
+        // Entries are known when the devices are: `option_codes`.
+        option_code: None,
         about: text(words(&decl.about), below.map(|below| words(&below.about))),
     })
 }

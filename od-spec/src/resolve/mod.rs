@@ -16,6 +16,7 @@ mod document;
 mod entries;
 mod errors;
 mod features;
+mod figures;
 mod keys_have_effect;
 mod libraries;
 mod likes;
@@ -30,16 +31,19 @@ mod places;
 mod refs;
 mod scope;
 mod surroundings;
+mod switches;
 mod table_content;
+mod timings;
 mod types;
 pub(crate) mod values;
 mod varied;
 
 use crate::ast::{FrontEnd, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, System, SystemSource, Vendor};
+use crate::model::{Dictionary, Document, System, SystemSource, Vendor};
 use crate::source::Span;
 
+use figures::Figures;
 use libraries::Libraries;
 pub(crate) use likes::expand;
 use numbers::to_u32;
@@ -90,7 +94,7 @@ pub(crate) fn resolve<'a>(root: &'a Spec, libraries: &'a [Spec], diagnostics: &m
         },
         title: root.title.as_ref().map_or(String::new(), |title| title.value.clone()),
         languages,
-        document: document::resolve(root),
+        document: Document::default(),
         vendor,
         units: scope.units,
         types: scope.types,
@@ -103,10 +107,17 @@ pub(crate) fn resolve<'a>(root: &'a Spec, libraries: &'a [Spec], diagnostics: &m
     };
     let names = NamesOf::new(&system.devices);
     let machines = machines::resolve(root, &libraries, &names, &broken, diagnostics);
+    let option_codes = errors::option_codes(root, &libraries, &names, &broken, diagnostics);
+    let figures = Figures::of(root, &system, &names, &broken);
+    let document = document::resolve(root, &figures, diagnostics);
+    system.document = document;
     let errata = document::errata(root, &system, &names, &broken, diagnostics);
     let constraints = constraints::resolve(root, &system.devices, &broken, diagnostics);
     system.constrain(constraints);
     (system.machines, system.errata) = (machines, errata);
+    for error in &mut system.errors {
+        error.option_code = option_codes.get(&error.code).copied();
+    }
     document::check(root, &system, &broken, diagnostics);
     Resolved { system, library }
 }

@@ -303,6 +303,22 @@ impl<'a> NamesOf<'a> {
         }
     }
 
+    /// The entry that an index or a name stands for on the first of some devices that has it.
+    pub(super) fn entry(
+        &self,
+        on: &Devices,
+        reference: &Name,
+        broken: &Broken,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<EntryId> {
+        let by_index = lexical::entry_by_index(&reference.value).map(lexical::NumberedEntry::id);
+        let exists = |id: &EntryId| {
+            let objects = self.objects(on, id.index);
+            objects.iter().any(|object| object.entry(id.sub).is_some())
+        };
+        by_index.filter(exists).or_else(|| self.find(on, reference, broken, diagnostics))
+    }
+
     /// The entry that a name stands for on the first of some devices that has it.
     pub(super) fn find(
         &self,

@@ -25,7 +25,7 @@ pub(super) struct Contents<'a> {
 }
 
 /// Names of one kind that a table can refer to.
-struct Known<'a> {
+pub(super) struct Known<'a> {
     /// What they are, in a message.
     what: &'static str,
     /// Where they are defined.
@@ -41,7 +41,7 @@ impl<'a> Contents<'a> {
         Self {
             system,
             broken,
-            bit_fields: types(root, system, "bit field", is_bit_field),
+            bit_fields: bit_fields(root, system),
             enums: types(root, system, "enum", is_enum),
             machines: Known {
                 what: "state machine",
@@ -77,7 +77,10 @@ impl<'a> Contents<'a> {
             ContentDecl::Pdos { device: Some(name), .. } => self.devices.check(name, diagnostics),
             ContentDecl::Errors(list) | ContentDecl::Reactions(list) => self.errors(list, diagnostics),
             ContentDecl::Rows { columns, rows } => check_rows(columns, rows, diagnostics),
-            ContentDecl::Prose(..)
+            // Whoever resolves it says what is wrong with it.
+            ContentDecl::Timing(_)
+            | ContentDecl::Hysteresis(_)
+            | ContentDecl::Prose(..)
             | ContentDecl::Pdos { device: None, .. }
             | ContentDecl::Glossary
             | ContentDecl::History => {}
@@ -115,6 +118,11 @@ impl<'a> Contents<'a> {
     }
 }
 
+/// The bit fields.
+pub(super) fn bit_fields<'a>(root: &'a Spec, system: &'a System) -> Known<'a> {
+    types(root, system, "bit field", is_bit_field)
+}
+
 fn types<'a>(
     root: &'a Spec,
     system: &'a System,
@@ -133,7 +141,8 @@ fn types<'a>(
 }
 
 impl Known<'_> {
-    fn check(&self, name: &Name, diagnostics: &mut Diagnostics) {
+    /// Reports a name of nothing.
+    pub(super) fn check(&self, name: &Name, diagnostics: &mut Diagnostics) {
         let is_there = |names: &BTreeSet<&str>| names.contains(name.value.as_str());
         if !is_there(&self.names) && !is_there(&self.written) {
             let help = format!("define it under `{}:`", self.key);

@@ -160,6 +160,7 @@ impl Wording {
                 Fact::PdoCount => "PDOs",
                 Fact::Requirement => "Forderung",
                 Fact::Reaction => "Reaktion",
+                Fact::OptionCode => "wählt die Reaktion",
                 Fact::Priority => "Priorität",
                 Fact::Languages => "Sprachen",
                 Fact::Document => "Dokument",

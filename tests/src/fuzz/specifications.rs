@@ -54,7 +54,8 @@ impl Specifications {
     /// # Errors
     /// The shipped templates cannot be used.
     pub fn new(meter: Meter) -> Result<Self, docs::TemplateError> {
-        let templates = [Format::Markdown, Format::Html].map(|format| Templates::new(Some(format), &[]));
+        let templates =
+            [Format::Markdown, Format::Html, Format::Print].map(|format| Templates::new(Some(format), &[]));
         Ok(Self { meter, templates: templates.into_iter().collect::<Result<_, _>>()? })
     }
 }

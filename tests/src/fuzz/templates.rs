@@ -18,7 +18,8 @@ pub struct TemplateFiles {
 /// A small device, with something in every chapter of its documents.
 const DEVICE: &str = "tests/ui/ok_everything.od.yaml";
 /// What the names of seeds begin with.
-const FORMATS: [(&str, Format); 2] = [("md/", Format::Markdown), ("html/", Format::Html)];
+const FORMATS: [(&str, Format); 3] =
+    [("md/", Format::Markdown), ("html/", Format::Html), ("print/", Format::Print)];
 
 impl TemplateFiles {
     /// Documents of a small device.

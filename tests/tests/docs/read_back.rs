@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use od_spec::model::{
-    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index,
-    ModeMeaning, NamedType, Object, PatternBit, PdoMapping, PdoTarget, Ratio, StateMachine, Storage,
-    SubIndex, System, TableContent, TypeKind, Unit, Value,
+    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index, Level,
+    ModeMeaning, NamedType, Object, PatternBit, PdoMapping, PdoTarget, Ratio, SignalCarrier, StateMachine,
+    Storage, SubIndex, Switch, SwitchBack, SwitchSide, System, TableContent, Timing, TypeKind, Unit, Value,
 };
 use od_tests::compile_clean;
 
@@ -314,6 +314,8 @@ fn check(system: &System, content: &TableContent, tables: &[&Table]) {
         TableContent::Transitions(name) => check_transitions(table, &system.machines[name]),
         TableContent::Commands(name) => check_commands(table, &system.machines[name]),
         TableContent::Ladder(name) => check_ladder(system, table, name),
+        TableContent::Timing(timing) => check_timing(system, table, timing),
+        TableContent::Hysteresis(switches) => check_switches(system, table, switches),
         TableContent::Pdos(pdos) => check_pdos(system, &pdos.device, pdos.direction, table),
         TableContent::Rows { columns, rows } => {
             // Titles of columns carry no mark.
@@ -392,7 +394,13 @@ fn check_errors(system: &System, table: &Table, codes: &[u16], reactions: bool) 
         assert_eq!(index(table.cell(row, "Error code")).0, error.code);
         if reactions {
             assert_eq!(table.cell(row, "Errors"), error.name);
-            assert_eq!(table.cell(row, "Reaction"), flat(error.reaction.get("en").unwrap_or_default()));
+            let text = flat(error.reaction.get("en").unwrap_or_default());
+            let chosen = error.option_code.map(|id| {
+                let mut names = system.devices.iter().filter_map(|device| device.entry_name(id));
+                format!("As chosen by {id} {}.", names.next().unwrap())
+            });
+            let lines = [Some(text), chosen].into_iter().flatten().filter(|line| !line.is_empty());
+            assert_eq!(table.cell(row, "Reaction"), lines.collect::<Vec<_>>().join(" "));
             continue;
         }
         assert_eq!(table.cell(row, "Meaning"), error.name);
@@ -419,6 +427,73 @@ fn check_ladder(system: &System, table: &Table, name: &str) {
         let entry = device.entry(id).unwrap();
         assert_eq!(table.cell(row, "Name"), device.entry_name(id).unwrap());
         assert_eq!(default(entry, table.cell(row, "Default")), entry.default, "{id}");
+    }
+}
+
+/// A row for each switch; the values are those of the defaults.
+fn check_switches(system: &System, table: &Table, switches: &[Switch]) {
+    assert_eq!(table.rows.len(), switches.len());
+    for (row, switch) in table.rows.iter().zip(switches) {
+        let device = system.devices.iter().find(|device| device.entry(switch.threshold).is_some()).unwrap();
+        let raw = |id: EntryId| {
+            let entry = device.entry(id).unwrap();
+            let unit = entry.unit.as_ref().unwrap();
+            (Ratio::whole(entry.default.as_ref().unwrap().integer().unwrap()), unit.scale, &unit.symbol)
+        };
+        let times = |one: Ratio, other: Ratio| one.checked_mul(other).unwrap();
+        let (on, scale, symbol) = raw(switch.threshold);
+        let on = times(on, scale);
+        let (back, scale, back_symbol) = raw(switch.back.entry());
+        let back = times(back, scale);
+        let (sign, off) = match (switch.side, switch.back) {
+            (SwitchSide::Below, SwitchBack::At(_)) => ("<", back),
+            (SwitchSide::Above, SwitchBack::At(_)) => (">", back),
+            (SwitchSide::Below, SwitchBack::By(_)) => ("<", on.checked_add(back).unwrap()),
+            (SwitchSide::Above, SwitchBack::By(_)) => (">", on.checked_sub(back).unwrap()),
+        };
+        let value = |cell: &str, symbol: &str| decimal(cell.strip_suffix(symbol).unwrap().trim());
+        assert_eq!(table.cell(row, "Switches"), told(&switch.what));
+        let (shown, number) = table.cell(row, "On at").split_once(' ').unwrap();
+        assert_eq!((shown, value(number, symbol)), (sign, on));
+        assert_eq!(value(table.cell(row, "Off again at"), symbol), off);
+        let (named, number) = table.cell(row, "Off value from").rsplit_once(": ").unwrap();
+        assert_eq!(value(number, back_symbol), back);
+        let name = |id: EntryId| format!("{id} {}", device.entry_name(id).unwrap());
+        assert_eq!(named, name(switch.back.entry()));
+        assert_eq!(table.cell(row, "On value from"), name(switch.threshold));
+    }
+}
+
+/// A row for each step, behind one for what holds before the first.
+fn check_timing(system: &System, table: &Table, timing: &Timing) {
+    assert_eq!(table.rows.len(), timing.steps.len() + 1);
+    let levels = table.columns.len() - timing.signals.len();
+    for (at, signal) in timing.signals.iter().enumerate() {
+        let title = &table.columns[levels + at];
+        match &signal.carrier {
+            SignalCarrier::Bits { named_type, first, name, .. } => {
+                assert_eq!(*title, format!("{named_type}, Bit {first}: {name}"));
+            }
+            SignalCarrier::Entry(id) => {
+                let mut names = system.devices.iter().filter_map(|device| device.entry_name(*id));
+                assert_eq!(*title, names.next().unwrap());
+            }
+        }
+        for (row, level) in table.rows.iter().zip(&signal.levels) {
+            let given = match level {
+                Level::Any => "x".to_owned(),
+                Level::Letter(letter) => letter.to_string(),
+                Level::Value(Value::Integer(raw)) => raw.to_string(),
+                Level::Value(other) => panic!("{other:?}"),
+            };
+            assert_eq!(row[levels + at], given, "{title}");
+        }
+    }
+    for (at, (row, step)) in table.rows[1..].iter().zip(&timing.steps).enumerate() {
+        assert_eq!(table.cell(row, "Step"), (at + 1).to_string());
+        assert_eq!(table.cell(row, "Event"), told(&step.event));
+        let cause = step.cause.map_or_else(String::new, |cause| cause.to_string());
+        assert_eq!(table.cell(row, "Caused by step"), cause);
     }
 }
 

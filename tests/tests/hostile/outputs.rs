@@ -25,7 +25,7 @@ pub(crate) fn skeleton(system: &System, sources: &SourceMap, complaints: &mut Ve
             _ => eds(&file, &mut count, complaints),
         }
     }
-    let templates: Vec<_> = [docs::Format::Markdown, docs::Format::Html]
+    let templates: Vec<_> = [docs::Format::Markdown, docs::Format::Html, docs::Format::Print]
         .map(|format| docs::Templates::new(Some(format), &[]).unwrap())
         .into_iter()
         .collect();

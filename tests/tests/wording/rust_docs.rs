@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::model::{Access, Entry, PdoMapping, Storage};
+use od_spec::model::{Access, BitErrors, Entry, PdoMapping, Storage};
 
 use super::Output;
 use super::facts::{Facts, Limits, Reach, Told};
 use super::read::{self, Range};
 
 /// Where the facts of an entry end and sentences begin.
-const SENTENCES: [&str; 5] =
-    [". In ", ". A view of ", ". 8-bit view: ", ". 16-bit view: ", ". Writable while "];
+const SENTENCES: [&str; 6] =
+    [". In ", ". A view of ", ". 8-bit view: ", ". 16-bit view: ", ". Writable while ", ". Errors: "];
 
 /// Reads the module of one device.
 pub(crate) fn read(module: &str, output: &mut Output<'_>) {
@@ -84,6 +84,7 @@ fn read_member(line: &str, output: &mut Output<'_>) {
 
 fn read_facts(entry: &Entry, text: &str) -> Facts {
     let text = text.replace('\\', "");
+    assert_eq!(read_errors(&text), entry.bit_errors.iter().map(by_bit).collect(), "{text}");
     let end = SENTENCES.iter().filter_map(|sentence| text.find(sentence)).min();
     let text = end.map_or_else(|| text.strip_suffix('.').unwrap(), |end| &text[..end]);
     let mut parts = text.split(", ");
@@ -119,4 +120,21 @@ fn read_facts(entry: &Entry, text: &str) -> Facts {
         }
     }
     facts
+}
+
+/// Error codes by bit: `Errors: 4420h at bit 0, 4410h and 4411h at bit 4.`
+fn read_errors(text: &str) -> BTreeMap<u8, Vec<u16>> {
+    let Some((_, list)) = text.split_once(" Errors: ") else { return BTreeMap::new() };
+    let list = list.split('.').next().unwrap().split(", ");
+    let errors = list.map(|errors| {
+        let (codes, bit) = errors.split_once(" at bit ").unwrap();
+        let codes =
+            codes.split(" and ").map(|code| u16::from_str_radix(code.trim_end_matches('h'), 16).unwrap());
+        (bit.parse().unwrap(), codes.collect())
+    });
+    errors.collect()
+}
+
+fn by_bit(errors: &BitErrors) -> (u8, Vec<u16>) {
+    (errors.bit, errors.error_codes().collect())
 }

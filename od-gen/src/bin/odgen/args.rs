@@ -111,6 +111,7 @@ impl From<DocsFormat> for docs_gen::Format {
         match format {
             DocsFormat::Md => docs_gen::Format::Markdown,
             DocsFormat::Html => docs_gen::Format::Html,
+            DocsFormat::Print => docs_gen::Format::Print,
         }
     }
 }
@@ -431,9 +432,13 @@ pub(crate) struct DocsArgs {
     #[arg(long, value_name = "CODE")]
     pub lang: Option<String>,
 
-    /// Format; can be given twice [default: md, or with --templates none but theirs]
+    /// Format; can be given several times [default: md, or with --templates none but theirs]
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: Vec<DocsFormat>,
+
+    /// With `--format print`: mark where the manual differs from the issue that it takes the place of, and list the errata behind it
+    #[arg(long)]
+    pub errata: bool,
 
     /// Directory with templates of your own, which are laid over those of the format
     #[arg(long, value_name = "DIR")]
@@ -458,6 +463,8 @@ pub(crate) enum DocsFormat {
     Md,
     /// HTML: a file for the system and one per device, each complete in itself
     Html,
+    /// HTML to be printed: a file for everything, with title, contents and page numbers
+    Print,
 }
 
 #[derive(Debug, Args)]

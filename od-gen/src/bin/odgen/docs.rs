@@ -20,6 +20,12 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
     if let Some(target) = &args.export_templates {
         return export(args, target, report);
     }
+    if args.errata && !args.format.contains(&DocsFormat::Print) && args.templates.is_none() {
+        return report.refuse(
+            Diagnostic::without_place(codes::BAD_NOTATION, "`--errata` is about the printed manual alone")
+                .help("pages for the screen always show the errata; for the manual, add `--format print`"),
+        );
+    }
     let specs = match specs::all(&args.specs, directory, report) {
         Ok(specs) => specs,
         Err(code) => return code,
@@ -44,7 +50,7 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
     }
     if args.dump_context {
         return systems.iter().fold(SUCCESS, |code, (_, system)| {
-            let options = docs::options(system, &args.device, args.lang.as_deref());
+            let options = options(system, &args);
             code.max(print_json(&docs::dump_context(system, &options)))
         });
     }
@@ -57,7 +63,7 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
         args.device.is_empty() || args.device.iter().any(|key| system.device(key).is_some())
     };
     for (stem, system) in systems.iter().filter(|(_, system)| shows(system)) {
-        let options = docs::options(system, &args.device, args.lang.as_deref());
+        let options = options(system, &args);
         match docs::artifacts(system, "", stem, &options, &templates) {
             Ok(artifacts) => set.extend(artifacts),
             Err(error) => return Problem::Template(error, args.templates.clone()).show(report),
@@ -70,6 +76,12 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
         );
     }
     write(&args.out, &set, forced(args.force, Existing::Generated), "", report)
+}
+
+/// What the documents of a specification show.
+fn options(system: &System, args: &DocsArgs) -> docs::Options {
+    let options = docs::options(system, &args.device, args.lang.as_deref());
+    docs::Options { errata: args.errata, ..options }
 }
 
 /// The language of this code, in any case: one whose fixed words are known, or one of the specifications.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use od_spec::model::{Entry, Object, Outside, SubIndex, Text};
+use od_spec::model::{BitErrors, Entry, Object, Outside, SubIndex, Text};
 use od_spec::wording::{Notation, Wording};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -69,7 +69,12 @@ impl Plan<'_> {
 
     /// Relations of an entry to others, a sentence each.
     fn relations(&self, planned: &PlannedEntry<'_>, root: &str) -> Vec<String> {
-        let relations = [self.related(planned, root), self.pdos_of(planned, root), condition(planned.entry)];
+        let relations = [
+            self.related(planned, root),
+            self.pdos_of(planned, root),
+            condition(planned.entry),
+            errors(planned.entry),
+        ];
         relations.into_iter().flatten().collect()
     }
 
@@ -224,6 +229,16 @@ impl Plan<'_> {
 fn condition(entry: &Entry) -> Option<String> {
     let condition = entry.writable_when.as_ref()?;
     Some(format!("Writable while `{}`.", condition.text))
+}
+
+/// The errors that the entry shows beside those of its type.
+fn errors(entry: &Entry) -> Option<String> {
+    let of_bit = |errors: &BitErrors| {
+        let codes: Vec<String> = errors.error_codes().map(|code| format!("{code:04X}h")).collect();
+        format!("{} at bit {}", codes.join(" and "), errors.bit)
+    };
+    let bits: Vec<String> = entry.bit_errors.iter().map(of_bit).collect();
+    (!bits.is_empty()).then(|| format!("Errors: {}.", bits.join(", ")))
 }
 
 /// The facts that are the same for all of some entries, in the order of the first.

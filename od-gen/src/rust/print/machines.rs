@@ -1,5 +1,7 @@
 //! State machines and error codes.
 
+use std::fmt::Write as _;
+
 use od_spec::model::{BitPattern, Command, ErrorCode};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -214,6 +216,9 @@ impl Plan<'_> {
                 rest.push(' ');
                 rest.push_str(&text);
             }
+        }
+        if let Some(id) = error.option_code {
+            let _ = write!(rest, " {id} chooses the reaction.");
         }
         let priority = error.priority.as_ref().map(|priority| format!(" Priority {}.", escape(priority)));
         format!("{}.{rest}{}", escape(error.name.trim_end_matches('.')), priority.unwrap_or_default())

@@ -37,6 +37,15 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "another option code chooses the reaction to an error",
+        at: "errors:",
+        find: "option-code: 0x605E",
+        replace: "option-code: 0x6007",
+        expected: &[
+            "pmc: ~ error 7305h Encoder error (motor), sine/cosine: option-code: 605Eh -> 6007h [behaviour]",
+        ],
+    },
+    Case {
         name: "another condition",
         at: "  shutdown after ride-through:",
         find: "0x30E0 < 0x30E1",

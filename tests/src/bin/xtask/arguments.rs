@@ -72,7 +72,7 @@ emulated Cortex-M. First it lists the tools that are missing, each with the line
 whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
 
   --all               fail when anything is left out
-  --without-browser   do not read the documents in Chromium
+  --without-browser   do not read the documents in Chromium and on paper
   --without-emulator  do not build the firmware, and do not run it in QEMU
 
 What the parts install for themselves goes into target/, from the registries of Python, npm and Rust; the target

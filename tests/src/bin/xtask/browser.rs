@@ -22,7 +22,7 @@ pub(crate) fn read_documents(runner: &mut Runner) -> Result<(), Failure> {
     ];
     for (stem, path, language) in specs.chain(more.map(|(stem, path, lang)| (stem, path.to_owned(), lang))) {
         let system = compile_clean(&path)?;
-        let options = docs::options(&system, &[], Some(language));
+        let mut options = docs::options(&system, &[], Some(language));
         // The German texts of this one are many: they are searched, and its facts are compared in English.
         let is_compared = stem != "pitch-control-system-de";
         let html = [docs::Templates::new(Some(docs::Format::Html), &[])?];
@@ -40,8 +40,12 @@ pub(crate) fn read_documents(runner: &mut Runner) -> Result<(), Failure> {
         }));
         let example = [docs::Templates::new(None, &example()?)?];
         set.extend(docs::artifacts(&system, "", &format!("{stem}-asciidoc"), &options, &example)?);
+        // With everything that paper can show.
+        options.errata = true;
+        let print = [docs::Templates::new(Some(docs::Format::Print), &[])?];
+        set.extend(docs::artifacts(&system, "", &format!("{stem}-print"), &options, &print)?);
         write_all(&root().join(DOCS), &set)?;
-        directories.extend([format!("{DOCS}/{stem}"), format!("{DOCS}/{stem}-asciidoc")]);
+        directories.extend(["", "-asciidoc", "-print"].map(|kind| format!("{DOCS}/{stem}{kind}")));
     }
     directories.extend(hostile::documents(DOCS)?);
     let directories: Vec<&str> = directories.iter().map(String::as_str).collect();

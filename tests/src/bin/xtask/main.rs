@@ -7,6 +7,7 @@ mod browser;
 mod configured;
 mod corpus;
 mod hostile;
+mod manuals;
 mod package;
 mod parts;
 mod readers;

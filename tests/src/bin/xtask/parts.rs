@@ -6,7 +6,7 @@ use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, readers};
+use crate::{browser, manuals, readers};
 
 /// A part of the tests, in the order in which they run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,6 +30,8 @@ pub(crate) enum Part {
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
+    /// The manuals, printed by WeasyPrint.
+    Manuals,
     FirmwareSizes,
     FirmwareTests,
 }
@@ -55,7 +57,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 13] = [
+    pub(crate) const ALL: [Part; 14] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -67,6 +69,7 @@ impl Part {
         Part::FirmwareInC,
         Part::SdoClient,
         Part::Browser,
+        Part::Manuals,
         Part::FirmwareSizes,
         Part::FirmwareTests,
     ];
@@ -84,6 +87,7 @@ impl Part {
             Part::FirmwareInC => "EDS readers: firmware in C",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
+            Part::Manuals => "manuals on paper",
             Part::FirmwareSizes => "sizes of firmware",
             Part::FirmwareTests => "firmware in an emulator",
         }
@@ -100,7 +104,7 @@ impl Part {
             | Part::Foretold
             | Part::FirmwareInC
             | Part::SdoClient => Area::Readers,
-            Part::Browser => Area::Browser,
+            Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
         }
     }
@@ -118,6 +122,7 @@ impl Part {
             | Part::FirmwareInC
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
+            Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
             Part::FirmwareSizes => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker],
             Part::FirmwareTests => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu],
         }
@@ -137,6 +142,7 @@ impl Part {
             | Part::FirmwareInC
             | Part::SdoClient
             | Part::Browser
+            | Part::Manuals
             | Part::FirmwareSizes
             | Part::FirmwareTests => &[],
         }
@@ -170,6 +176,7 @@ impl Part {
             Part::FirmwareInC => readers::firmware_in_c(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
+            Part::Manuals => manuals::print(runner),
             Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),
             Part::FirmwareTests => runner.python("tests/thumb/run.py", &["test"]),
         }

@@ -22,6 +22,8 @@ pub(crate) enum Tool {
     Node,
     Chromium,
     Pdftotext,
+    /// The library that sets the text of what WeasyPrint prints.
+    Pango,
     /// The core library of the firmware's target: rustup's, or its sources for Debian's Rust.
     ThumbTarget,
     ThumbLinker,
@@ -29,11 +31,12 @@ pub(crate) enum Tool {
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 7] = [
+    pub(crate) const ALL: [Tool; 8] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
         Tool::Pdftotext,
+        Tool::Pango,
         Tool::ThumbTarget,
         Tool::ThumbLinker,
         Tool::Qemu,
@@ -45,6 +48,7 @@ impl Tool {
             Tool::Node => "Node.js 18 or newer with npm",
             Tool::Chromium => "Chromium",
             Tool::Pdftotext => "pdftotext",
+            Tool::Pango => "Pango",
             Tool::ThumbTarget => "Rust's target thumbv7em-none-eabi",
             Tool::ThumbLinker => "a linker for it: rust-lld, which rustup's Rust has, or arm-none-eabi-ld",
             Tool::Qemu => "qemu-system-arm",
@@ -58,6 +62,9 @@ impl Tool {
             Tool::Node => &["apt-get install nodejs npm"],
             Tool::Chromium => &["apt-get install chromium fonts-dejavu"],
             Tool::Pdftotext => &["apt-get install poppler-utils"],
+            Tool::Pango => {
+                &["apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 fonts-dejavu"]
+            }
             Tool::ThumbTarget => &[
                 "rustup target add thumbv7em-none-eabi",
                 "apt-get install rustc-web cargo-web rust-web-src    (without rustup)",
@@ -79,6 +86,10 @@ impl Tool {
             }
             Tool::Chromium => env::var_os("CHROMIUM").is_some() || BROWSERS.into_iter().any(is_in_path),
             Tool::Pdftotext => is_in_path("pdftotext"),
+            Tool::Pango => {
+                let check = "import sys, ctypes.util as c; sys.exit(not all(map(c.find_library, ['pango-1.0', 'pangoft2-1.0', 'harfbuzz-subset'])))";
+                succeeds(Command::new("python3").args(["-c", check]))
+            }
             Tool::ThumbTarget => has_target(),
             Tool::ThumbLinker => has_linker(),
             Tool::Qemu => is_in_path("qemu-system-arm"),

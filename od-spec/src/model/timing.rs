@@ -1,0 +1,69 @@
+//! Sequences of events: what signals do, step by step.
+
+use super::{EntryId, Text, Value};
+
+/// A sequence of events with the levels of its signals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timing {
+    /// What changes, from the top.
+    pub signals: Vec<Signal>,
+    /// What happens, one after the other.
+    pub steps: Vec<TimingStep>,
+}
+
+/// Something that changes in a [`Timing`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signal {
+    /// What it is.
+    pub carrier: SignalCarrier,
+    /// Its levels: before the first step, then behind each step.
+    pub levels: Vec<Level>,
+}
+
+impl Signal {
+    /// Whether the level changes at a step, counted from 1. Nobody knows it where any level may be before or behind the step.
+    pub fn changes_at(&self, step: usize) -> bool {
+        let before = step.checked_sub(1).and_then(|before| self.levels.get(before));
+        before
+            .zip(self.levels.get(step))
+            .is_some_and(|(before, behind)| before != behind && ![before, behind].contains(&&Level::Any))
+    }
+}
+
+/// What a [`Signal`] shows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SignalCarrier {
+    /// Bits of a named type.
+    Bits {
+        /// The type.
+        named_type: String,
+        /// Lowest bit.
+        first: u8,
+        /// Highest bit.
+        last: u8,
+        /// What the bits are called, perhaps in one mode of operation only; empty where they have no name.
+        name: String,
+    },
+    /// The value of an entry.
+    Entry(EntryId),
+}
+
+/// The level of a [`Signal`] between two steps.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Level {
+    /// Any: it does not matter, or nobody knows.
+    Any,
+    /// Some value that has a letter, to tell it from others.
+    Letter(char),
+    /// This value.
+    Value(Value),
+}
+
+/// An event of a [`Timing`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TimingStep {
+    /// What happens.
+    pub event: Text,
+    /// The step that it answers, counted from 1.
+    pub cause: Option<usize>,
+}

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Print the manuals and read the paper.
+
+    run.py DOCS...
+
+DOCS are directories with `manual.html` and `context.json`. WeasyPrint makes `manual.pdf` beside them, pdftotext reads it, and all that the
+context says has to stand there: titles on the page that the contents name, captions beside what they name, cells, texts, warnings. WeasyPrint is
+installed below target/print. Needs Python with venv, Pango, and pdftotext of poppler-utils. Exit code 0: the manuals are as they must be; 1:
+they are not; 3: a program is missing or pip could not install, nothing was checked.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+CACHE = HERE.parent.parent / "target" / "print"
+
+
+class Missing(Exception):
+    """What has to be installed."""
+
+
+def install() -> list[str]:
+    """The command of WeasyPrint as the requirements name it."""
+    folder, requirements = CACHE / "venv", HERE / "requirements.txt"
+    stamp = folder / "stamp"
+    digest = hashlib.sha256(requirements.read_bytes() + sys.version.encode()).hexdigest()
+    python = folder / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
+    if not stamp.is_file() or stamp.read_text() != digest:
+        shutil.rmtree(folder, ignore_errors=True)
+        subprocess.run([sys.executable, "-m", "venv", str(folder)], check=False)
+        pip = [str(python), "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "-r", str(requirements)]
+        if subprocess.run(pip, check=False).returncode != 0:
+            raise Missing("pip could not install WeasyPrint")
+        stamp.write_text(digest)
+    return [str(python), "-m", "weasyprint"]
+
+
+def squeezed(text: str) -> str:
+    """A text without its white space: lines are broken elsewhere on paper."""
+    return re.sub(r"\s+", "", text.replace("\u00ad", ""))
+
+
+class Manual:
+    """A printed manual and what it has to say."""
+
+    def __init__(self, docs: Path, weasyprint: list[str]) -> None:
+        self.passed = 0
+        self.failures: list[str] = []
+        self.context = json.loads((docs / "context.json").read_text(encoding="utf-8"))
+        pdf = docs / "manual.pdf"
+        made = subprocess.run(
+            [*weasyprint, str(docs / "manual.html"), str(pdf)], check=False, capture_output=True, text=True
+        )
+        self.check(made.returncode == 0, f"WeasyPrint: {made.stderr[-500:]}")
+        for line in sorted({line for line in made.stderr.splitlines() if "ERROR" in line}):
+            self.check(False, line)
+        if made.returncode != 0:
+            self.pages, self.raw, self.lines = [], [], []
+            return
+        # In the order of the file a cell stays together; laid out as on paper, a line of the contents does.
+        self.raw = [squeezed(page) for page in self.read(pdf, "-raw")]
+        laid_out = self.read(pdf, "-layout")
+        self.lines = [page.splitlines() for page in laid_out]
+        self.whole = "".join(self.raw)
+
+    @staticmethod
+    def read(pdf: Path, how: str) -> list[str]:
+        text = subprocess.run(["pdftotext", how, str(pdf), "-"], check=True, capture_output=True, text=True).stdout
+        return text.split("\f")[:-1]
+
+    def check(self, is_so: bool, otherwise: str) -> None:
+        if is_so:
+            self.passed += 1
+        else:
+            self.failures.append(otherwise)
+
+    def has(self, text: str, what: str) -> None:
+        # What is in another language says so behind it.
+        self.check(squeezed(text) in self.whole, f"{what} is missing: {text[:100]}")
+
+    def run(self) -> None:
+        if not self.raw:
+            return
+        self.numbers_of_pages()
+        self.contents()
+        for chapter in self.context["chapters"]:
+            for section in chapter["sections"]:
+                self.section(section)
+        left_out = set() if self.context["errata"] else {"errata", "tables"}
+        for appendix in self.context["appendices"]:
+            if appendix["page"] not in left_out:
+                for table in appendix["tables"]:
+                    self.table(table)
+        for device in self.context["devices"]:
+            for item in device["objects"]:
+                if item["anchor"] in device["details"]:
+                    self.table(item["table"])
+                    self.has(item["name"], f"{device['key']}: {item['index']}")
+        marks = re.search(r"\bE\d+\s+E\d+\b", "\n".join("\n".join(lines) for lines in self.lines))
+        self.check((marks is None) or self.context["errata"], f"a mark of an erratum: {marks and marks[0]}")
+
+    def numbers_of_pages(self) -> None:
+        for number, lines in enumerate(self.lines[1:], start=2):
+            last = next((line for line in reversed(lines) if line.strip()), "")
+            self.check(last.split()[-1:] == [str(number)], f"page {number} ends with: {last.strip()}")
+
+    def contents(self) -> None:
+        """Each title stands on the page that the contents name."""
+        named = {}
+        for lines in self.lines:
+            for line in lines:
+                if found := re.fullmatch(r"\s*(.*?)\s?\.{3,}\s*(\d+)", line):
+                    named.setdefault(squeezed(found[1]), []).append(int(found[2]))
+        titles = [
+            f"{section['number']} {section['title']['text']}"
+            for chapter in self.context["chapters"]
+            for section in chapter["sections"]
+        ]
+        titles += [appendix["title"] for appendix in self.context["appendices"] if appendix["page"] not in ("errata", "tables")]
+        tables = [
+            (table, f"{table['number']} {table['title']['text']}")
+            for chapter in self.context["chapters"]
+            for section in chapter["sections"]
+            for table in section["tables"]
+            if table["number"] is not None
+        ]
+        for title in titles + [title for _, title in tables]:
+            # A long title is broken into lines, of which the last has the number.
+            words = squeezed(title)
+            pages = named.get(words) or [page for line, found in named.items() if len(line) > 3 and words.endswith(line) for page in found]
+            self.check(bool(pages), f"not in the contents: {title}")
+            if pages:
+                self.check(any(words in self.raw[page - 1] for page in pages), f"not on page {pages}: {title}")
+
+    def section(self, section: dict) -> None:
+        for part in section["content"]:
+            if part["kind"] == "table":
+                self.table(section["tables"][part["table"]])
+            else:
+                for item in part["items"]:
+                    for line in item["parts"]:
+                        self.has(line["text"], part["kind"])
+
+    def table(self, table: dict) -> None:
+        grids = table["grids"]
+        self.figures(table)
+        for grid in grids:
+            for row in grid["rows"]:
+                for cell in row["cells"]:
+                    for part in cell["parts"]:
+                        self.has(part["text"], f"a cell of {table['anchor']}")
+        caption = squeezed(f"{self.context['words']['table']} {table['number']} {table['title']['text']}")
+        if table["number"] is None or not grids or not grids[0]["rows"]:
+            return
+        first = grids[0]
+        pages = [page for page in self.raw if caption in page]
+        columns = "".join(squeezed(column["title"]) for column in first["columns"])
+        self.check(any(columns in page.split(caption, 1)[1] for page in pages), f"parted from its table: {caption}")
+        if first["bits"]:
+            names = [squeezed(field["name"]) for row in first["bits"]["rows"] for field in row["fields"]]
+            self.check(
+                any(all(name in page.split(caption, 1)[1] for name in names) for page in pages),
+                f"parted from its picture: {caption}",
+            )
+
+    def figures(self, table: dict) -> None:
+        """A picture of events or switches stands on one page with its caption, and all of its texts do."""
+        caption = squeezed(table["title"]["text"])
+        for grid in table["grids"]:
+            signals = grid["timing"]["signals"] if grid["timing"] else []
+            switches = grid["hysteresis"]["switches"] if grid["hysteresis"] else []
+            texts = [text for signal in signals for text in (signal["name"], signal["place"])]
+            texts += [level["text"] for signal in signals for level in signal["levels"]]
+            texts += [text for switch in switches for text in (switch["name"], *(one["text"] for one in switch["texts"]))]
+            if not texts:
+                continue
+            wanted = [squeezed(text) for text in texts]
+            # Without a caption, the texts are somewhere on one page.
+            behind = [page[page.index(caption) :] for page in self.raw if caption in page]
+            self.check(
+                any(all(text in page for text in wanted) for page in behind), f"parted from its picture: {caption}"
+            )
+
+
+def main() -> int:
+    try:
+        if not shutil.which("pdftotext"):
+            raise Missing("pdftotext is missing; install poppler-utils")
+        weasyprint = install()
+    except Missing as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 3
+    passed = failed = 0
+    for argument in sys.argv[1:]:
+        docs = Path(argument).resolve()
+        manual = Manual(docs, weasyprint)
+        manual.run()
+        print(f"== {docs.name}: {len(manual.raw)} pages", flush=True)
+        for failure in manual.failures[:40]:
+            print(f"FAILED {failure}")
+        passed, failed = passed + manual.passed, failed + len(manual.failures)
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,16 @@
+//! Defaults of bit fields are told by the names of their bits.
+
+use super::links::{assert_has, page};
+use od_gen::docs::Format;
+
+#[test]
+fn a_default_of_bits_is_told_by_their_names() {
+    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "s/pmm.md");
+    assert_has(&text, "Outputs that switch the heater.<br>Set by default: relay X16.1.");
+    assert_has(&text, "Outputs that switch the cooler. |");
+    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "s/pmc.md");
+    assert_has(
+        &text,
+        "A bit at 0 suppresses the fault of that bit, unless its priority is A.<br>Set by default: all bits.",
+    );
+}

@@ -1,0 +1,90 @@
+//! Indices in the texts of a specification are links to what they name.
+
+use od_gen::docs::{self, Format, Templates};
+
+use super::compile_clean;
+
+/// A page in a language.
+pub(super) fn page(spec: &str, format: Format, language: &str, path: &str) -> String {
+    let system = compile_clean(spec).unwrap();
+    let templates = [Templates::new(Some(format), &[]).unwrap()];
+    let options = docs::options(&system, &[], Some(language));
+    let files = docs::artifacts(&system, "", "s", &options, &templates).unwrap();
+    let file = files.iter().find(|file| file.path == path).unwrap();
+    String::from_utf8_lossy(&file.bytes).into_owned()
+}
+
+/// The chapters in German: one page of HTML, or the chapter's of Markdown.
+fn chapter(format: Format, path: &str) -> String {
+    page("tests/docs/links.od.yaml", format, "de", path)
+}
+
+/// Whether a part stands in a text, which is shown where it does not.
+pub(super) fn assert_has(text: &str, part: &str) {
+    assert!(text.contains(part), "`{part}` is not in\n{text}");
+}
+
+#[test]
+fn an_index_in_a_text_is_a_link() {
+    let text = chapter(Format::Html, "s/index.html");
+    assert_has(
+        &text,
+        "Schreiben Sie <a href=\"#2000\">2000h</a>, dann <a href=\"#2001.1\">2001h.1</a>; nicht <a href=\"#2001\">2001h</a>.7 und \
+         <a href=\"#2000\">2000h</a>.0.",
+    );
+    assert_has(&text, "Helligkeit, siehe <a href=\"#2001.1\">2001h.1</a>.");
+    let text = chapter(Format::Markdown, "s/1-wozu-2000h-dient.md");
+    assert_has(&text, "Schreiben Sie [2000h](#2000), dann [2001h.1](#2001); nicht [2001h](#2001).7");
+    assert_has(&text, "Helligkeit, siehe [2001h.1](#2001).");
+}
+
+#[test]
+fn what_names_no_object_is_no_link() {
+    // No object, longer than an index, an error code as well as an object, a number.
+    for (format, path) in [(Format::Html, "s/index.html"), (Format::Markdown, "s/1-wozu-2000h-dient.md")] {
+        assert_has(&chapter(format, path), "Ohne Link: 2002h, 12000h, 2003h und 000Fh.");
+    }
+}
+
+#[test]
+fn a_heading_is_no_link() {
+    assert_has(&chapter(Format::Html, "s/index.html"), "1 Wozu 2000h dient</h2>");
+}
+
+#[test]
+fn the_language_of_a_text_with_links_is_told_once() {
+    assert_has(
+        &chapter(Format::Html, "s/index.html"),
+        "<p><span lang=\"en\">Write </span><a href=\"#2000\" lang=\"en\">2000h</a><span lang=\"en\"> after </span>\
+         <a href=\"#2001.0\" lang=\"en\">2001h.0</a><span lang=\"en\"> only.</span><sup class=\"language\"> en</sup></p>",
+    );
+    assert_has(
+        &chapter(Format::Markdown, "s/1-wozu-2000h-dient.md"),
+        "> Write [2000h](#2000) after [2001h.0](#2001) only. *(en)*",
+    );
+}
+
+#[test]
+fn an_object_of_another_device_is_a_link_to_its_page() {
+    let text = page("tests/docs/two.od.yaml", Format::Html, "de", "s/two.html");
+    assert_has(
+        &text,
+        "(<a href=\"one.html#1017\">ONE 1017h</a>) ≤ Producer heartbeat time (<a href=\"#1017\">TWO 1017h</a>)",
+    );
+}
+
+#[test]
+fn an_error_leads_to_the_bit_that_shows_it_and_back() {
+    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Html, "de", "s/pmc.html");
+    let row = |id: &str| {
+        let start = text.find(&format!(" id=\"{id}\"")).unwrap();
+        &text[start..start + text[start..].find("</tr>").unwrap()]
+    };
+    let error = row("error-3210");
+    assert_has(error, "<a href=\"#6510.7.b2\">6510h.8 Bit 2</a>");
+    // The mask 6510h.7 has the same layout and shows nothing.
+    assert!(!error.contains("6510h.7"), "{error}");
+    let bit = row("6510.7.b2");
+    assert_has(bit, ">2</td>");
+    assert_has(bit, "<a href=\"#error-3210\">3210h</a>");
+}
