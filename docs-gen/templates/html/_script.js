@@ -478,10 +478,9 @@
   };
   const mark = () => {
     isAsking = false;
-    if (isOver()) return;
     const { left, width } = main.getBoundingClientRect(), top = below();
-    // Between two cards there is a gap.
-    const cards = [12, 40, 80].map((down) => document.elementFromPoint(left + width / 2, top + down)?.closest("article.object, .part, .intro"));
+    // Between two cards there is a gap; on a phone the contents may lie over them.
+    const cards = [12, 40, 80].flatMap((down) => document.elementsFromPoint(left + width / 2, top + down).map((one) => one.closest("article.object, .part, .intro")));
     const card = cards.find((one) => one);
     // What has just come into sight is not laid out yet, and stands nowhere.
     if (!card) {
