@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Storage, SubIndex, Unit,
+    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Role, Storage, SubIndex, Unit,
 };
 
 use crate::cell::{entry_anchor, object_anchor};
@@ -20,7 +20,7 @@ struct Part {
     /// Heading.
     title: Word,
     /// What it shows.
-    intro: Option<Word>,
+    intro: Vec<Word>,
     tables: Vec<Table>,
 }
 
@@ -32,13 +32,13 @@ impl Source<'_> {
             Part {
                 page: "errata",
                 title: Word::Errata,
-                intro: Some(Word::ErrataIntro),
+                intro: vec![Word::ErrataIntro],
                 tables: vec![self.errata()],
             },
             Part {
                 page: "tables",
                 title: Word::AllTables,
-                intro: Some(Word::TablesIntro),
+                intro: vec![Word::TablesIntro],
                 tables: vec![self.tables()],
             },
         ]));
@@ -49,32 +49,32 @@ impl Source<'_> {
     pub(crate) fn device_appendices(&self) -> Vec<Appendix> {
         let errors = Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()]);
         self.shown([
-            Part { page: "errors", title: Word::ErrorCodes, intro: None, tables: vec![errors] },
+            Part { page: "errors", title: Word::ErrorCodes, intro: Vec::new(), tables: vec![errors] },
             Part {
                 page: "aliases",
                 title: Word::Aliases,
-                intro: Some(Word::AliasesIntro),
+                intro: vec![Word::AliasesIntro],
                 tables: vec![self.aliases()],
             },
             Part {
                 page: "units",
                 title: Word::Units,
-                intro: Some(Word::UnitsIntro),
+                intro: vec![Word::UnitsIntro],
                 tables: vec![self.units()],
             },
             Part {
                 page: "storage",
                 title: Word::Storage,
-                intro: Some(Word::StorageIntro),
+                intro: self.storage_intro(),
                 tables: self.storage(),
             },
             Part {
                 page: "constraints",
                 title: Word::Constraints,
-                intro: Some(Word::ConstraintsIntro),
+                intro: vec![Word::ConstraintsIntro],
                 tables: self.constraints(),
             },
-            Part { page: "machines", title: Word::Machines, intro: None, tables: self.machines() },
+            Part { page: "machines", title: Word::Machines, intro: Vec::new(), tables: self.machines() },
         ])
     }
 
@@ -85,7 +85,7 @@ impl Source<'_> {
             .map(|part| Appendix {
                 page: part.page,
                 title: self.word(part.title).to_owned(),
-                intro: part.intro.map_or_else(String::new, |intro| self.word(intro).to_owned()),
+                intro: self.linked(&Devices::All, &self.sentences(&part.intro), ""),
                 tables: part
                     .tables
                     .into_iter()
@@ -194,6 +194,22 @@ impl Source<'_> {
         cell
     }
 
+    /// What storage is, and the commands of CiA 301 that save and restore, where a device has them.
+    fn storage_intro(&self) -> Vec<Word> {
+        let has = |role| {
+            let mut objects = self.devices.iter().flat_map(|device| device.objects.keys());
+            objects.any(|index| Role::of(*index) == role)
+        };
+        let mut intro = vec![Word::StorageIntro];
+        intro.extend(has(Role::StoreParameters).then_some(Word::StorageSave));
+        intro.extend(has(Role::RestoreDefaults).then_some(Word::StorageRestore));
+        intro
+    }
+
+    fn sentences(&self, words: &[Word]) -> String {
+        words.iter().map(|word| self.word(*word)).collect::<Vec<_>>().join(" ")
+    }
+
     /// One table per device and storage group.
     fn storage(&self) -> Vec<Table> {
         let groups = [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent];
@@ -280,13 +296,13 @@ impl Source<'_> {
                 continue;
             }
             let anchor = |kind: &str| format!("machine-{}-{kind}", self.machine_anchor(name));
-            for (kind, word, grid) in [
-                ("states", Word::States, self.states(machine)),
-                ("transitions", Word::Transitions, self.transitions(machine)),
-                ("commands", Word::Commands, self.commands(machine)),
+            for (kind, word, about, grid) in [
+                ("states", Word::States, Cell::default(), self.states(machine)),
+                ("transitions", Word::Transitions, Cell::default(), self.transitions(machine)),
+                ("commands", Word::Commands, self.about_commands(machine), self.commands(machine)),
             ] {
                 let title = Cell::plain(format!("{name}: {}", self.word(word)));
-                tables.push(Table::unnumbered(anchor(kind), kind, title, vec![grid]));
+                tables.push(Table { about, ..Table::unnumbered(anchor(kind), kind, title, vec![grid]) });
             }
         }
         tables

@@ -1,6 +1,8 @@
 //! The manual's chapters, with the texts and tables that concern the devices shown.
 
-use od_spec::model::{self, Prose, ProseKind, TableId, Text};
+use std::collections::BTreeSet;
+
+use od_spec::model::{self, Devices, Index, Prose, ProseKind, TableId, Text};
 
 use crate::outline::{ChapterPlan, section_anchor};
 use crate::source::Source;
@@ -26,7 +28,7 @@ impl Source<'_> {
                     title: Cell::words(&section.title, self.language),
                     anchor: section_anchor(self.document(), plan.position),
                     level: plan.level,
-                    content: self.content(section, tables),
+                    content: self.content(section, tables, &self.told_of(chapter, at)),
                     tables: tables.iter().flatten().cloned().collect(),
                 });
             }
@@ -47,8 +49,30 @@ impl Source<'_> {
         (0..count).map(|table| self.table(TableId { section, table })).collect()
     }
 
+    /// The devices that the texts of a section tell of: those with the objects of its tables, or of the tables around it.
+    fn told_of(&self, chapter: &ChapterPlan, at: usize) -> Devices {
+        let mut around = at;
+        loop {
+            let sections = chapter.sections[below(chapter, around)].iter();
+            let tables = sections.flat_map(|plan| &self.document().sections[plan.position].tables);
+            let indices: BTreeSet<Index> =
+                tables.flat_map(|table| table.content.objects()).copied().collect();
+            let having = self.system.devices.iter();
+            let mut having = having
+                .filter(|device| indices.iter().any(|index| device.objects.contains_key(index)))
+                .peekable();
+            if having.peek().is_some() {
+                return Devices::listed(having.map(|device| &device.key));
+            }
+            match above(chapter, around) {
+                Some(parent) => around = parent,
+                None => return Devices::All,
+            }
+        }
+    }
+
     /// What stands in a section, without the tables that are not shown.
-    fn content(&self, section: &model::Section, tables: &[Option<Table>]) -> Vec<Content> {
+    fn content(&self, section: &model::Section, tables: &[Option<Table>], devices: &Devices) -> Vec<Content> {
         let mut shown = 0..;
         let positions: Vec<Option<usize>> =
             tables.iter().map(|table| table.is_some().then(|| shown.next()).flatten()).collect();
@@ -57,29 +81,30 @@ impl Source<'_> {
                 let position = positions.get(*table).copied().flatten()?;
                 Some(Content { kind: "table", table: Some(position), items: Vec::new() })
             }
-            model::Content::Prose(prose) => Some(self.prose(prose)),
+            model::Content::Prose(prose) => Some(self.prose(prose, devices)),
         };
         section.content.iter().filter_map(of_part).collect()
     }
 
-    fn prose(&self, prose: &Prose) -> Content {
+    fn prose(&self, prose: &Prose, devices: &Devices) -> Content {
+        let items = prose.items.iter();
         let items = match prose.kind {
-            ProseKind::Steps | ProseKind::List => prose.items.iter().map(|item| self.text(item)).collect(),
+            ProseKind::Steps | ProseKind::List => items.map(|item| self.text_on(devices, item)).collect(),
             ProseKind::Text | ProseKind::Note | ProseKind::Warning | ProseKind::Formula => {
-                prose.items.iter().flat_map(|text| self.lines(text)).collect()
+                items.flat_map(|text| self.lines(text, devices)).collect()
             }
         };
         Content { kind: prose.kind.word(), table: None, items }
     }
 
     /// The lines of a text in the language of the document, or else in its first one.
-    fn lines(&self, text: &Text) -> Vec<Cell> {
+    fn lines(&self, text: &Text, devices: &Devices) -> Vec<Cell> {
         let is_ours = |(code, _): &(&str, &str)| *code == self.language.code;
         let Some((code, words)) = text.iter().find(is_ours).or_else(|| text.iter().next()) else {
             return Vec::new();
         };
         let lines = words.lines().map(str::trim).filter(|line| !line.is_empty());
-        lines.map(|line| self.text(&Text::new([(code, line)]))).collect()
+        lines.map(|line| self.text_on(devices, &Text::new([(code, line)]))).collect()
     }
 }
 

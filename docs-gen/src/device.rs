@@ -164,7 +164,7 @@ impl Source<'_> {
     fn object(&self, device: &Dictionary, object: &Object, uses: &Uses) -> ObjectView {
         let types = types_of(object).into_iter().map(|named| {
             let (kind, word, grid) = match &named.kind {
-                TypeKind::Bits(fields) => ("bits", Word::Bits, self.bits(named, fields)),
+                TypeKind::Bits(fields) => ("bits", Word::Bits, self.bits(named, fields, None)),
                 TypeKind::Enum(values) => ("values", Word::Values, self.values(named.base, values)),
             };
             let grid = anchored(grid, object, named);
@@ -188,7 +188,7 @@ impl Source<'_> {
             kind: object.kind.name(),
             origin: object.origin.word(),
             about: self.about(object),
-            warning: self.warning(object),
+            warning: self.warning(device, object),
             notes: self.notes(device, object),
             table,
             types,
@@ -280,9 +280,11 @@ impl Source<'_> {
     }
 
     /// The danger that comes from an object as a whole; the only entry of a VAR tells it in its row.
-    pub(crate) fn warning(&self, object: &Object) -> Cell {
+    pub(crate) fn warning(&self, device: &Dictionary, object: &Object) -> Cell {
         match object.kind {
-            ObjectKind::Array | ObjectKind::Record => self.text(&object.warning),
+            ObjectKind::Array | ObjectKind::Record => {
+                self.text_on(&Devices::one(&device.key), &object.warning)
+            }
             ObjectKind::Var | ObjectKind::Domain => Cell::default(),
         }
     }

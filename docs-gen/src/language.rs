@@ -75,6 +75,8 @@ words! {
     ChosenBy "chosen_by": "As chosen by {n}.", "Wie mit {n} gewählt.";
     Chooses "chooses": "Chooses the reaction to", "Wählt die Reaktion auf";
     Clamp "clamp": "Clamp", "Klemme";
+    Compare "compare":
+        "Show where the printed manual says something else", "Zeigen, wo das gedruckte Handbuch anderes sagt";
     CobId "cob_id": "COB-ID", "COB-ID";
     Command "command": "Command", "Befehl";
     CommunicationObjects "communication_objects": "Communication objects", "Kommunikationsobjekte";
@@ -132,6 +134,8 @@ words! {
     Manual "manual": "Manual", "Handbuch";
     ManufacturerObjects "manufacturer_objects": "Manufacturer-specific objects", "Herstellerspezifische Objekte";
     Map "map": "Map", "Map";
+    Mask "mask": "Mask", "Maske";
+    Mnemonic "mnemonic": "Short", "Kürzel";
     Meaning "meaning": "Meaning", "Bedeutung";
     Mem "mem": "Mem.", "Sp.";
     Description "description": "Description", "Beschreibung";
@@ -154,6 +158,9 @@ words! {
     OffFrom "off_from": "Off value from", "Ausschaltwert aus";
     OnFrom "on_from": "On value from", "Einschaltwert aus";
     OnlyThere "only_there": "Only while", "Nur solange";
+    OpenBits "open_bits":
+        "x: a bit that the command leaves open; the code has it at 0, or at 1 where that stands in brackets.",
+        "x: ein Bit, das der Befehl offenlässt; im Code ist es 0, oder 1, wo das in Klammern steht.";
     OrderCode "order_code": "Order code", "Bestellnummer";
     Parameter "parameter": "Parameter", "Parameter";
     Pattern "pattern": "Bits", "Bits";
@@ -201,6 +208,12 @@ words! {
     StorageIntro "storage_intro":
         "What is kept over power-off: the entries that each command of store parameters saves and that restore default parameters sets back, and what the device keeps by itself.",
         "Was das Ausschalten überdauert: die Einträge, die jeder Befehl zum Speichern der Parameter sichert und der zum Wiederherstellen der Vorgaben zurücksetzt, und was das Gerät von sich aus hält.";
+    StorageRestore "storage_restore":
+        "To restore the defaults, write 64616F6Ch (load) to the same sub-index of 1011h and reset the device.",
+        "Zum Wiederherstellen der Vorgaben 64616F6Ch (load) in denselben Subindex von 1011h schreiben und das Gerät zurücksetzen.";
+    StorageSave "storage_save":
+        "To save, write 65766173h (save) to the sub-index of 1010h that stands above the table.",
+        "Zum Speichern 65766173h (save) in den Subindex von 1010h schreiben, der über der Tabelle steht.";
     Stored "stored": "Stored", "Gespeichert";
     Step "step": "One step", "Ein Schritt";
     StepNumber "step_number": "Step", "Schritt";

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use od_spec::Library;
 use od_spec::model::{
     BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
-    Fact, Index, Object, Part, Storage, System, SystemSource, TableContent, Text, TypeKind,
+    Fact, Index, Object, Part, Storage, System, SystemSource, Text, TypeKind,
 };
 use od_spec::wording::Wording;
 
@@ -204,10 +204,7 @@ impl<'a> Source<'a> {
         }
         for (position, section) in self.document().sections.iter().enumerate() {
             for table in &section.tables {
-                let (TableContent::Objects(list) | TableContent::Overview(list)) = &table.content else {
-                    continue;
-                };
-                for index in list {
+                for index in table.content.objects() {
                     let places = lookup.places.entry(*index).or_default();
                     if places.last() != Some(&position) {
                         places.push(position);
@@ -257,16 +254,24 @@ impl<'a> Source<'a> {
 
     /// A text of the specification, in which each index of an object shown is a link.
     pub(crate) fn text(&self, text: &Text) -> Cell {
+        self.text_on(&Devices::All, text)
+    }
+
+    /// A text of the specification about these devices.
+    pub(crate) fn text_on(&self, devices: &Devices, text: &Text) -> Cell {
         let words = Cell::words(text, self.language);
-        let linked = words.parts().map(|part| self.linked(&Devices::All, part.text, part.language));
+        let linked = words.parts().map(|part| self.linked(devices, part.text, part.language));
         linked.fold(Cell::default(), Cell::and)
     }
 
-    /// A text in which each index of an object of these devices is a link, in another language where one is named.
+    /// A text in which each index is a link: to the object of these devices, or else to that of others. In another language where
+    /// one is named.
     pub(crate) fn linked(&self, devices: &Devices, text: &str, language: &str) -> Cell {
         let mut cell = Cell::default();
         let mut start = 0;
         for one in indices::written(text) {
+            let has_it = self.led_to(devices, one.id.index).next().is_some();
+            let devices = if has_it { devices } else { &Devices::All };
             let Some((end, anchor)) = self.named_in_text(devices, one) else { continue };
             let link = self.link_on(devices, one.id.index, text[one.start..end].to_owned(), anchor);
             cell = cell.in_language(&text[start..one.start], language).and(link.all_in_language(language));

@@ -684,7 +684,7 @@ pub struct Appendix {
     /// Heading.
     pub title: String,
     /// What it shows.
-    pub intro: String,
+    pub intro: Cell,
     /// Its tables.
     pub tables: Vec<Table>,
 }

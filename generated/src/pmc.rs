@@ -3380,7 +3380,7 @@ pub mod records {
             super::glue::get_u16(&self.0.borrow().0, 450)
         }
 
-        /// `60F9h.4` brake set time: Time from opening the brake contact to switching off the motor current, so that a hanging axis does not sag while the brake engages. 0 without a holding brake, about 50 ms with one.
+        /// `60F9h.4` brake set time: Time from opening the contact that feeds the brake to switching off the motor current, so that a hanging axis does not sag while the brake engages. 0 without a holding brake, about 50 ms with one.
         ///
         /// UNSIGNED16, rw, in ms, default 100 ms, stored with the application parameters.
         #[inline]
@@ -5051,7 +5051,7 @@ pub mod types {
     pub struct Controlword(pub u16);
 
     impl Controlword {
-        /// Bit 0, switch on: 1 lets the output stage be switched on; 1-\>0 engages the brake and switches the stage off.
+        /// Bit 0, switch on: 1 switches the output stage on and lifts the brake; 1-\>0 engages the brake and switches the stage off.
         #[inline]
         pub const fn switch_on(self) -> bool {
             self.0 & 1 != 0
@@ -5090,7 +5090,7 @@ pub mod types {
             Self(self.0 & !(1 << 2) | (value as u16) << 2)
         }
 
-        /// Bit 3, enable operation: 1 switches the output stage on and lifts the brake; 0 engages the brake and switches it off.
+        /// Bit 3, enable operation: 1 lets the axis move, 0 stops it; output stage and brake follow bit 0.
         #[inline]
         pub const fn enable_operation(self) -> bool {
             self.0 >> 3 & 1 != 0

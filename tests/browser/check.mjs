@@ -332,6 +332,28 @@ for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}
   await page.close();
 }
 
+// ---------------------------------------------------------------- errata: told when asked for
+for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}.html`)]) {
+  const page = await open(name);
+  const marks = () => page.$$eval(".mark, .errata-of, .compared", (all) => all.filter((one) => one.checkVisibility()).length);
+  const all = await page.$$eval(".mark, .errata-of, .compared", (all) => all.length);
+  if (dump.errata.length === 0) {
+    check(all === 0 && await page.$("#ui_errata") === null, `${name}: a button for errata that nobody has`);
+    await page.close();
+    continue;
+  }
+  const pressed = () => page.getAttribute("#ui_errata", "aria-pressed");
+  same([await marks(), await pressed()], [0, "false"], `${name}: errata before they are asked for`);
+  await page.click("#ui_errata");
+  same([await marks(), await pressed()], [all, "true"], `${name}: errata when asked for`);
+  await page.reload();
+  same([await marks(), await pressed()], [all, "true"], `${name}: errata after a reload`);
+  await page.click("#ui_errata");
+  same([await marks(), await pressed()], [0, "false"], `${name}: errata when not asked for any more`);
+  await page.evaluate(() => localStorage.clear());
+  await page.close();
+}
+
 // ---------------------------------------------------------------- pictures: every name is whole and inside
 const figured = (table) => table.grids.flatMap((grid) => [
   ...(grid.timing?.signals ?? []).flatMap((signal) => [signal.name, signal.place, ...signal.levels.map((level) => level.text)]),
@@ -406,6 +428,7 @@ const keepKinds = () => {
     if (kinds.size === before) card.replaceChildren(card.querySelector("h1, h2, h3, h4, h5, h6"));
   }
 };
+const areStacked = () => !document.querySelector(".stack:not(.stacked)");
 let spent = 0;
 for (const name of names) {
   const page = await open(name);
@@ -424,6 +447,7 @@ for (const name of names) {
     if (where === "kinds") await page.evaluate(keepKinds);
     for (const [width, colorScheme, options] of list) {
       await page.setViewportSize({ width, height: 900 });
+      if (width < 600) await page.waitForFunction(areStacked);
       await page.emulateMedia({ colorScheme });
       const { violations, passes } = await page.evaluate((given) => axe.run(document, { ...given, resultTypes: ["violations"] }), options);
       const looked = passes.map((one) => one.id);
@@ -457,6 +481,7 @@ for (const name of names) {
   // On a phone the cells of a row stand below one another, each behind the title of its column, and only pictures are scrolled.
   const phone = await open(name);
   await phone.setViewportSize({ width: 390, height: 800 });
+  await phone.waitForFunction(areStacked);
   await phone.addStyleTag({ content: "* { content-visibility: visible !important }" });
   const { unnamed, unsaid, narrow, sideways } = await phone.evaluate(() => {
     const place = (one) => `${one.closest("[id]")?.id} ${one.textContent.slice(0, 40)}`;
@@ -506,7 +531,12 @@ for (const name of names) {
     return width > 0 && (right > innerWidth + 1 || left < -1 || one.scrollWidth > one.clientWidth + 1);
   }).map((one) => `${one.closest("[id]")?.id}: ${Math.round(one.getBoundingClientRect().right)}`));
   same(wide, [], `${name}: tables wider than the paper`);
-  const cells = await paper.$$eval("td:not(.tool)", (all) => all.map((one) => one.textContent));
+  // The marks of errata are put away there.
+  const cells = await paper.$$eval("td:not(.tool)", (all) => all.map((one) => {
+    const copy = one.cloneNode(true);
+    for (const mark of copy.querySelectorAll(".mark")) mark.remove();
+    return copy.textContent;
+  }));
   await paper.close();
 
   // The documented command, and what a reader of PDF files finds in its file.

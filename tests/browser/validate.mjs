@@ -8,9 +8,6 @@ import { HtmlValidate } from "html-validate";
 const validator = new HtmlValidate({
   extends: ["html-validate:recommended"],
   rules: {
-    // The role of a table's parts is that of their elements, and is stated all the same: on a phone they are laid out as blocks, and then some screen readers
-    // forget it.
-    "no-redundant-role": "off",
     // An object's address is its index: `#6040`. HTML allows any id without a space; CSS would have to escape it, and no style names one.
     "valid-id": ["error", { relaxed: true }],
     // A page is called as its maker calls the device, however long that is.

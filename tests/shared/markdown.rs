@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// Columns that a table may lack.
-const OPTIONAL: [&str; 13] = [
+const OPTIONAL: [&str; 14] = [
     "Active",
     "Clamp",
     "Code",
@@ -14,6 +14,7 @@ const OPTIONAL: [&str; 13] = [
     "Meaning",
     "Prio.",
     "Range",
+    "Short",
     "Stored",
     "Supported",
     "Transition",

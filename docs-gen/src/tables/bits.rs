@@ -13,8 +13,9 @@ use crate::source::Source;
 use crate::view::{BitBox, BitPicture, BitPictureRow, Cell, Grid, Row};
 
 impl Source<'_> {
-    /// The bits of a type. Where several entries share it and report different error codes, the codes name their entry.
-    pub(crate) fn bits(&self, named: &NamedType, fields: &[BitField]) -> Grid {
+    /// The bits of a type, with the masks of so many bits where they are wanted. Where several entries share the type and report
+    /// different error codes, the codes name their entry.
+    pub(crate) fn bits(&self, named: &NamedType, fields: &[BitField], masks: Option<u8>) -> Grid {
         let rows = fields
             .iter()
             .map(|field| {
@@ -37,6 +38,8 @@ impl Source<'_> {
                 };
                 Row::of(vec![
                     Cell::plain(bits),
+                    masks.map_or_else(Cell::default, |width| self.mask(field, width)),
+                    field.mnemonic.as_ref().map_or_else(Cell::default, Cell::plain),
                     Cell::plain(name),
                     self.meaning(field),
                     Cell::plain(active),
@@ -48,6 +51,8 @@ impl Source<'_> {
             .collect();
         let grid = Columns::new()
             .right(self, "bit", Word::Bit)
+            .left(self, "mask", Word::Mask)
+            .left(self, "mnemonic", Word::Mnemonic)
             .left(self, "name", Word::Name)
             .left(self, "meaning", Word::Meaning)
             .center(self, "active", Word::Active)
@@ -56,6 +61,18 @@ impl Source<'_> {
             .left(self, "error_codes", Word::AlarmCode)
             .grid(rows, &["bit", "name"]);
         Grid { bits: Some(picture(named, fields)), ..grid }
+    }
+
+    /// The mask of a bit or run of bits; a run without a meaning needs none, and what a mask is too narrow for has none.
+    fn mask(&self, field: &BitField, width: u8) -> Cell {
+        if field.last >= width {
+            return Cell::plain("-");
+        }
+        if field.usage != BitUsage::Used && field.first != field.last {
+            return Cell::default();
+        }
+        let mask = (1u128 << (field.last + 1)) - (1 << field.first);
+        Cell::plain(self.wording.hexadecimal(mask, usize::from(width.div_ceil(4))))
     }
 
     fn meaning(&self, field: &BitField) -> Cell {

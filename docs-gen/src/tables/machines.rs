@@ -1,6 +1,6 @@
 //! States, transitions and commands of a state machine.
 
-use od_spec::model::{BitPattern, Dictionary, Entry, EntryId, PatternBit, StateMachine, TypeKind};
+use od_spec::model::{BitPattern, Command, Dictionary, Entry, EntryId, PatternBit, StateMachine, TypeKind};
 
 use super::Columns;
 use super::machine_picture::picture;
@@ -33,6 +33,26 @@ const fn level(bit: PatternBit) -> &'static str {
         PatternBit::Rising => "0→1",
         PatternBit::Falling => "1→0",
     }
+}
+
+/// What a command wants of a bit.
+fn bit_of(pattern: &BitPattern, bit: usize) -> PatternBit {
+    let at = pattern.0.len().checked_sub(bit + 1);
+    at.and_then(|at| pattern.0.get(at).copied()).unwrap_or(PatternBit::Any)
+}
+
+/// The bits that any command looks at, the highest first.
+fn bits_of_commands(machine: &StateMachine) -> Vec<usize> {
+    let width = machine.commands.iter().map(|command| command.pattern.0.len()).max().unwrap_or(0);
+    let is_looked_at = |bit: &usize| {
+        machine.commands.iter().any(|command| bit_of(&command.pattern, *bit) != PatternBit::Any)
+    };
+    (0..width).rev().filter(is_looked_at).collect()
+}
+
+/// Whether the code of a command has a bit at 1 that the command leaves open.
+fn sends_open(command: &Command, bit: usize) -> bool {
+    bit_of(&command.pattern, bit) == PatternBit::Any && command.send.is_some_and(|code| code >> bit & 1 == 1)
 }
 
 impl Source<'_> {
@@ -82,19 +102,17 @@ impl Source<'_> {
             .grid(rows, &["transition", "from", "to", "event", "action"])
     }
 
+    /// What the levels of open bits are, where a code has one at 1.
+    pub(crate) fn about_commands(&self, machine: &StateMachine) -> Cell {
+        let bits = bits_of_commands(machine);
+        let sends_open = |command: &Command| bits.iter().any(|bit| sends_open(command, *bit));
+        let needs_it = machine.commands.iter().any(sends_open);
+        if needs_it { Cell::plain(self.word(Word::OpenBits)) } else { Cell::default() }
+    }
+
     /// One row per command, with a column for every bit that any command looks at.
     pub(crate) fn commands(&self, machine: &StateMachine) -> Grid {
-        let width = machine.commands.iter().map(|command| command.pattern.0.len()).max().unwrap_or(0);
-        let bit_of = |pattern: &BitPattern, bit: usize| {
-            let length = pattern.0.len();
-            length.checked_sub(bit + 1).and_then(|at| pattern.0.get(at).copied()).unwrap_or(PatternBit::Any)
-        };
-        let bits: Vec<usize> = (0..width)
-            .rev()
-            .filter(|bit| {
-                machine.commands.iter().any(|command| bit_of(&command.pattern, *bit) != PatternBit::Any)
-            })
-            .collect();
+        let bits = bits_of_commands(machine);
         let mut columns = Columns::new().left(self, "command", Word::Command);
         for bit in &bits {
             let name = self.bit_name(machine, *bit).unwrap_or_default();
@@ -114,7 +132,10 @@ impl Source<'_> {
             .iter()
             .map(|command| {
                 let mut cells = vec![Cell::plain(&command.name)];
-                cells.extend(bits.iter().map(|bit| Cell::plain(level(bit_of(&command.pattern, *bit)))));
+                cells.extend(bits.iter().map(|bit| {
+                    let sent = if sends_open(command, *bit) { " (1)" } else { "" };
+                    Cell::plain(format!("{}{sent}", level(bit_of(&command.pattern, *bit))))
+                }));
                 let send = command.send.zip(data_type);
                 cells.push(send.map_or_else(Cell::default, |(value, data_type)| {
                     Cell::plain(self.wording.pattern(data_type, i128::from(value)))

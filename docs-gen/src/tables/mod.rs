@@ -14,7 +14,9 @@ mod timing_picture;
 mod timings;
 pub(crate) mod variants;
 
-use od_spec::model::{Constraint, Dictionary, Index, TableContent, TableId, TypeKind};
+use od_spec::model::{
+    BitTable, Constraint, Dictionary, Index, LadderTable, NamedType, TableContent, TableId, TypeKind,
+};
 
 use crate::language::Word;
 use crate::outline::{kind_of, table_anchor};
@@ -115,25 +117,33 @@ impl Source<'_> {
         let grids = match &table.content {
             TableContent::Overview(list) => vec![self.overview(list)],
             TableContent::Objects(list) => self.details(list, |index| self.first_detail(id, index)),
-            TableContent::Bits(name) | TableContent::Values(name) => {
-                let named = self.system.types.get(name).filter(|_| self.shows_type(name))?;
+            TableContent::Bits(BitTable { named_type, masks }) => {
+                let named = self.shown_type(named_type)?;
                 about = self.text(&named.about);
-                match &named.kind {
-                    TypeKind::Bits(fields) => vec![self.bits(named, fields)],
-                    TypeKind::Enum(values) => vec![self.values(named.base, values)],
-                }
+                let TypeKind::Bits(fields) = &named.kind else { return None };
+                vec![self.bits(named, fields, *masks)]
+            }
+            TableContent::Values(name) => {
+                let named = self.shown_type(name)?;
+                about = self.text(&named.about);
+                let TypeKind::Enum(values) = &named.kind else { return None };
+                vec![self.values(named.base, values)]
             }
             TableContent::Errors(codes) => vec![self.errors(codes)],
             TableContent::Reactions(codes) => vec![self.reactions(codes)],
             TableContent::States(name) => vec![self.states(self.machine(name)?)],
             TableContent::Transitions(name) => vec![self.transitions(self.machine(name)?)],
-            TableContent::Commands(name) => vec![self.commands(self.machine(name)?)],
-            TableContent::Ladder(name) => {
+            TableContent::Commands(name) => {
+                let machine = self.machine(name)?;
+                about = self.about_commands(machine);
+                vec![self.commands(machine)]
+            }
+            TableContent::Ladder(LadderTable { constraint: name, labels }) => {
                 let constraint =
                     self.system.constraints.iter().find(|constraint| &constraint.name == name)?;
                 ladder = self.ladder(constraint);
                 about = self.text(&constraint.about);
-                vec![self.ladder_rows(constraint)]
+                vec![self.ladder_rows(constraint, labels)]
             }
             TableContent::Hysteresis(switches) => vec![self.hysteresis(switches)?],
             TableContent::Timing(timing) => vec![self.timing(timing)?],
@@ -159,6 +169,11 @@ impl Source<'_> {
             ladder,
             errata: self.errata_of_table(id),
         })
+    }
+
+    /// A named type that a device shown has.
+    fn shown_type(&self, name: &str) -> Option<&NamedType> {
+        self.system.types.get(name).filter(|_| self.shows_type(name)).map(|named| &**named)
     }
 
     /// Whether a device shown has an entry of the type, or no device at all.

@@ -44,8 +44,8 @@ impl Source<'_> {
                         anchor: if anchors { object_anchor(*index) } else { String::new() },
                         name: object.name.clone(),
                         kind: object.kind.name(),
-                        about: self.text(&object.about),
-                        warning: self.warning(object),
+                        about: self.text_on(&Devices::one(&device.key), &object.about),
+                        warning: self.warning(device, object),
                         device: label,
                     };
                     grids.push(Grid { object: Some(head), ..self.entry_columns(object).grid(rows, ALWAYS) });
@@ -143,10 +143,11 @@ impl Source<'_> {
 
     /// Meaning of an entry and what else is to be known about it.
     fn description(&self, device: &Dictionary, object: &Object, entry: &Entry) -> Cell {
-        let mut cell = self.text(&entry.about);
+        let of_device = Devices::one(&device.key);
+        let mut cell = self.text_on(&of_device, &entry.about);
         if !entry.warning.is_empty() {
             let label = format!("{}:", self.word(Word::Warning));
-            cell = cell.line().strong(label).text(" ").and(self.text(&entry.warning));
+            cell = cell.line().strong(label).text(" ").and(self.text_on(&of_device, &entry.warning));
         }
         if let (Some(TypeKind::Bits(fields)), Some(Value::Integer(raw))) =
             (entry.named_type.as_ref().map(|named| &named.kind), &entry.default)
@@ -157,7 +158,7 @@ impl Source<'_> {
         for special in &entry.special {
             cell = cell.line().text(self.wording.special(entry, special));
             if !special.about.is_empty() {
-                cell = cell.text("; ").and(self.text(&special.about));
+                cell = cell.text("; ").and(self.text_on(&of_device, &special.about));
             }
         }
         if let Some(alias) = &entry.alias {
@@ -171,9 +172,8 @@ impl Source<'_> {
             cell = cell.line().text(self.word(Word::Capacity).replace("{n}", &capacity.to_string()));
         }
         if let Some(condition) = &entry.writable_when {
-            let device = Devices::one(&device.key);
             cell = cell.line().text(format!("{}: ", self.word(Word::WritableWhen)));
-            cell = cell.and(self.condition(condition, &device)).text(".");
+            cell = cell.and(self.condition(condition, &of_device)).text(".");
         }
         if let Some(since) = entry.since.as_ref().filter(|since| object.since.as_ref() != Some(*since)) {
             cell = cell.line().text(format!("{} {since}.", self.word(Word::Since)));

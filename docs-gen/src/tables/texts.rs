@@ -49,9 +49,9 @@ impl Source<'_> {
             .full(rows.collect())
     }
 
-    /// The entries of an ordering constraint, from the lowest to the highest, with their defaults.
-    pub(crate) fn ladder_rows(&self, constraint: &Constraint) -> Grid {
-        let mut rows = Vec::new();
+    /// The entries of an ordering constraint, from the lowest to the highest, with their defaults and what they are called there.
+    pub(crate) fn ladder_rows(&self, constraint: &Constraint, labels: &[Text]) -> Grid {
+        let (mut rows, mut labels) = (Vec::new(), labels.iter());
         let alternatives = constraint.require.alternatives.iter().enumerate();
         let comparisons = alternatives.flat_map(|(alternative, all)| {
             all.iter().enumerate().map(move |(at, comparison)| (alternative > 0 && at == 0, comparison))
@@ -59,12 +59,13 @@ impl Source<'_> {
         for (is_alternative, comparison) in comparisons {
             if is_alternative {
                 let mut cells = vec![Cell::plain(self.word(Word::Or))];
-                cells.extend(vec![Cell::default(); 4]);
+                cells.extend(vec![Cell::default(); 5]);
                 rows.push(Row::of(cells));
             }
             for (relation, term) in steps(comparison) {
                 let mut cells = vec![Cell::plain(relation)];
                 if let Term::Entry(entry) = term {
+                    cells.push(labels.next().map_or_else(Cell::default, |label| self.text(label)));
                     let devices = self.devices_of(constraint, entry);
                     let name = devices.first().and_then(|device| device.entry_name(entry.id));
                     cells.push(Cell::plain(self.defaults(&devices, entry.id)));
@@ -80,6 +81,7 @@ impl Source<'_> {
                     cells.push(Cell::plain(if several { device_keys(&devices) } else { String::new() }));
                 } else {
                     let symbol = self.symbol_of(constraint, comparison);
+                    cells.push(Cell::default());
                     cells.push(self.term(term, &constraint.devices, &symbol));
                     cells.extend(vec![Cell::default(); 3]);
                 }
@@ -88,6 +90,7 @@ impl Source<'_> {
         }
         Columns::new()
             .center(self, "relation", Word::Relation)
+            .left(self, "meaning", Word::Meaning)
             .right(self, "default", Word::Default)
             .left(self, "name", Word::Name)
             .left(self, "object", Word::Object)

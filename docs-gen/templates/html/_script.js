@@ -16,6 +16,23 @@
     remember(root.dataset.theme);
   });
 
+  // Where the printed manual says something else is told only when asked for, and to whoever searches. Without the script it is told.
+  const compare = byId("ui_errata");
+  const showErrata = (shown) => {
+    root.classList.toggle("unmarked", !shown);
+    compare.setAttribute("aria-pressed", shown);
+  };
+  if (compare) {
+    let shown = false;
+    try { shown = localStorage.getItem("od-errata") === "shown"; } catch { /* the same */ }
+    showErrata(shown);
+    compare.addEventListener("click", () => {
+      const shows = root.classList.contains("unmarked");
+      showErrata(shows);
+      try { localStorage.setItem("od-errata", shows ? "shown" : "hidden"); } catch { /* the same */ }
+    });
+  }
+
   // What is linked to stops below the bar, which is as high as its lines.
   const bar = document.querySelector(".bar");
   const measure = () => root.style.setProperty("--bar", `${bar.offsetHeight}px`);
@@ -558,6 +575,35 @@
     // A link to where one is already changes no address.
     if (!elsewhere && link) setTimeout(reveal);
   });
+  // ---- On a phone the cells of a row stand below one another, each behind the title of its column. What is no table to a browser's layout any more is
+  // none to some screen readers, so that it says what it is. At other widths nobody needs that, and it would make a page half as large again.
+  const phone = matchMedia("(max-width: 37.5rem)"), PIECE = 50;
+  const notStacked = [...document.querySelectorAll(".stack")].reverse();
+  const stack = (table) => {
+    table.setAttribute("role", "table");
+    const titles = [...table.tHead.rows[0].cells].map((title) => title.textContent);
+    for (const part of [table.tHead, ...table.tBodies]) part.setAttribute("role", "rowgroup");
+    for (const row of table.rows) {
+      row.setAttribute("role", "row");
+      for (const [at, cell] of [...row.cells].entries()) {
+        cell.setAttribute("role", cell.localName === "th" ? "columnheader" : "cell");
+        if (cell.parentNode.parentNode !== table.tHead) cell.dataset.label = titles[at];
+      }
+    }
+    table.classList.add("stacked");
+  };
+  let isStacking = false;
+  const stackTables = () => {
+    const end = performance.now() + PIECE;
+    while (phone.matches && notStacked.length > 0 && performance.now() < end) stack(notStacked.pop());
+    const goesOn = phone.matches && notStacked.length > 0;
+    if (goesOn !== isStacking) working += goesOn ? 1 : -1;
+    isStacking = goesOn;
+    if (goesOn) setTimeout(stackTables);
+  };
+  phone.addEventListener("change", () => { if (!isStacking) stackTables(); });
+  stackTables();
+
   if (location.search) fromAddress();
   reveal();
   markSoon();

@@ -290,6 +290,14 @@ impl Members<'_> {
             ),
             (
                 Fact::Meaning,
+                " mnemonic",
+                before.mnemonic.clone(),
+                after.mnemonic.clone(),
+                Class::Documents,
+                "a name in documents only",
+            ),
+            (
+                Fact::Meaning,
                 " clamp",
                 before.clamp.clone(),
                 after.clamp.clone(),

@@ -97,14 +97,21 @@ fn table<'a>(system: &System, table: &'a Table) -> TableView<'a> {
     let content = match &table.content {
         TableContent::Overview(list) => json!({"overview": indices(list)}),
         TableContent::Objects(list) => json!({"objects": indices(list)}),
-        TableContent::Bits(name) => json!({"bits": name}),
+        TableContent::Bits(table) => match table.masks {
+            Some(masks) => json!({"bits": {"type": table.named_type, "masks": masks}}),
+            None => json!({"bits": table.named_type}),
+        },
         TableContent::Values(name) => json!({"values": name}),
         TableContent::Errors(list) => json!({"errors": codes(list)}),
         TableContent::Reactions(list) => json!({"reactions": codes(list)}),
         TableContent::States(name) => json!({"states": name}),
         TableContent::Transitions(name) => json!({"transitions": name}),
         TableContent::Commands(name) => json!({"commands": name}),
-        TableContent::Ladder(name) => json!({"ladder": name}),
+        TableContent::Ladder(table) if table.labels.is_empty() => json!({"ladder": table.constraint}),
+        TableContent::Ladder(table) => {
+            let labels: Vec<_> = table.labels.iter().map(words).collect();
+            json!({"ladder": {"constraint": table.constraint, "labels": labels}})
+        }
         TableContent::Hysteresis(switches) => {
             json!({"hysteresis": switches.iter().map(switch).collect::<Vec<_>>()})
         }

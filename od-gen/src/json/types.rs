@@ -63,6 +63,8 @@ struct BitView<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    mnemonic: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     clamp: Option<&'a str>,
     active: u8,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -104,6 +106,7 @@ fn bit_view(field: &BitField) -> BitView<'_> {
         name: &field.name,
         about: words(&field.about),
         errors: field.error_codes().map(|code| hexadecimal::prefixed(code, 4)).collect(),
+        mnemonic: field.mnemonic.as_deref(),
         clamp: field.clamp.as_deref(),
         active: field.active,
         edge: field.edge.map(model::Edge::word),

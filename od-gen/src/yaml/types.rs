@@ -86,10 +86,11 @@ fn bit_fields(context: &Context<'_>, fields: &[BitField]) -> Vec<Item> {
 
 /// Whether nothing is said about bits but what they are for.
 fn is_bare(field: &BitField) -> bool {
-    let BitField { name, about, errors, clamp, active, edge, priority, values, modes, .. } = field;
+    let BitField { name, about, errors, mnemonic, clamp, active, edge, priority, values, modes, .. } = field;
     name.is_empty()
         && about.is_empty()
         && errors.is_empty()
+        && mnemonic.is_none()
         && clamp.is_none()
         && *active == 1
         && edge.is_none()
@@ -113,6 +114,7 @@ fn bit_field(context: &Context<'_>, field: &BitField) -> Item {
     if !codes.is_empty() {
         more.push(Item::new("error", one_or_more(codes)));
     }
+    more.extend(field.mnemonic.clone().map(|mnemonic| Item::new("mnemonic", Node::Text(mnemonic))));
     more.extend(field.clamp.clone().map(|clamp| Item::new("clamp", Node::Text(clamp))));
     if field.active != 1 {
         more.push(Item::new("active", Node::plain(field.active)));

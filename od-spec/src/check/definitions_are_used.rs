@@ -64,7 +64,8 @@ fn used(system: &System) -> Used<'_> {
     }
     for (.., table) in system.document.tables() {
         match &table.content {
-            TableContent::Bits(name) | TableContent::Values(name) => drop(used.types.insert(name)),
+            TableContent::Bits(table) => drop(used.types.insert(&table.named_type)),
+            TableContent::Values(name) => drop(used.types.insert(name)),
             TableContent::Timing(timing) => {
                 used.types.extend(timing.signals.iter().filter_map(|signal| match &signal.carrier {
                     SignalCarrier::Bits { named_type, .. } => Some(named_type.as_str()),

@@ -79,14 +79,21 @@ fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
             "formula" => ContentDecl::Prose(ProseKind::Formula, lines()),
             "overview" => ContentDecl::Overview(r.indices(key_name)),
             "objects" => ContentDecl::Objects(r.indices(key_name)),
-            "bits" => ContentDecl::Bits(name()?),
+            "bits" => ContentDecl::Bits { named_type: value.short("type"), masks: value.integer("masks") },
             "values" => ContentDecl::Values(name()?),
             "errors" => ContentDecl::Errors(r.texts(key_name)),
             "reactions" => ContentDecl::Reactions(r.texts(key_name)),
             "states" => ContentDecl::States(name()?),
             "transitions" => ContentDecl::Transitions(name()?),
             "commands" => ContentDecl::Commands(name()?),
-            "ladder" => ContentDecl::Ladder(name()?),
+            "ladder" => ContentDecl::Ladder {
+                constraint: value.short("constraint"),
+                labels: value.child("labels").map(|labels| {
+                    let texts = labels.node.items().iter();
+                    let texts = texts.map(|node| labels.at(node).translated().unwrap_or_default());
+                    Spanned::new(texts.collect(), labels.node.span)
+                }),
+            },
             "timing" => ContentDecl::Timing(timing(value, diagnostics)),
             "hysteresis" => ContentDecl::Hysteresis(Field::read(r, key_name, diagnostics)),
             "pdos" => ContentDecl::Pdos {

@@ -76,6 +76,7 @@ fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Opti
         name: if r.node.text().is_some() && usage != BitUsage::Used { None } else { name },
         about: r.words("about"),
         errors: r.items("error").filter_map(|item| item.scalar(lexical::error_code)).collect(),
+        mnemonic: r.text("mnemonic"),
         clamp: r.text("clamp"),
         active: r.integer("active"),
         edge: r.value("edge", edge).map(|edge| edge.value),

@@ -46,20 +46,36 @@ keys! {
         "title": Shape::Words, "caption of a table";
         "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
         "objects": INDICES, "the objects' entries in detail";
-        "bits": Shape::Text, "bits of a named type";
+        "bits": Shape::ShortOr(&Shape::Text, &TABLE_BITS), "bits of a named type", "{type: PMM digital inputs, masks: 16}";
         "values": Shape::Text, "values of a named type";
         "errors": Shape::OneOrMore(&Shape::Text), "error codes, or `all`", "[0x2210, 0x3281..0x3288]";
         "reactions": Shape::OneOrMore(&Shape::Text), "error codes with the device's reactions, or `all`";
         "states": Shape::Text, "states of a state machine";
         "transitions": Shape::Text, "transitions of a state machine";
         "commands": Shape::Text, "commands of a state machine";
-        "ladder": Shape::Text, "entries of an ordering constraint with their defaults";
+        "ladder": Shape::ShortOr(&Shape::Text, &TABLE_LADDER), "entries of an ordering constraint with their defaults";
         "timing": Shape::Map(&TIMING), "a sequence of events, drawn as levels of signals";
         "hysteresis": Shape::OneOrMore(&Shape::Map(&SWITCH)), "what goes on beyond a threshold and off behind it, drawn with the values of the defaults";
         "pdos": Shape::Map(&TABLE_PDOS), "default PDOs of a device", "{device: pmc, direction: receive}";
         "rows": Shape::Map(&TABLE_ROWS), "rows of text", "{columns: [Index, Use], rows: [[0000h, not used]]}";
         "glossary": Shape::YesNo, "abbreviations";
         "history": Shape::YesNo, "issues of the manual";
+    }
+}
+
+keys! {
+    /// `bits:` of a table.
+    TABLE_BITS = "a bit table" {
+        "type" required: Shape::Text, "name of the bit field type";
+        "masks": Shape::Integer(1, 64), "shows the mask of each bit, too: its width in bits; bits beyond it have none";
+    }
+}
+
+keys! {
+    /// `ladder:` of a table.
+    TABLE_LADDER = "a ladder" {
+        "constraint" required: Shape::Text, "name of the constraint";
+        "labels": Shape::List(&Shape::Words), "what each of its entries is called there, in the constraint's order", "[lowest voltage, highest voltage]";
     }
 }
 

@@ -48,6 +48,7 @@ keys! {
         "name": Shape::Text, "name; needed unless the bit is `reserved`, `unused` or has `modes`";
         "about": Shape::Words, "meaning";
         "error": Shape::OneOrMore(&Shape::ErrorCode), "error codes that come with the bit", "0x2250";
+        "mnemonic": Shape::Text, "short name, as the manual has it in register pictures and tables of commands", "rtso";
         "clamp": Shape::Text, "terminal at which the signal is found", "X13.10";
         "active": Shape::Integer(0, 1), "level that means \"active\"; 1 unless given";
         "edge": Shape::Choice(&["rising", "falling", "both"]), "change that triggers the function";

@@ -137,7 +137,7 @@ pub enum TableContent {
     /// The objects' entries in detail.
     Objects(Vec<Index>),
     /// Bits of a named type.
-    Bits(String),
+    Bits(BitTable),
     /// Values of a named type.
     Values(String),
     /// Error codes.
@@ -151,7 +151,7 @@ pub enum TableContent {
     /// Commands of a state machine.
     Commands(String),
     /// The entries of an ordering constraint with their defaults.
-    Ladder(String),
+    Ladder(LadderTable),
     /// A sequence of events, step by step.
     Timing(Timing),
     /// Switches with a hysteresis, and the values at which they go on and off.
@@ -169,6 +169,48 @@ pub enum TableContent {
     Glossary,
     /// Issues of the manual.
     History,
+}
+
+impl TableContent {
+    /// The objects that its rows are about, as listed.
+    #[must_use]
+    pub fn objects(&self) -> &[Index] {
+        match self {
+            Self::Overview(objects) | Self::Objects(objects) => objects,
+            Self::Bits(_)
+            | Self::Values(_)
+            | Self::Errors(_)
+            | Self::Reactions(_)
+            | Self::States(_)
+            | Self::Transitions(_)
+            | Self::Commands(_)
+            | Self::Ladder(_)
+            | Self::Timing(_)
+            | Self::Hysteresis(_)
+            | Self::Pdos(_)
+            | Self::Rows { .. }
+            | Self::Glossary
+            | Self::History => &[],
+        }
+    }
+}
+
+/// The bits of a named type.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BitTable {
+    /// Name of the bit field type.
+    pub named_type: String,
+    /// Where the masks of the bits are shown, too: width of a mask, 1 to 64 bits. Bits beyond it have none.
+    pub masks: Option<u8>,
+}
+
+/// The entries of an ordering constraint.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LadderTable {
+    /// Name of the constraint.
+    pub constraint: String,
+    /// What each entry is called there, in the order of the constraint; empty where the names of the entries are enough.
+    pub labels: Vec<Text>,
 }
 
 /// The default PDOs of one device and direction.

@@ -36,8 +36,8 @@ pub use condition::{
 };
 pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
-    Content, Document, Erratum, ErratumKind, ErratumPlace, Issue, PdoTable, Prose, ProseKind, Section, Table,
-    TableContent, TableId,
+    BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Issue, LadderTable, PdoTable, Prose,
+    ProseKind, Section, Table, TableContent, TableId,
 };
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;

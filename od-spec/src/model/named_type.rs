@@ -109,6 +109,8 @@ pub struct BitField {
     pub about: Text,
     /// Error codes that the device reports with this bit.
     pub errors: Vec<Spanned<u16>>,
+    /// Short name, as register pictures and tables of commands have it.
+    pub mnemonic: Option<String>,
     /// Terminal at which the signal is found.
     pub clamp: Option<String>,
     /// The level that means "active"; 1 unless stated.

@@ -14,8 +14,8 @@ use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits;
 use crate::model::{
-    Content, Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, PdoTable, Prose, Section,
-    System, Table, TableContent,
+    BitTable, Content, Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, LadderTable,
+    PdoTable, Prose, Section, System, Table, TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -78,14 +78,20 @@ fn table(
         ContentDecl::Prose(..) => return None,
         ContentDecl::Overview(list) => TableContent::Overview(indices(list)),
         ContentDecl::Objects(list) => TableContent::Objects(indices(list)),
-        ContentDecl::Bits(name) => TableContent::Bits(name.value.clone()),
+        ContentDecl::Bits { named_type, masks } => TableContent::Bits(BitTable {
+            named_type: named_type.as_ref()?.value.clone(),
+            masks: masks.as_ref().and_then(|masks| u8::try_from(masks.value).ok()),
+        }),
         ContentDecl::Values(name) => TableContent::Values(name.value.clone()),
         ContentDecl::Errors(list) => TableContent::Errors(error_codes(list)),
         ContentDecl::Reactions(list) => TableContent::Reactions(error_codes(list)),
         ContentDecl::States(name) => TableContent::States(name.value.clone()),
         ContentDecl::Transitions(name) => TableContent::Transitions(name.value.clone()),
         ContentDecl::Commands(name) => TableContent::Commands(name.value.clone()),
-        ContentDecl::Ladder(name) => TableContent::Ladder(name.value.clone()),
+        ContentDecl::Ladder { constraint, labels } => TableContent::Ladder(LadderTable {
+            constraint: constraint.as_ref()?.value.clone(),
+            labels: labels.as_ref().map_or_else(Vec::new, |labels| labels.value.clone()),
+        }),
         ContentDecl::Timing(decl) => TableContent::Timing(figures.timing(decl, diagnostics)?),
         ContentDecl::Hysteresis(decls) => TableContent::Hysteresis(figures.switches(decls, diagnostics)?),
         ContentDecl::Pdos { device, direction } => {

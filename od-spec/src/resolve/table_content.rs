@@ -68,12 +68,17 @@ impl<'a> Contents<'a> {
     pub(super) fn check(&self, content: &ContentDecl, diagnostics: &mut Diagnostics) {
         match content {
             ContentDecl::Overview(list) | ContentDecl::Objects(list) => self.objects(list, diagnostics),
-            ContentDecl::Bits(name) => self.bit_fields.check(name, diagnostics),
+            ContentDecl::Bits { named_type: Some(name), .. } => self.bit_fields.check(name, diagnostics),
             ContentDecl::Values(name) => self.enums.check(name, diagnostics),
             ContentDecl::States(name) | ContentDecl::Transitions(name) | ContentDecl::Commands(name) => {
                 self.machines.check(name, diagnostics);
             }
-            ContentDecl::Ladder(name) => self.constraints.check(name, diagnostics),
+            ContentDecl::Ladder { constraint: Some(name), labels } => {
+                self.constraints.check(name, diagnostics);
+                if let Some(labels) = labels {
+                    self.labels(name, labels, diagnostics);
+                }
+            }
             ContentDecl::Pdos { device: Some(name), .. } => self.devices.check(name, diagnostics),
             ContentDecl::Errors(list) | ContentDecl::Reactions(list) => self.errors(list, diagnostics),
             ContentDecl::Rows { columns, rows } => check_rows(columns, rows, diagnostics),
@@ -81,9 +86,29 @@ impl<'a> Contents<'a> {
             ContentDecl::Timing(_)
             | ContentDecl::Hysteresis(_)
             | ContentDecl::Prose(..)
+            | ContentDecl::Bits { named_type: None, .. }
+            | ContentDecl::Ladder { constraint: None, .. }
             | ContentDecl::Pdos { device: None, .. }
             | ContentDecl::Glossary
             | ContentDecl::History => {}
+        }
+    }
+
+    /// Each entry of a ladder has a label.
+    fn labels(&self, name: &Name, labels: &Spanned<Vec<Text>>, diagnostics: &mut Diagnostics) {
+        let Some(constraint) = self.system.constraints.iter().find(|one| one.name == name.value) else {
+            return;
+        };
+        let (entries, written) = (constraint.require.entries().len(), labels.value.len());
+        if entries != written {
+            let message = format!(
+                "these are {written} labels, the constraint `{}` has {entries} entries",
+                shorten(&name.value)
+            );
+            diagnostics.push(
+                Diagnostic::new(rule_codes::COUNT_MISMATCH, labels.span, message)
+                    .help("write one label per entry, in the order of `require:`"),
+            );
         }
     }
 

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use od_spec::model::{
-    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index, Level,
-    ModeMeaning, NamedType, Object, PatternBit, PdoMapping, PdoTarget, Ratio, SignalCarrier, StateMachine,
-    Storage, SubIndex, Switch, SwitchBack, SwitchSide, System, TableContent, Timing, TypeKind, Unit, Value,
+    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index,
+    LadderTable, Level, ModeMeaning, NamedType, Object, PatternBit, PdoMapping, PdoTarget, Ratio,
+    SignalCarrier, StateMachine, Storage, SubIndex, Switch, SwitchBack, SwitchSide, System, TableContent,
+    Timing, TypeKind, Unit, Value,
 };
 use od_tests::compile_clean;
 
@@ -212,7 +213,7 @@ fn entry_id(cell: &str) -> EntryId {
     EntryId { index: index(object), sub: SubIndex(sub.parse().unwrap()) }
 }
 
-fn check_bits(table: &Table, kind: &TypeKind) {
+fn check_bits(table: &Table, kind: &TypeKind, masks: Option<u8>) {
     let TypeKind::Bits(fields) = kind else { panic!("bits") };
     assert_eq!(table.rows.len(), fields.len());
     for (row, field) in table.rows.iter().zip(fields) {
@@ -222,12 +223,24 @@ fn check_bits(table: &Table, kind: &TypeKind) {
             format!("{}..{}", field.first, field.last)
         };
         assert_eq!(table.cell(row, "Bit"), bits);
+        if let Some(width) = masks {
+            let digits = usize::from(width) / 4;
+            let mask: u128 = (field.first..=field.last).map(|bit| 1 << bit).sum();
+            let has_meaning = field.usage == BitUsage::Used || field.first == field.last;
+            let expected = match (field.last < width, has_meaning) {
+                (true, true) => format!("{mask:0digits$X}h"),
+                (true, false) => String::new(),
+                (false, _) => "-".to_owned(),
+            };
+            assert_eq!(table.cell(row, "Mask"), expected, "{bits}");
+        }
         let name = match field.usage {
             BitUsage::Used => field.name.as_str(),
             BitUsage::Reserved => "reserved",
             BitUsage::Unused => "free",
         };
         assert_eq!(table.cell(row, "Name"), name);
+        assert_eq!(table.cell(row, "Short"), field.mnemonic.as_deref().unwrap_or_default(), "{name}");
         let meaning = table.cell(row, "Meaning");
         assert!(meaning.starts_with(&flat(field.about.get("en").unwrap_or_default())), "{meaning}");
         for value in &field.values {
@@ -306,14 +319,14 @@ fn check(system: &System, content: &TableContent, tables: &[&Table]) {
             });
             assert_eq!(found, all.collect::<Vec<_>>());
         }
-        TableContent::Bits(name) => check_bits(table, &system.types[name].kind),
+        TableContent::Bits(bits) => check_bits(table, &system.types[&bits.named_type].kind, bits.masks),
         TableContent::Values(name) => check_values(table, &system.types[name].kind),
         TableContent::Errors(codes) => check_errors(system, table, codes, false),
         TableContent::Reactions(codes) => check_errors(system, table, codes, true),
         TableContent::States(name) => check_states(table, &system.machines[name]),
         TableContent::Transitions(name) => check_transitions(table, &system.machines[name]),
         TableContent::Commands(name) => check_commands(table, &system.machines[name]),
-        TableContent::Ladder(name) => check_ladder(system, table, name),
+        TableContent::Ladder(ladder) => check_ladder(system, table, ladder),
         TableContent::Timing(timing) => check_timing(system, table, timing),
         TableContent::Hysteresis(switches) => check_switches(system, table, switches),
         TableContent::Pdos(pdos) => check_pdos(system, &pdos.device, pdos.direction, table),
@@ -376,8 +389,16 @@ fn check_commands(table: &Table, machine: &StateMachine) {
                 .iter()
                 .position(|column| column == &title || column.starts_with(&format!("{title} ")));
             // A bit without a column is free in every command.
-            let shown = column.map_or("x", |column| row[column].as_str());
-            assert_eq!(shown, pattern_cell(*bit), "{} {title}", command.name);
+            let Some(column) = column else {
+                assert_eq!(*bit, PatternBit::Any, "{} {title}", command.name);
+                continue;
+            };
+            let mut expected = pattern_cell(*bit).to_owned();
+            let sent = command.send.map(|code| code & (1 << (width - 1 - at)) != 0);
+            if (*bit, sent) == (PatternBit::Any, Some(true)) {
+                expected = "x (1)".to_owned();
+            }
+            assert_eq!(row[column], expected, "{} {title}", command.name);
         }
         let send = command.send.map_or(String::new(), |value| format!("{value:04X}h"));
         assert_eq!(table.cell(row, "Code"), send, "{}", command.name);
@@ -416,11 +437,16 @@ fn check_errors(system: &System, table: &Table, codes: &[u16], reactions: bool) 
     }
 }
 
-fn check_ladder(system: &System, table: &Table, name: &str) {
-    let constraint = system.constraints.iter().find(|constraint| constraint.name == name).unwrap();
+fn check_ladder(system: &System, table: &Table, ladder: &LadderTable) {
+    let constraint = system.constraints.iter().find(|one| one.name == ladder.constraint).unwrap();
     let named: Vec<EntryId> = constraint.require.entries().iter().map(|entry| entry.id).collect();
     let shown: Vec<EntryId> = table.rows.iter().map(|row| entry_id(table.cell(row, "Object"))).collect();
     assert_eq!(shown, named);
+    if !ladder.labels.is_empty() {
+        let labels: Vec<String> = ladder.labels.iter().map(told).collect();
+        let shown: Vec<&str> = table.rows.iter().map(|row| table.cell(row, "Meaning")).collect();
+        assert_eq!(shown, labels);
+    }
     for row in &table.rows {
         let device = system.device(&table.cell(row, "Device").to_lowercase()).unwrap();
         let id = entry_id(table.cell(row, "Object"));
@@ -576,7 +602,7 @@ fn the_object_reference_reads_back_as_the_model() {
                 assert_eq!(tables.len(), types.len(), "{}", object.index);
                 for (table, named) in tables.into_iter().zip(types) {
                     match &named.kind {
-                        TypeKind::Bits(_) => check_bits(table, &named.kind),
+                        TypeKind::Bits(_) => check_bits(table, &named.kind, None),
                         TypeKind::Enum(_) => check_values(table, &named.kind),
                     }
                 }

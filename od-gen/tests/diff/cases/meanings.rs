@@ -116,6 +116,13 @@ pub(crate) const CASES: &[Case] = &[
         expected: &["pmm: ~ type `PMM digital inputs` (30FDh), bit 8 active level: meaning: 1 -> 0 [plc]"],
     },
     Case {
+        name: "another mnemonic",
+        at: "  statusword:",
+        find: "mnemonic: rtso,",
+        replace: "mnemonic: rso,",
+        expected: &["pmc: ~ type `statusword` (6041h), bit 0 mnemonic: meaning: rtso -> rso [documents]"],
+    },
+    Case {
         name: "another clamp",
         at: "  PMM digital inputs:",
         find: "clamp: X14.12,",

@@ -378,6 +378,7 @@ fn bits(mut list: Vec<(BitRange, String)>, data_type: DataType, place: Span) -> 
         name: Some(made(name, place)),
         about: None,
         errors: Vec::new(),
+        mnemonic: None,
         clamp: None,
         active: None,
         edge: None,
