@@ -393,11 +393,9 @@ fn check_commands(table: &Table, machine: &StateMachine) {
                 assert_eq!(*bit, PatternBit::Any, "{} {title}", command.name);
                 continue;
             };
-            let mut expected = pattern_cell(*bit).to_owned();
             let sent = command.send.map(|code| code & (1 << (width - 1 - at)) != 0);
-            if (*bit, sent) == (PatternBit::Any, Some(true)) {
-                expected = "x (1)".to_owned();
-            }
+            let is_open_and_sent = (*bit, sent) == (PatternBit::Any, Some(true));
+            let expected = if is_open_and_sent { "x (1)" } else { pattern_cell(*bit) };
             assert_eq!(row[column], expected, "{} {title}", command.name);
         }
         let send = command.send.map_or(String::new(), |value| format!("{value:04X}h"));
