@@ -483,9 +483,11 @@ for (const name of names) {
   await phone.setViewportSize({ width: 390, height: 800 });
   await phone.waitForFunction(areStacked);
   await phone.addStyleTag({ content: "* { content-visibility: visible !important }" });
-  const { unnamed, unsaid, narrow, sideways } = await phone.evaluate(() => {
+  const { unnamed, unsaid, narrow, sideways, shrunk } = await phone.evaluate(() => {
     const place = (one) => `${one.closest("[id]")?.id} ${one.textContent.slice(0, 40)}`;
     const unnamed = [], unsaid = [], narrow = [], sideways = [];
+    const pictures = [...document.querySelectorAll(".picture")].filter((one) => one.checkVisibility());
+    const shrunk = pictures.filter((one) => one.getBoundingClientRect().width < one.width.baseVal.value - 1).map((one) => `${one.closest("[id]")?.id} ${one.getAttribute("class")}`);
     // What is laid out as something else loses its role with some screen readers.
     for (const one of document.querySelectorAll("table, thead, tbody, tr, th, td")) {
       if (one.checkVisibility() && !getComputedStyle(one).display.startsWith("table") && !one.role) unsaid.push(`${one.localName} ${place(one)}`);
@@ -507,12 +509,13 @@ for (const name of names) {
       if (getComputedStyle(one).display === "inline") continue;
       if (!(one.tabIndex === 0 && one.localName === "section" && one.ariaLabel)) sideways.push(`${one.localName}.${one.className} ${place(one)}`);
     }
-    return { unnamed, unsaid, narrow, sideways };
+    return { unnamed, unsaid, narrow, sideways, shrunk };
   });
   same(unnamed, [], `${name}: cells without the title of their column on a phone`);
   same(unsaid, [], `${name}: parts of tables that do not say what they are on a phone`);
   same(narrow, [], `${name}: columns narrower than 114 px on a phone`);
   same(sideways, [], `${name}: wider than a phone`);
+  same(shrunk, [], `${name}: pictures smaller than they are on a phone`);
   same(await phone.evaluate(() => document.documentElement.scrollWidth), 390, `${name}: width on a phone`);
   // What is read aloud is a table all the same.
   const { nodes } = await (await browserContext.newCDPSession(phone)).send("Accessibility.getFullAXTree");
