@@ -281,21 +281,18 @@ impl<'a> Source<'a> {
     }
 
     /// What is named in a running text: where its name ends, and the anchor that it leads to. Of an object without the sub-index
-    /// only the index counts. Nothing where the number is an error code, too: no text says which of them it means.
+    /// only the index counts. Nothing where that is an error code, too: no text says which of them it means.
     fn named_in_text(&self, devices: &Devices, one: Written) -> Option<(usize, String)> {
         let EntryId { index, sub } = one.id;
-        if self.system.errors.binary_search_by_key(&index.0, |error| error.code).is_ok() {
-            return None;
-        }
         let mut objects =
             self.led_to(devices, index).filter_map(|device| device.objects.get(&index)).peekable();
         objects.peek()?;
         let has_entry = |object: &Object| object.is_structured() && object.entry(sub).is_some();
-        Some(if one.end > one.index_end && objects.any(has_entry) {
-            (one.end, format!("{}.{sub}", object_anchor(index)))
-        } else {
-            (one.index_end, object_anchor(index))
-        })
+        if one.end > one.index_end && objects.any(has_entry) {
+            return Some((one.end, format!("{}.{sub}", object_anchor(index))));
+        }
+        let is_error_code = self.system.errors.binary_search_by_key(&index.0, |error| error.code).is_ok();
+        (!is_error_code).then(|| (one.index_end, object_anchor(index)))
     }
 
     /// The page that shows an object in detail.

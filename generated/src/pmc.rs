@@ -1217,7 +1217,7 @@ impl Pmc {
         glue::put_i16(&mut self.0, 430, value.0);
     }
 
-    /// `6060h` modes of operation: Requested mode of operation. Can be changed only while the output stage is off; an EFC signal overrules it.
+    /// `6060h` modes of operation: Requested mode of operation. Can be changed only while operation is neither enabled nor commanded; an EFC signal overrules it.
     ///
     /// INTEGER8, rw, RPDO, default no mode. Writable while `bit(0x6040, 3) == 0 and bit(0x6041, 2) == 0`.
     #[inline]

@@ -6562,28 +6562,28 @@ pub mod errors {
     /// MPDO target object not found.
     pub const MPDO_TARGET_OBJECT_NOT_FOUND: u16 = 0x8230;
 
-    /// Fault input 1 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 1 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_1_ACTIVATED: u16 = 0xFFF1;
 
-    /// Fault input 2 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 2 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_2_ACTIVATED: u16 = 0xFFF2;
 
-    /// Fault input 3 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 3 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_3_ACTIVATED: u16 = 0xFFF3;
 
-    /// Fault input 4 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 4 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_4_ACTIVATED: u16 = 0xFFF4;
 
-    /// Fault input 5 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 5 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_5_ACTIVATED: u16 = 0xFFF5;
 
-    /// Fault input 6 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 6 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_6_ACTIVATED: u16 = 0xFFF6;
 
-    /// Fault input 7 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 7 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_7_ACTIVATED: u16 = 0xFFF7;
 
-    /// Fault input 8 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning. FFF1h is meant for the lightning protection.
+    /// Fault input 8 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_8_ACTIVATED: u16 = 0xFFF8;
 }
 

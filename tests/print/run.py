@@ -109,8 +109,9 @@ class Manual:
 
     def numbers_of_pages(self) -> None:
         for number, lines in enumerate(self.lines[1:], start=2):
-            last = next((line for line in reversed(lines) if line.strip()), "")
-            self.check(last.split()[-1:] == [str(number)], f"page {number} ends with: {last.strip()}")
+            *text, last = [line.strip() for line in lines if line.strip()] or [""]
+            self.check(last.split()[-1:] == [str(number)], f"page {number} ends with: {last}")
+            self.check(not "".join(text[-1:]).endswith(":"), f"page {number} ends before what it announces: {text[-1:]}")
 
     def contents(self) -> None:
         """Each title stands on the page that the contents name."""
@@ -132,6 +133,9 @@ class Manual:
             for table in section["tables"]
             if table["number"] is not None
         ]
+        titles.append(self.context["words"]["notation"])
+        if tables:
+            titles.append(self.context["words"]["list_of_tables"])
         for title in titles + [title for _, title in tables]:
             # A long title is broken into lines, of which the last has the number.
             words = squeezed(title)

@@ -47,6 +47,22 @@ fn what_names_no_object_is_no_link() {
 }
 
 #[test]
+fn a_number_with_a_sub_index_is_no_error_code() {
+    let text = chapter(Format::Html, "s/index.html");
+    assert_has(&text, "Subindex: <a href=\"lamp.html#2004.1\">2004h.1</a>, aber 2004h und 2004h.9.");
+}
+
+#[test]
+fn a_text_leads_to_the_device_that_it_is_about() {
+    // Both devices of the system have 1010h.
+    let path = "od-spec/devices/pitch-control-system.od.yaml";
+    let text = page(path, Format::Markdown, "en", "s/5-the-pitch-motion-controller-pmc.md");
+    assert_has(&text, "It outlives a power-off only if saved with [1010h.3](pmc.md#1010).");
+    assert_has(&text, "Save the parameters: write 65766173h to [1010h.3](pmc.md#1010).");
+    assert!(!text.contains("](pmm.md#1010)"));
+}
+
+#[test]
 fn a_heading_is_no_link() {
     assert_has(&chapter(Format::Html, "s/index.html"), "1 Wozu 2000h dient</h2>");
 }
