@@ -532,6 +532,8 @@ pub struct MachineState {
 pub struct MachineLine {
     /// Its number.
     pub number: u8,
+    /// The code of the command that takes it, on the way down; may be empty.
+    pub code: String,
     /// The line, as SVG writes it.
     pub path: String,
     /// The tip of its arrow, as SVG writes it.

@@ -57,8 +57,12 @@ impl Way<'_> {
     }
 }
 
-/// What stands beside a number: the state machine's states with their bits as text.
-pub(super) fn picture(machine: &StateMachine, patterns: &[String]) -> MachinePicture {
+/// A state machine, with the bits of its states as text, and the code of the command that takes a transition.
+pub(super) fn picture(
+    machine: &StateMachine,
+    patterns: &[String],
+    code_of: impl Fn(u8) -> String,
+) -> MachinePicture {
     let ways = ways(machine);
     let lanes = |side| ways.iter().filter(|way| way.side == side).map(|way| way.lane + 1).max().unwrap_or(0);
     let characters =
@@ -83,7 +87,12 @@ pub(super) fn picture(machine: &StateMachine, patterns: &[String]) -> MachinePic
         });
         y += height + GAP;
     }
-    let lines = ways.iter().map(|way| line(way, &ways, &states)).collect();
+    let lines = ways.iter().map(|way| {
+        // There is room for a code beside the way down, which is the way to operation.
+        let code = if way.side == Side::Between { code_of(way.transition.number) } else { String::new() };
+        MachineLine { code, ..line(way, &ways, &states) }
+    });
+    let lines = lines.collect();
     MachinePicture {
         width: left + width + lanes(Side::Right) * LANE + 12,
         height: y - GAP + 2,
@@ -166,6 +175,7 @@ fn line(way: &Way<'_>, ways: &[Way<'_>], states: &[MachineState]) -> MachineLine
         };
         return MachineLine {
             number,
+            code: String::new(),
             path: format!("M{x} {start}V{}", entered.y),
             tip: format!("M{x} {}l-4 -8h8z", entered.y),
             start: way.from.is_empty().then_some((x, start)),
@@ -190,6 +200,7 @@ fn line(way: &Way<'_>, ways: &[Way<'_>], states: &[MachineState]) -> MachineLine
     let tip = if way.side == Side::Left { "l-8 -4v8z" } else { "l8 -4v8z" };
     MachineLine {
         number,
+        code: String::new(),
         path: format!("{beginning}H{}", edge(entered)),
         tip: format!("M{} {arrival}{tip}", edge(entered)),
         start: way.from.is_empty().then_some((x, arrival)),

@@ -76,7 +76,17 @@ impl Source<'_> {
             .left(self, "meaning", Word::Meaning)
             .grid(rows, &["pattern", "state"]);
         let patterns: Vec<String> = machine.states.iter().map(|state| pattern(&state.pattern)).collect();
-        Grid { machine: Some(picture(machine, &patterns)), ..grid }
+        Grid { machine: Some(picture(machine, &patterns, |number| self.code_of(machine, number))), ..grid }
+    }
+
+    /// The code that takes a transition: that of the command which means it most of all, as it takes the fewest others.
+    fn code_of(&self, machine: &StateMachine, transition: u8) -> String {
+        let sent = machine.commands.iter().filter_map(|command| Some((command, command.send?)));
+        let meant = sent.filter(|(command, _)| command.transitions.contains(&transition));
+        let code = meant.min_by_key(|(command, _)| command.transitions.len()).map(|(_, code)| code);
+        let data_type = self.entry_of(machine, machine.command).map(|entry| entry.data_type);
+        let told = |(code, data_type)| self.wording.pattern(data_type, i128::from(code));
+        code.zip(data_type).map_or_else(String::new, told)
     }
 
     pub(crate) fn transitions(&self, machine: &StateMachine) -> Grid {

@@ -92,6 +92,18 @@ fn every_transition_is_drawn_by_itself() {
 }
 
 #[test]
+fn the_way_down_names_the_codes_that_enable_the_drive() {
+    for (spec, codes) in [(PITCH, ["0106h", "0107h", "010Fh"]), (FULLMO, ["0006h", "0007h", "000Fh"])] {
+        let picture = picture(spec);
+        let lines = picture["lines"].as_array().unwrap();
+        let code = |number: u64| lines.iter().find(|line| line["number"] == number).unwrap()["code"].as_str();
+        assert_eq!([2, 3, 4].map(|number| code(number).unwrap()), codes, "{spec}");
+        // Nobody commands the start, and what leads up has no room.
+        assert_eq!([0, 1, 8, 15].map(|number| code(number).unwrap()), [""; 4], "{spec}");
+    }
+}
+
+#[test]
 fn each_line_ends_at_the_state_that_its_transition_enters() {
     for spec in [PITCH, FULLMO] {
         let picture = picture(spec);
