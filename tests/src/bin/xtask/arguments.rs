@@ -107,7 +107,7 @@ cargo xtask corpus DIR
 Takes every EDS and DCF below a directory through everything, and prints a line for each problem and a table of the rest:
 bytes to text and back, reading it as it is and as the standard wants it, importing it, the EDS of the import, the import of
 that, and putting it right. Facts that do not come back are problems, but for those with a reason in
-tests/src/foreign/exceptions.rs. Fast with `cargo run --profile tool --package od-tests --bin xtask -- corpus DIR`.
+tests/src/foreign/exceptions.rs.
 
 Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong command line.
 ";

@@ -17,6 +17,7 @@ mod tools;
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
+use std::time::{Duration, Instant};
 
 use arguments::{Gaps, Task, TestOptions, parse};
 use od_tests::{Failure, generate};
@@ -82,7 +83,12 @@ fn test(parts: &[Part], options: &TestOptions) -> ExitCode {
     }
     let mut rows: Vec<Row> = parts.iter().map(|&part| run(part, &found)).collect();
     let unwanted = Part::ALL.into_iter().filter(|part| options.unwanted.contains(&part.area()));
-    rows.extend(unwanted.map(|part| Row { part, outcome: Outcome::Unwanted, counts: None }));
+    rows.extend(unwanted.map(|part| Row {
+        part,
+        outcome: Outcome::Unwanted,
+        counts: None,
+        time: Duration::ZERO,
+    }));
     let summary = summary::summarize(&rows, &missing, options.gaps);
     print!("{}", summary.text);
     match summary.verdict {
@@ -108,10 +114,16 @@ fn run(part: Part, found: &BTreeSet<Tool>) -> Row {
     let readiness = part.readiness(found);
     let reason = summary::reason(&readiness);
     if matches!(readiness, Readiness::Lacks(_)) {
-        return Row { part, outcome: Outcome::LeftOut(reason.unwrap_or_default()), counts: None };
+        return Row {
+            part,
+            outcome: Outcome::LeftOut(reason.unwrap_or_default()),
+            counts: None,
+            time: Duration::ZERO,
+        };
     }
     println!("\n== {}", part.title());
     let mut runner = Runner::default();
+    let begin = Instant::now();
     let outcome = match part.run(&mut runner) {
         Err(failure) => {
             eprintln!("error: {failure}");
@@ -122,7 +134,7 @@ fn run(part: Part, found: &BTreeSet<Tool>) -> Row {
             Some(gap) => Outcome::Partly(gap),
         },
     };
-    Row { part, outcome, counts: runner.counts }
+    Row { part, outcome, counts: runner.counts, time: begin.elapsed() }
 }
 
 fn write() -> Result<(), Failure> {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::time::Duration;
 
 use crate::arguments::Gaps;
 use crate::parts::{Area, Part, Readiness, needed_for};
@@ -27,6 +28,8 @@ pub(crate) struct Row {
     pub(crate) outcome: Outcome,
     /// What its programs counted.
     pub(crate) counts: Option<Counts>,
+    /// How long it ran.
+    pub(crate) time: Duration,
 }
 
 /// What is to be said at the end.
@@ -85,7 +88,9 @@ pub(crate) fn summarize(rows: &[Row], missing: &str, gaps: Gaps) -> Summary {
             Outcome::Partly(_) | Outcome::LeftOut(_) | Outcome::Unwanted => left_out += 1,
         }
         let counts = row.counts.map(|counts| format!("{} passed, {} failed", counts.passed, counts.failed));
-        let facts: Vec<&str> = counts.as_deref().into_iter().chain(why).collect();
+        let seconds = row.time.as_secs();
+        let time = (seconds > 0).then(|| format!("{seconds} s"));
+        let facts: Vec<&str> = counts.as_deref().into_iter().chain(time.as_deref()).chain(why).collect();
         let line = format!("{word:<8}  {:<32}  {}", row.part.title(), facts.join("; "));
         let _ = writeln!(text, "{}", line.trim_end());
     }
@@ -117,7 +122,7 @@ mod tests {
                 Readiness::Partly(_) => Outcome::Partly(why),
                 Readiness::Lacks(_) => Outcome::LeftOut(why),
             };
-            Row { part, outcome, counts: None }
+            Row { part, outcome, counts: None, time: Duration::ZERO }
         };
         Part::ALL.into_iter().map(row).collect()
     }
