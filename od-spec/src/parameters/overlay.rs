@@ -1,12 +1,19 @@
 //! A device with settings laid over its defaults.
 
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
 use super::{Setting, read};
 use crate::model::{Author, Dictionary, Entry, EntryId, Outside, Statement, Value, convert};
 use crate::source::Span;
 
 /// The device as it is once the settings are downloaded to a node. A value that is set has its place in the setting; so have
 /// the entry behind a view, and what follows from it.
-pub(super) fn configured(device: &Dictionary, node: u8, settings: &[Setting]) -> Dictionary {
+pub(super) fn configured<'a>(
+    device: &Dictionary,
+    node: u8,
+    settings: impl IntoIterator<Item = &'a Setting>,
+) -> Dictionary {
     let mut configured = device.clone();
     for setting in settings {
         let place = Statement { span: setting.value_span, author: Author::Setting };
@@ -30,6 +37,21 @@ pub(super) fn configured(device: &Dictionary, node: u8, settings: &[Setting]) ->
         pdo.follow(objects);
     }
     configured
+}
+
+/// The device while some of its entries are unlocked for service.
+pub(super) fn opened<'a>(device: &'a Dictionary, unlocked: &BTreeSet<EntryId>) -> Cow<'a, Dictionary> {
+    if unlocked.is_empty() {
+        return Cow::Borrowed(device);
+    }
+    let mut opened = device.clone();
+    for id in unlocked {
+        if let Some(entry) = entry_mut(&mut opened, *id) {
+            entry.eds = entry.eds_while_unlocked();
+            entry.locked = false;
+        }
+    }
+    Cow::Owned(opened)
 }
 
 /// The device with one entry marked as set, its value as it was: to see whether it can be set at all.

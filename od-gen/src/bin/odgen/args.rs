@@ -100,6 +100,7 @@ impl Cli {
             Command::Fix(args) => args.messages.format,
             Command::Fmt(args) => args.messages.format,
             Command::New(args) => args.messages.format,
+            Command::Params(args) => args.messages.format,
             _ => None,
         };
         behind.or(self.format).unwrap_or_default()
@@ -161,6 +162,8 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Write a commented specification to start from
     New(NewArgs),
+    /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
+    Params(ParamsArgs),
     /// Tell what a message code means and what to do about it
     Explain {
         /// A code such as OD0507, or `all`
@@ -173,8 +176,8 @@ pub(crate) enum Command {
     },
     /// Print the language reference (Markdown)
     Reference,
-    /// Print the JSON Schema of the language, for editors
-    Schema,
+    /// Print the JSON Schema of the language, or of the parameter files of a device, for editors
+    Schema(SchemaArgs),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -325,6 +328,10 @@ pub(crate) struct DcfArgs {
     #[arg(long, value_name = "NAME")]
     pub net_name: Option<String>,
 
+    /// Parameter file (YAML) of the node, with values by name and in units; of several, a later one is laid over the earlier ones
+    #[arg(long, value_name = "FILE")]
+    pub params: Vec<PathBuf>,
+
     /// Value of an entry: `607D.2=9000`, `607Dsub2=9000`, `"EFC target position=90.00 °"`, `"sensor selection code=-1"`
     #[arg(long = "set", value_name = "ENTRY=VALUE")]
     pub settings: Vec<String>,
@@ -332,6 +339,18 @@ pub(crate) struct DcfArgs {
     /// File with one such setting on each line; lines that begin with `#` are comments
     #[arg(long, value_name = "FILE")]
     pub set_file: Vec<PathBuf>,
+
+    /// Locked entry that may be set all the same: factory data, which the device takes only while it is unlocked for service
+    #[arg(long, value_name = "ENTRY")]
+    pub unlock: Vec<String>,
+
+    /// Write no file; tell what is written into the node at boot, by a PLC that creates all SDOs, with a concise DCF, and by a configuration tool
+    #[arg(long)]
+    pub explain: bool,
+
+    /// Write no value that is the entry's default
+    #[arg(long)]
+    pub since_default: bool,
 
     /// File to write [default: the key and node-ID, such as pmc-5.dcf]
     #[arg(long, short, value_name = "FILE")]
@@ -346,6 +365,43 @@ pub(crate) struct DcfArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct ParamsArgs {
+    /// The DCF, saved from a device by any tool
+    #[arg(value_name = "DCF")]
+    pub file: PathBuf,
+
+    /// Specification of the device, whose names, units and defaults count [default: those of the DCF itself]
+    #[arg(long, value_name = "SPEC")]
+    pub spec: Option<PathBuf>,
+
+    /// Key of the device in the specification [default: the only one]
+    #[arg(long, value_name = "KEY", requires = "spec")]
+    pub device: Option<String>,
+
+    /// File to write [default: it is printed]
+    #[arg(long, short, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+
+    /// Replace a file of this name
+    #[arg(long)]
+    pub force: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArgs {
+    /// Specification, EDS or DCF, of whose device the schema of parameter files is printed
+    #[arg(long, value_name = "SPEC")]
+    pub params: Option<PathBuf>,
+
+    /// Key of the device [default: the only one]
+    #[arg(long, value_name = "KEY", requires = "params")]
+    pub device: Option<String>,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct DiffArgs {
     /// The dictionary before the changes; with --git the specification
     #[arg(value_name = "OLD")]
@@ -354,6 +410,10 @@ pub(crate) struct DiffArgs {
     /// The dictionary after the changes
     #[arg(value_name = "NEW", required_unless_present = "git", conflicts_with = "git")]
     pub new: Option<PathBuf>,
+
+    /// Specification of the device that parameter files are for; they are compared with each other, or with a DCF
+    #[arg(long, value_name = "SPEC", conflicts_with = "git")]
+    pub spec: Option<PathBuf>,
 
     /// Compare a specification with itself as it was at a revision of git, such as `HEAD` or `v1.08`
     #[arg(long, value_name = "REV")]
