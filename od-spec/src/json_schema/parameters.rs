@@ -55,7 +55,7 @@ pub fn parameter_schema(system: &System, device: &Dictionary) -> String {
             }
         }
     }
-    let used = [Shape::Text, Shape::HeaderText, Shape::Words];
+    let used = [Shape::Text, Shape::HeaderText, Shape::Words, Shape::Value];
     let is_used = |shape: &Shape| used.iter().any(|used| definition(*used) == definition(*shape));
     let scalars = SCALARS.iter().filter(|shape| is_used(shape));
     let scalars = scalars.filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
