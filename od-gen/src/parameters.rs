@@ -8,7 +8,7 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
+use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Commissioning, assign_layers, parameter_file, rule_codes};
@@ -34,6 +34,8 @@ pub struct ParameterText {
 pub struct About<'a> {
     /// Everything that the specification describes.
     pub system: &'a System,
+    /// The texts that it was read from: places in a parameter file are none in them.
+    pub sources: &'a SourceMap,
     /// The device.
     pub device: &'a Dictionary,
     /// Whether the file names its device, which only a specification gives a key.
@@ -88,7 +90,7 @@ fn views(device: &Dictionary, node: &mut Commissioning) -> Vec<String> {
 
 /// What is said about the values of a node, with the entry that each is about.
 fn found(about: About<'_>, node: &Commissioning) -> Vec<(Option<EntryId>, Diagnostic)> {
-    let mut sources = SourceMap::new();
+    let mut sources = about.sources.clone();
     let text = write::text(about, node, &[], &[]);
     let mut diagnostics = Diagnostics::new();
     let file: FileId = sources.add("parameters", text.as_str());
@@ -104,7 +106,7 @@ fn found(about: About<'_>, node: &Commissioning) -> Vec<(Option<EntryId>, Diagno
         lines.get(&sources.file(file).line_col(label.span.start).line).copied()
     };
     let serious = diagnostics.iter().filter(|one| one.severity() != Severity::Note);
-    serious.filter(|one| one.code != codes::FORMER_NAME).map(|one| (of_file(one), one.clone())).collect()
+    serious.map(|one| (of_file(one), one.clone())).collect()
 }
 
 /// Names in the application and files of DOMAINs, for which a parameter file has no place.

@@ -9,7 +9,7 @@ use jsonschema::Validator;
 use od_gen::parameters::{About, write};
 use od_spec::model::{Dictionary, System, TypeKind, Value};
 use od_spec::{Commissioning, parameter_schema};
-use od_tests::compile_clean;
+use od_tests::{compile_clean, compile_with_sources};
 
 #[path = "../shared/typed_yaml.rs"]
 mod typed_yaml;
@@ -96,7 +96,7 @@ fn every_notation_of_an_index_is_known() {
 #[test]
 fn what_is_written_for_a_node_passes() {
     for spec in ["od-spec/devices/pitch-control-system.od.yaml", "od-spec/devices/fullmo-drive.od.yaml"] {
-        let system = compile_clean(spec).unwrap();
+        let (system, sources) = compile_with_sources(spec).unwrap();
         for device in &system.devices {
             let validator = validator(&system, device);
             let mut node = Commissioning::of_node(device, 5);
@@ -118,7 +118,8 @@ fn what_is_written_for_a_node_passes() {
                     node.values.insert(id, Value::Integer(raw));
                 }
             }
-            let written = write(About { system: &system, device, names_device: true }, &node, Vec::new());
+            let about = About { system: &system, sources: &sources, device, names_device: true };
+            let written = write(about, &node, Vec::new());
             assert!(written.count > 20, "{}: {}", device.key, written.count);
             assert_eq!(problems(&validator, &written.text), Vec::<String>::new(), "{}", device.key);
         }

@@ -363,3 +363,27 @@ fn what_tools_write_at_boot_is_told() {
     assert_snapshot!("writes_at_boot", stdout(&output));
     assert_eq!(files(&scratch.0), ["oven.od.yaml", "oven.yaml"]);
 }
+
+/// Parameters of a drive in the units of its manual, there and back.
+#[test]
+fn parameters_of_the_shipped_devices_come_back() {
+    let scratch = Scratch::new("params-shipped");
+    scratch.file(
+        "blade.yaml",
+        "od-parameters: 1\ndevice: pmc\nnode: 5\nbit-rate: 500\nnode-name: Blade A\nparameters:\n  EFC target position: 91.50 °\n  607D.2: 9500\n  \
+         0x607D: {1: 1.00 °}\n  position control parameter set: {p gain: 12, precontrol: 50.0 %}\n  motor data: {poles: 2, nominal voltage: 380.0 V}\n  \
+         fault reaction option code: deceleration ramp\n",
+    );
+    let run = |arguments: &[&str]| {
+        let output = odgen(&scratch.0, arguments);
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+        stdout(&output)
+    };
+    assert!(run(&["dcf", PITCH, "--params", "blade.yaml", "--out", "a.dcf"]).contains("8 values set"));
+    let text = run(&["params", "a.dcf", "--spec", PITCH, "--device", "pmc"]);
+    assert_snapshot!("parameter_file_of_a_blade", text);
+    scratch.file("back.yaml", &text);
+    run(&["dcf", PITCH, "--params", "back.yaml", "--out", "b.dcf"]);
+    let dcf = |name: &str| fs::read_to_string(scratch.0.join(name)).unwrap();
+    assert!(without_names(&dcf("a.dcf")) == without_names(&dcf("b.dcf")));
+}

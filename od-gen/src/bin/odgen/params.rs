@@ -7,7 +7,7 @@ use od_gen::files::Existing;
 use od_gen::parameters::{About, ParameterText, Transferred, transfer, write};
 use od_spec::Commissioning;
 use od_spec::diag::{Diagnostic, codes};
-use od_spec::model::{Dictionary, System};
+use od_spec::model::Dictionary;
 
 use super::ERRORS;
 use super::args::ParamsArgs;
@@ -19,14 +19,19 @@ pub(crate) fn run(args: &ParamsArgs, report: &Report) -> u8 {
 }
 
 fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
-    let (file, _) = report.compile_with_sources(&args.file).ok_or(ERRORS)?;
+    let (file, sources) = report.compile_with_sources(&args.file).ok_or(ERRORS)?;
     let (of_file, node) = dcf(&file, &args.file).map_err(|diagnostic| report.refuse(diagnostic))?;
     let written = match &args.spec {
-        None => write(About { system: &file.system, device: of_file, names_device: false }, node, Vec::new()),
+        None => {
+            let about =
+                About { system: &file.system, sources: &sources, device: of_file, names_device: false };
+            write(about, node, Vec::new())
+        }
         Some(spec) => {
-            let (used, _) = report.compile_with_sources(spec).ok_or(ERRORS)?;
+            let (used, sources) = report.compile_with_sources(spec).ok_or(ERRORS)?;
             let device = report.device_or_only(&used.system, args.device.as_deref())?;
-            of_specification(&used.system, device, of_file, node)
+            let about = About { system: &used.system, sources: &sources, device, names_device: true };
+            of_specification(about, of_file, node)
         }
     };
     let ParameterText { text, count, left_out, findings, .. } = written;
@@ -58,12 +63,7 @@ fn dcf<'a>(file: &'a Used, path: &Path) -> Result<(&'a Dictionary, &'a Commissio
     })
 }
 
-fn of_specification(
-    system: &System,
-    device: &Dictionary,
-    of_file: &Dictionary,
-    node: &Commissioning,
-) -> ParameterText {
-    let Transferred { node, left_out, .. } = transfer(of_file, node, device);
-    write(About { system, device, names_device: true }, &node, left_out)
+fn of_specification(about: About<'_>, of_file: &Dictionary, node: &Commissioning) -> ParameterText {
+    let Transferred { node, left_out, .. } = transfer(of_file, node, about.device);
+    write(about, &node, left_out)
 }
