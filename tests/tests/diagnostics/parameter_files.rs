@@ -4,8 +4,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use od_spec::diag::Diagnostics;
+use od_spec::model::System;
 use od_spec::source::SourceMap;
-use od_spec::{Assigned, Commissioning, assign_layers, is_parameter_file, parameter_file};
+use od_spec::{Assigned, Commissioning, Layer, assign_layers, is_parameter_file, parameter_file};
 
 use crate::wording_rules::check_wording;
 use crate::{codes, human, read, run, ui};
@@ -15,6 +16,7 @@ pub(crate) const OVEN: &str = include_str!("../../shared/oven.od.yaml");
 
 /// What some parameter files, laid over each other, give.
 pub(crate) struct Settled {
+    pub(crate) system: System,
     pub(crate) node: Commissioning,
     pub(crate) assigned: Assigned,
     pub(crate) diagnostics: Diagnostics,
@@ -27,19 +29,22 @@ pub(crate) fn settled(name: &str, texts: &[&str]) -> Settled {
     let system = compiled.system.expect("a specification without mistakes");
     let oven = system.device("oven").unwrap();
     let mut diagnostics = Diagnostics::new();
-    let (mut node, mut layers) = (Commissioning::of_node(oven, 5), Vec::new());
+    let mut files = Vec::new();
     for (at, text) in texts.iter().enumerate() {
         let name = if at == 0 { name.to_owned() } else { format!("{name} #{}", at + 1) };
         let file = sources.add(name, *text);
-        let Some(read) = parameter_file(&sources, file, &mut diagnostics) else { continue };
-        read.check_device(&system, oven, &mut diagnostics);
-        node.node = read.node.map_or(node.node, |node| node.value);
-        read.settle(oven, &mut node, &mut diagnostics);
-        layers.push(read.layer);
+        files.extend(parameter_file(&sources, file, &mut diagnostics));
     }
+    let id = files.iter().filter_map(|file| file.node).next_back().map_or(5, |node| node.value);
+    let mut node = Commissioning::of_node(oven, id);
+    for file in &files {
+        file.check_device(&system, oven, &mut diagnostics);
+        file.settle(oven, &mut node, &mut diagnostics);
+    }
+    let layers: Vec<Layer> = files.into_iter().map(|file| file.layer).collect();
     let assigned = assign_layers(&system, oven, node.node, &layers, &mut diagnostics);
     diagnostics.sort();
-    Settled { node, assigned, diagnostics, sources }
+    Settled { system, node, assigned, diagnostics, sources }
 }
 
 fn folder() -> PathBuf {
@@ -57,7 +62,7 @@ pub(crate) fn cases() -> Vec<(String, String)> {
     cases
 }
 
-fn shown(Settled { node, assigned, diagnostics, sources }: &Settled) -> String {
+fn shown(Settled { node, assigned, diagnostics, sources, .. }: &Settled) -> String {
     if diagnostics.has_errors() {
         return human(diagnostics, sources);
     }
