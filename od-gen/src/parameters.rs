@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{Commissioning, assign_layers, parameter_file, rule_codes};
+use od_spec::{Commissioning, assign_layers, bit_rate, parameter_file, rule_codes};
 
 pub use transfer::{Transferred, transfer};
 
@@ -40,6 +40,8 @@ pub struct About<'a> {
     pub device: &'a Dictionary,
     /// Whether the file names its device, which only a specification gives a key.
     pub names_device: bool,
+    /// The node-ID, where one is stated.
+    pub node_id: Option<u8>,
 }
 
 /// The parameter file of a node; `left_out` is what is known already not to stand in it.
@@ -61,6 +63,9 @@ pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> P
             }
             None => findings.push(found.message.clone()),
         }
+    }
+    if let Err(refused) = bit_rate(device, &node.bit_rate.to_string()) {
+        left_out.push(refused.message);
     }
     left_out.extend(texts(&node));
     let text = write::text(about, &node, &left_out, &findings);

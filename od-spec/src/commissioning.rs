@@ -25,6 +25,8 @@ pub struct Commissioning {
     pub net_number: u32,
     /// Name of the network; may be empty.
     pub net_name: String,
+    /// Serial number by which LSS finds the node; that of the identity (1018h.4) where none is stated.
+    pub serial_number: Option<u32>,
     /// Values of single entries; every other entry keeps its default.
     pub values: ParameterValues,
     /// Locked entries among the values: the device takes these only while it is unlocked for service.
@@ -93,6 +95,7 @@ impl Commissioning {
             bit_rate,
             net_number: 1,
             net_name: String::new(),
+            serial_number: None,
             values: ParameterValues::new(),
             unlocked: BTreeSet::new(),
             denotations: BTreeMap::new(),
@@ -196,6 +199,10 @@ pub fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {
             codes::BIT_RATE_UNSUPPORTED,
             format!("`{}` does not support a bit rate of `{text}` kbit/s", device.key),
         )
-        .help(format!("it supports {rates} kbit/s"))
+        .help(if rates.is_empty() {
+            "nobody says which bit rates it supports; state them in its specification".to_owned()
+        } else {
+            format!("it supports {rates} kbit/s")
+        })
     })
 }

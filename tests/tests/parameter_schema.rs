@@ -118,7 +118,8 @@ fn what_is_written_for_a_node_passes() {
                     node.values.insert(id, Value::Integer(raw));
                 }
             }
-            let about = About { system: &system, sources: &sources, device, names_device: true };
+            let about =
+                About { system: &system, sources: &sources, device, names_device: true, node_id: Some(5) };
             let written = write(about, &node, Vec::new());
             assert!(written.count > 20, "{}: {}", device.key, written.count);
             assert_eq!(problems(&validator, &written.text), Vec::<String>::new(), "{}", device.key);

@@ -25,8 +25,11 @@ pub(super) fn text(
     if about.names_device {
         items.push(Item::new("device", Node::text(device.key.clone())));
     }
-    items.push(Item::new("node", Node::plain(node.node)));
-    items.push(Item::new("bit-rate", Node::plain(node.bit_rate)));
+    items.extend(about.node_id.map(|id| Item::new("node", Node::plain(id))));
+    // One that the device does not support is said below.
+    if device.info.bit_rates.contains(&node.bit_rate) {
+        items.push(Item::new("bit-rate", Node::plain(node.bit_rate)));
+    }
     let usual = Commissioning::of_node(device, node.node);
     if node.node_name != usual.node_name {
         items.push(Item::new("node-name", Node::text(node.node_name.clone())));
@@ -36,6 +39,9 @@ pub(super) fn text(
     }
     if node.net_name != usual.net_name {
         items.push(Item::new("net-name", Node::text(node.net_name.clone())));
+    }
+    if let Some(number) = node.serial_number {
+        items.push(Item::new("serial-number", Node::hex32(number)));
     }
     let parameters = parameters(device, node);
     if !parameters.is_empty() {

@@ -17,6 +17,7 @@ pub(crate) struct ParameterFileDecl {
     pub node_name: Option<Name>,
     pub net_number: Option<Spanned<u32>>,
     pub net_name: Option<Name>,
+    pub serial_number: Option<Spanned<u32>>,
     pub settings: Vec<SettingDecl>,
     pub unlock: Vec<Name>,
 }
@@ -32,6 +33,7 @@ pub(crate) fn parameter_file(root: &Node) -> ParameterFileDecl {
         node_name: reader.text("node-name"),
         net_number: reader.integer("net-number").and_then(within),
         net_name: reader.text("net-name"),
+        serial_number: reader.integer("serial-number").and_then(within),
         settings: root.get("parameters").map(settings).unwrap_or_default(),
         unlock: reader.texts("unlock"),
     }

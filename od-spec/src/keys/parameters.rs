@@ -18,6 +18,7 @@ keys! {
         "node-name": Shape::HeaderText, "name of the node";
         "net-number": U32, "number of the network";
         "net-name": Shape::HeaderText, "name of the network";
+        "serial-number": U32, "serial number by which LSS finds the node; that of 1018h.4 unless given", "0x0000_1A2B";
         "parameters": Shape::MapOf(KeyKind::Name, &Shape::Setting), "values by entry: by name, index, or object with its entries below", "{set pressure: 2.5 bar}";
         "unlock": Shape::List(&Shape::Text), "locked entries that may be set all the same, by name or index", "[calibration]";
     }

@@ -27,6 +27,7 @@ pub struct ParameterFile {
     node_name: Option<Name>,
     net_number: Option<Spanned<u32>>,
     net_name: Option<Name>,
+    serial_number: Option<Spanned<u32>>,
     /// The settings, and what they unlock.
     pub layer: Layer,
 }
@@ -90,6 +91,7 @@ pub fn parameter_file(
         node_name: decl.node_name,
         net_number: decl.net_number,
         net_name: decl.net_name,
+        serial_number: decl.serial_number,
         layer: Layer { settings: decl.settings, unlocked: decl.unlock },
     })
 }
@@ -143,6 +145,9 @@ impl ParameterFile {
         take(&self.net_name, TextOfNode::Network, "net-name", &mut node.net_name);
         if let Some(number) = self.net_number {
             node.net_number = number.value;
+        }
+        if let Some(number) = self.serial_number {
+            node.serial_number = Some(number.value);
         }
     }
 }

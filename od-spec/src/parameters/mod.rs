@@ -16,7 +16,7 @@ use crate::check;
 use crate::commissioning::{Commissioning, ParameterValues};
 use crate::diag::{Diagnostics, Suggestions};
 use crate::eds::read::{FileUse, NodeDecl};
-use crate::model::{Author, Dictionary, EntryId, Index, Statement, System, Value};
+use crate::model::{Author, Dictionary, EntryId, Index, Statement, SubIndex, System, Value};
 use crate::resolve::Lookup;
 use crate::source::{Span, Spanned};
 use crate::standard;
@@ -121,6 +121,9 @@ pub fn entry_named(device: &Dictionary, text: &str) -> Option<EntryId> {
     Lookup::new(device).find(text, &mut Suggestions::default()).ok()
 }
 
+/// The serial number of the identity.
+const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
+
 /// What settings are read as, without a look at whether they can be set: an entry and its value each. What cannot be read
 /// is left out.
 pub fn read_settings(device: &Dictionary, node: u8, settings: &[SettingDecl]) -> Vec<(EntryId, Value)> {
@@ -162,11 +165,15 @@ pub(crate) fn of_node(
         pdo.follow(objects);
     }
     check::foreign_node(rules, system, &configured, node, diagnostics);
+    // What the identity says is no statement of its own.
+    let of_identity = configured.entry(SERIAL_NUMBER).and_then(|entry| entry.default.as_ref()?.integer());
+    let serial_number = decl.serial_number.filter(|number| of_identity != Some(i128::from(*number)));
     let mut read = Commissioning {
         node_name: decl.node_name.unwrap_or_default(),
         bit_rate: decl.bit_rate.unwrap_or(usual.bit_rate),
         net_number: decl.net_number.unwrap_or(0),
         net_name: decl.net_name.unwrap_or_default(),
+        serial_number,
         values,
         ..usual
     };

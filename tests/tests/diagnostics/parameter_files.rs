@@ -66,12 +66,14 @@ fn shown(Settled { node, assigned, diagnostics, sources, .. }: &Settled) -> Stri
     if diagnostics.has_errors() {
         return human(diagnostics, sources);
     }
-    let Commissioning { node: id, node_name, bit_rate, net_number, net_name, .. } = node;
+    let Commissioning { node: id, node_name, bit_rate, net_number, net_name, serial_number, .. } = node;
     let values = assigned.values.iter().map(|(id, value)| {
         let lock = if assigned.unlocked.contains(id) { ", unlocked" } else { "" };
         format!("{id} = {value:?}{lock}\n")
     });
-    let head = format!("node {id} `{node_name}`, {bit_rate} kbit/s, network {net_number} `{net_name}`\n");
+    let head = format!(
+        "node {id} `{node_name}`, {bit_rate} kbit/s, network {net_number} `{net_name}`, serial number {serial_number:?}\n"
+    );
     human(diagnostics, sources) + &head + &values.collect::<String>()
 }
 

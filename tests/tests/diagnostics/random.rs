@@ -114,7 +114,8 @@ fn settle_anything(text: &str) {
     let oven = system.device("oven").unwrap();
     (node.values, node.unlocked) = (assigned.values, assigned.unlocked);
     assert!(node.download(&system, oven).is_ok(), "{text}");
-    let about = About { system: &system, sources: &sources, device: oven, names_device: true };
+    let node_id = Some(node.node);
+    let about = About { system: &system, sources: &sources, device: oven, names_device: true, node_id };
     let written = write(about, &node, Vec::new());
     let back = settled("back.yaml", &[&written.text]);
     assert!(!back.diagnostics.has_errors(), "{}\n{}", written.text, human(&back.diagnostics, &back.sources));
@@ -122,6 +123,7 @@ fn settle_anything(text: &str) {
     assert_eq!(back.assigned.values, node.values, "{text}\n{}", written.text);
     assert_eq!(back.assigned.unlocked, node.unlocked);
     assert_eq!((back.node.node, back.node.bit_rate), (node.node, node.bit_rate));
+    assert_eq!((back.node.net_number, back.node.serial_number), (node.net_number, node.serial_number));
     assert_eq!((&back.node.node_name, &back.node.net_name), (&node.node_name, &node.net_name));
 }
 

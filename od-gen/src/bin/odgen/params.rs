@@ -23,14 +23,25 @@ fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
     let (of_file, node) = dcf(&file, &args.file).map_err(|diagnostic| report.refuse(diagnostic))?;
     let written = match &args.spec {
         None => {
-            let about =
-                About { system: &file.system, sources: &sources, device: of_file, names_device: false };
+            let about = About {
+                system: &file.system,
+                sources: &sources,
+                device: of_file,
+                names_device: false,
+                node_id: file.stated_node_id,
+            };
             write(about, node, Vec::new())
         }
         Some(spec) => {
             let (used, sources) = report.compile_with_sources(spec).ok_or(ERRORS)?;
             let device = report.device_or_only(&used.system, args.device.as_deref())?;
-            let about = About { system: &used.system, sources: &sources, device, names_device: true };
+            let about = About {
+                system: &used.system,
+                sources: &sources,
+                device,
+                names_device: true,
+                node_id: file.stated_node_id,
+            };
             of_specification(about, of_file, node)
         }
     };
