@@ -81,8 +81,8 @@ pub use json_schema::{json_schema, parameter_schema};
 pub use layout::layout;
 pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use parameters::{
-    Assigned, Assignment, Layer, Origin, ParameterFile, SettingDecl, assign, assign_layers, entry_named,
-    is_parameter_file, object_named, parameter_file, read_settings, settings, settings_of_map,
+    Assigned, Assignment, Layer, Origin, ParameterFile, SettingDecl, SettingNames, assign, assign_layers,
+    is_parameter_file, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
 #[cfg(feature = "reference")]

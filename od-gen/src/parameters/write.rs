@@ -6,7 +6,7 @@ use od_spec::keys::PARAMETERS_VERSION;
 use od_spec::model::{BitField, Dictionary, Entry, EntryId, Index, Object, Storage, TypeKind, Value};
 use od_spec::source::SourceMap;
 use od_spec::wording::{Notation, Wording, allowed};
-use od_spec::{Commissioning, entry_named, object_named, parameter_file, read_settings};
+use od_spec::{Commissioning, SettingNames, parameter_file};
 
 use super::About;
 use crate::yaml::{Item, Node, spelled, value, written};
@@ -21,6 +21,7 @@ pub(super) fn text(
     findings: &[String],
 ) -> String {
     let device = about.device;
+    let names = SettingNames::of(device);
     let mut items = vec![Item::new(PARAMETERS_VERSION, Node::plain(1))];
     if about.names_device {
         items.push(Item::new("device", Node::text(device.key.clone())));
@@ -43,11 +44,11 @@ pub(super) fn text(
     if let Some(number) = node.serial_number {
         items.push(Item::new("serial-number", Node::hex32(number)));
     }
-    let parameters = parameters(device, node);
+    let parameters = parameters(device, &names, node);
     if !parameters.is_empty() {
         items.push(Item::new("parameters", Node::Block(parameters)));
     }
-    let locked: Vec<Node> = node.unlocked.iter().map(|id| Node::text(name(device, *id))).collect();
+    let locked: Vec<Node> = node.unlocked.iter().map(|id| Node::text(name(device, &names, *id))).collect();
     if !locked.is_empty() {
         let mut unlock = Item::new("unlock", Node::List(locked));
         unlock.above.push(
@@ -78,7 +79,7 @@ fn one_line(text: &str) -> String {
 }
 
 /// The values by object, in the order of the dictionary.
-fn parameters(device: &Dictionary, node: &Commissioning) -> Vec<Item> {
+fn parameters(device: &Dictionary, names: &SettingNames<'_>, node: &Commissioning) -> Vec<Item> {
     let mut items = Vec::new();
     for object in device.objects.values() {
         let id = |entry: &Entry| EntryId { index: object.index, sub: entry.sub };
@@ -92,12 +93,12 @@ fn parameters(device: &Dictionary, node: &Commissioning) -> Vec<Item> {
         }
         if object.is_structured() {
             let below =
-                set.iter().map(|(id, entry, value)| below(device, object, *id, entry, value, node.node));
-            let key = object_key(device, object);
+                set.iter().map(|(id, entry, value)| below(names, object, *id, entry, value, node.node));
+            let key = object_key(names, object);
             items.push(Item::new(key, Node::Block(below.collect())));
         } else {
             items.extend(
-                set.iter().map(|(id, entry, value)| alone(device, object, *id, entry, value, node.node)),
+                set.iter().map(|(id, entry, value)| alone(names, object, *id, entry, value, node.node)),
             );
         }
     }
@@ -105,21 +106,35 @@ fn parameters(device: &Dictionary, node: &Commissioning) -> Vec<Item> {
 }
 
 /// An entry that is its object.
-fn alone(device: &Dictionary, object: &Object, id: EntryId, entry: &Entry, set: &Value, node: u8) -> Item {
+fn alone(
+    names: &SettingNames<'_>,
+    object: &Object,
+    id: EntryId,
+    entry: &Entry,
+    set: &Value,
+    node: u8,
+) -> Item {
     let by_index = format!("0x{:04X}", id.index.0);
     let keys = [spelled(&object.name), by_index];
     let ways = ways(id, entry, set);
-    let found = pairs(&keys, &ways).find(|(key, way)| reads(device, node, key, way, None, id, set));
+    let found = pairs(&keys, &ways).find(|(key, way)| reads(names, node, key, way, None, id, set));
     item(found.unwrap_or_else(|| (keys[1].clone(), raw(set))), id, entry)
 }
 
 /// An entry below its object.
-fn below(device: &Dictionary, object: &Object, id: EntryId, entry: &Entry, set: &Value, node: u8) -> Item {
-    let key_of_object = object_key(device, object);
+fn below(
+    names: &SettingNames<'_>,
+    object: &Object,
+    id: EntryId,
+    entry: &Entry,
+    set: &Value,
+    node: u8,
+) -> Item {
+    let key_of_object = object_key(names, object);
     let keys = [spelled(&entry.name), id.sub.to_string()];
     let ways = ways(id, entry, set);
     let found =
-        pairs(&keys, &ways).find(|(key, way)| reads(device, node, key, way, Some(&key_of_object), id, set));
+        pairs(&keys, &ways).find(|(key, way)| reads(names, node, key, way, Some(&key_of_object), id, set));
     item(found.unwrap_or_else(|| (keys[1].clone(), raw(set))), id, entry)
 }
 
@@ -129,8 +144,8 @@ fn pairs<'a>(keys: &'a [String], ways: &'a [Node]) -> impl Iterator<Item = (Stri
 }
 
 /// The key of an object: its name, where that names this object.
-fn object_key(device: &Dictionary, object: &Object) -> String {
-    if object_named(device, &object.name) == Some(object.index) {
+fn object_key(names: &SettingNames<'_>, object: &Object) -> String {
+    if names.object(&object.name) == Some(object.index) {
         spelled(&object.name)
     } else {
         format!("0x{:04X}", object.index.0)
@@ -138,16 +153,16 @@ fn object_key(device: &Dictionary, object: &Object) -> String {
 }
 
 /// What a file is read as.
-fn read(device: &Dictionary, node: u8, text: &str) -> Vec<(EntryId, Value)> {
+fn read(names: &SettingNames<'_>, node: u8, text: &str) -> Vec<(EntryId, Value)> {
     let mut sources = SourceMap::new();
     let file = sources.add("parameters", text);
     let read = parameter_file(&sources, file, &mut od_spec::diag::Diagnostics::new());
-    read.map(|file| read_settings(device, node, &file.layer.settings)).unwrap_or_default()
+    read.map(|file| names.read(node, &file.layer.settings)).unwrap_or_default()
 }
 
 /// Whether a key with a value is read as what is meant.
 fn reads(
-    device: &Dictionary,
+    names: &SettingNames<'_>,
     node: u8,
     key: &str,
     way: &Node,
@@ -161,7 +176,7 @@ fn reads(
         None => Node::Block(vec![one]),
     };
     let text = written(&[Item::new(PARAMETERS_VERSION, Node::plain(1)), Item::new("parameters", below)]);
-    read(device, node, &text) == [(id, set.clone())]
+    read(names, node, &text) == [(id, set.clone())]
 }
 
 /// The ways to write a value, the nicest first.
@@ -254,7 +269,7 @@ fn item((key, way): (String, Node), id: EntryId, entry: &Entry) -> Item {
 }
 
 /// How a person names an entry, if that is clear; else its index.
-fn name(device: &Dictionary, id: EntryId) -> String {
-    let name = device.entry_name(id).filter(|name| entry_named(device, name) == Some(id));
+fn name(device: &Dictionary, names: &SettingNames<'_>, id: EntryId) -> String {
+    let name = device.entry_name(id).filter(|name| names.entry(name) == Some(id));
     name.unwrap_or_else(|| format!("{:04X}.{}", id.index.0, id.sub))
 }

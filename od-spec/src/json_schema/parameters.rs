@@ -6,9 +6,11 @@
 mod keys;
 mod values;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::{Json, SCALARS, any_of, definition, members, object, reference, scalar, text, texts};
 use crate::keys::{PARAMETER_FILE, Shape};
-use crate::model::{Dictionary, Entry, EntryId, Object, System};
+use crate::model::{Dictionary, Entry, EntryId, Index, Object, System};
 use keys::Spellings;
 
 /// Prints the JSON Schema of the parameter files of a device.
@@ -76,6 +78,32 @@ fn settable(device: &Dictionary) -> impl Iterator<Item = (EntryId, &Object, &Ent
     })
 }
 
+/// The entries that may be set, by object.
+type ByObject<'a> = BTreeMap<Index, Vec<&'a Entry>>;
+
+fn by_object(device: &Dictionary) -> ByObject<'_> {
+    let mut by_object = ByObject::new();
+    for (id, _, entry) in settable(device) {
+        by_object.entry(id.index).or_default().push(entry);
+    }
+    by_object
+}
+
+/// Members of a JSON object: of one name, the first.
+#[derive(Default)]
+struct Members {
+    list: Vec<(String, Json)>,
+    names: BTreeSet<String>,
+}
+
+impl Members {
+    fn add(&mut self, name: String, schema: Json) {
+        if self.names.insert(name.clone()) {
+            self.list.push((name, schema));
+        }
+    }
+}
+
 /// What the definition of an entry is called.
 fn name_of(id: EntryId) -> String {
     format!("{:04X}.{}", id.index.0, id.sub)
@@ -90,36 +118,31 @@ fn bit_rates(device: &Dictionary) -> Json {
 
 /// The entries by name, which an editor completes, and by index in every notation.
 fn parameters(device: &Dictionary) -> Json {
-    let mut named: Vec<(String, Json)> = Vec::new();
-    for object in device.objects.values() {
-        let settable: Vec<&Entry> =
-            settable(device).filter(|(id, ..)| id.index == object.index).map(|(.., entry)| entry).collect();
-        let id = |entry: &Entry| EntryId { index: object.index, sub: entry.sub };
-        let mut add = |name: String, schema: Json| {
-            if named.iter().all(|(known, _)| *known != name) {
-                named.push((name, schema));
-            }
-        };
+    let mut named = Members::default();
+    let settable = by_object(device);
+    for (index, entries) in &settable {
+        let Some(object) = device.objects.get(index) else { continue };
+        let of_entry = |entry: &Entry| reference(&name_of(EntryId { index: *index, sub: entry.sub }));
         if !object.is_structured() {
-            for entry in settable {
-                add(object.name.clone(), reference(&name_of(id(entry))));
+            for entry in entries {
+                named.add(object.name.clone(), of_entry(entry));
             }
-        } else if !settable.is_empty() {
-            add(object.name.clone(), whole(object, &settable));
-            for entry in settable {
-                add(format!("{}.{}", object.name, entry.name), reference(&name_of(id(entry))));
-            }
+            continue;
+        }
+        named.add(object.name.clone(), whole(object, entries));
+        for entry in entries {
+            named.add(format!("{}.{}", object.name, entry.name), of_entry(entry));
         }
     }
     let Spellings { exact, patterns } = keys::spellings(device);
     for (key, ids) in exact {
-        let of_ids: Vec<Json> = ids.into_iter().map(|of| of.schema(device)).collect();
-        named.push((key, any_of(of_ids)));
+        let of_ids: Vec<Json> = ids.into_iter().map(|of| of.schema(device, &settable)).collect();
+        named.add(key, any_of(of_ids));
     }
-    let patterns = patterns.into_iter().map(|(pattern, of)| (pattern, of.schema(device)));
+    let patterns = patterns.into_iter().map(|(pattern, of)| (pattern, of.schema(device, &settable)));
     object([
         ("type", texts(["object", "null"])),
-        ("properties", Json::Object(named)),
+        ("properties", Json::Object(named.list)),
         ("patternProperties", Json::Object(patterns.collect())),
         ("additionalProperties", Json::Bool(false)),
     ])
@@ -127,19 +150,17 @@ fn parameters(device: &Dictionary) -> Json {
 
 /// An object with values of its entries below it.
 fn whole(of: &Object, settable: &[&Entry]) -> Json {
-    let mut properties: Vec<(String, Json)> = Vec::new();
+    let mut properties = Members::default();
     for entry in settable {
         let schema = || reference(&name_of(EntryId { index: of.index, sub: entry.sub }));
         for name in [entry.name.clone(), entry.sub.to_string(), format!("0x{:02X}", entry.sub.0)] {
-            if properties.iter().all(|(known, _)| *known != name) {
-                properties.push((name, schema()));
-            }
+            properties.add(name, schema());
         }
     }
     object([
         ("description", text(format!("{} {}, with entries below it", of.index, of.name))),
         ("type", text("object")),
-        ("properties", Json::Object(properties)),
+        ("properties", Json::Object(properties.list)),
         ("additionalProperties", Json::Bool(false)),
     ])
 }
@@ -161,17 +182,16 @@ fn unlock(device: &Dictionary) -> Json {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Named {
     Entry(EntryId),
-    Object(crate::model::Index),
+    Object(Index),
 }
 
 impl Named {
-    fn schema(self, device: &Dictionary) -> Json {
+    fn schema(self, device: &Dictionary, settable: &ByObject<'_>) -> Json {
         match self {
             Named::Entry(id) => reference(&name_of(id)),
             Named::Object(index) => {
-                let settable: Vec<&Entry> =
-                    settable(device).filter(|(id, ..)| id.index == index).map(|(.., entry)| entry).collect();
-                device.objects.get(&index).map_or_else(|| object([]), |object| whole(object, &settable))
+                let object = device.objects.get(&index).zip(settable.get(&index));
+                object.map_or_else(|| super::object([]), |(object, entries)| whole(object, entries))
             }
         }
     }

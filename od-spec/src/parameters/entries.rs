@@ -20,6 +20,11 @@ impl<'a> Entries<'a> {
         Self { device, lookup: resolve::Lookup::new(device) }
     }
 
+    /// Looks names and indices up.
+    pub(super) const fn lookup(&self) -> &resolve::Lookup<'a> {
+        &self.lookup
+    }
+
     /// The entry that a setting names.
     pub(super) fn find(&self, reference: &Reference, suggestions: &mut Suggestions) -> Found<'a> {
         match reference {

@@ -17,7 +17,6 @@ use crate::commissioning::{Commissioning, ParameterValues};
 use crate::diag::{Diagnostics, Suggestions};
 use crate::eds::read::{FileUse, NodeDecl};
 use crate::model::{Author, Dictionary, EntryId, Index, Statement, SubIndex, System, Value};
-use crate::resolve::Lookup;
 use crate::source::{Span, Spanned};
 use crate::standard;
 
@@ -111,27 +110,40 @@ pub fn settings(assignments: &[Assignment], diagnostics: &mut Diagnostics) -> Ve
     settings
 }
 
-/// The object that a setting means by this text, which has no sub-index.
-pub fn object_named(device: &Dictionary, text: &str) -> Option<Index> {
-    Lookup::new(device).object(text)
-}
-
-/// The entry that a setting means by this text.
-pub fn entry_named(device: &Dictionary, text: &str) -> Option<EntryId> {
-    Lookup::new(device).find(text, &mut Suggestions::default()).ok()
-}
-
 /// The serial number of the identity.
 const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
 
-/// What settings are read as, without a look at whether they can be set: an entry and its value each. What cannot be read
-/// is left out.
-pub fn read_settings(device: &Dictionary, node: u8, settings: &[SettingDecl]) -> Vec<(EntryId, Value)> {
-    let (entries, mut diagnostics) = (entries::Entries::of(device), Diagnostics::new());
-    let read = settings
-        .iter()
-        .filter_map(|decl| read::setting(device, &entries, node, decl, &mut diagnostics.suggestions).ok());
-    read.map(|setting| (setting.id, setting.value)).collect()
+/// The entries of a device by the names that settings give them, to be asked often.
+pub struct SettingNames<'a> {
+    device: &'a Dictionary,
+    entries: entries::Entries<'a>,
+}
+
+impl<'a> SettingNames<'a> {
+    /// Those of a device.
+    pub const fn of(device: &'a Dictionary) -> Self {
+        Self { device, entries: entries::Entries::of(device) }
+    }
+
+    /// The object that a text without a sub-index means.
+    pub fn object(&self, text: &str) -> Option<Index> {
+        self.entries.lookup().object(text)
+    }
+
+    /// The entry that a text means.
+    pub fn entry(&self, text: &str) -> Option<EntryId> {
+        self.entries.lookup().find(text, &mut Suggestions::default()).ok()
+    }
+
+    /// What settings are read as, without a look at whether they can be set: an entry and its value each. What cannot be read
+    /// is left out.
+    pub fn read(&self, node: u8, settings: &[SettingDecl]) -> Vec<(EntryId, Value)> {
+        let mut suggestions = Suggestions::default();
+        let read = settings
+            .iter()
+            .filter_map(|decl| read::setting(self.device, &self.entries, node, decl, &mut suggestions).ok());
+        read.map(|setting| (setting.id, setting.value)).collect()
+    }
 }
 
 /// The node that a DCF configures, under some of the rules. Values that cannot be read are left out.

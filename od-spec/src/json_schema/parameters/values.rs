@@ -1,5 +1,6 @@
 //! What the values of an entry look like to an editor.
 
+use super::Members;
 use crate::json_schema::{Json, any_integer, any_of, object, one_field, text, texts, yes_no};
 use crate::model::{
     BitField, Dictionary, Entry, EntryId, EnumValues, Family, Index, Object, Storage, TypeKind, Unit,
@@ -199,20 +200,11 @@ fn bits(fields: &[BitField]) -> Json {
         })
     });
     let Json::Object(mut one) = one_field(Json::Bool(false)) else { return object([]) };
-    one.insert(1, ("properties".to_owned(), Json::Object(distinct(with_value))));
+    let mut properties = Members::default();
+    with_value.for_each(|(name, schema)| properties.add(name, schema));
+    one.insert(1, ("properties".to_owned(), Json::Object(properties.list)));
     let items = any_of([object([("enum", texts(single.iter().map(String::as_str)))]), Json::Object(one)]);
     object([("type", text("array")), ("items", items), ("minItems", Json::Number(1))])
-}
-
-/// The first of each name.
-fn distinct(members: impl Iterator<Item = (String, Json)>) -> Vec<(String, Json)> {
-    let mut distinct: Vec<(String, Json)> = Vec::new();
-    for (name, schema) in members {
-        if distinct.iter().all(|(known, _)| *known != name) {
-            distinct.push((name, schema));
-        }
-    }
-    distinct
 }
 
 /// `{node: 5, time: 3000 ms}`.
