@@ -98,6 +98,37 @@ pub fn parameter_file(
 
 /// The settings of a map in any YAML file, as `parameters:` of a parameter file has them. What is misshapen goes to
 /// `diagnostics`.
+///
+/// ```
+/// use od_spec::diag::Diagnostics;
+/// use od_spec::source::SourceMap;
+/// use od_spec::{Layer, NoFiles, assign_layers, compile, settings_of_map, yaml};
+///
+/// let mut sources = SourceMap::new();
+/// let root = sources.add("lamp.od.yaml", "
+/// od-spec: 1
+/// title: Lamp
+/// uses: [cia301]
+/// devices:
+///   lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+/// objects:
+///   0x2000: {name: dimmer, record: {1: {name: low, type: unsigned8, access: rw}, 2: {name: high, type: unsigned8, access: rw}}}
+/// ");
+/// let system = compile(&mut sources, root, &mut NoFiles).system.expect("no errors");
+/// let house = sources.add("house.yaml", "
+/// every lamp: {dimmer: {low: 10, high: 90}}
+/// lamp in the hall: {2000.2: 80}
+/// ");
+/// let mut diagnostics = Diagnostics::new();
+/// let mut tree = yaml::parse(house, sources.file(house), &mut diagnostics).expect("YAML");
+/// let yaml::NodeKind::Map(parts) = &mut tree.kind else { panic!("a map") };
+/// let layers: Vec<Layer> =
+///     parts.iter_mut().map(|(_, map)| Layer::of(settings_of_map(map, &mut diagnostics))).collect();
+/// let assigned = assign_layers(&system, &system.devices[0], 5, &layers, &mut diagnostics);
+/// assert!(diagnostics.is_empty());
+/// let values = assigned.values.iter().map(|(id, value)| (id.to_string(), value.integer(), assigned.origins[id].layer));
+/// assert_eq!(values.collect::<Vec<_>>(), [("2000h.1".to_owned(), Some(10), 0), ("2000h.2".to_owned(), Some(80), 1)]);
+/// ```
 pub fn settings_of_map(map: &mut Node, diagnostics: &mut Diagnostics) -> Vec<SettingDecl> {
     decode::check_shape(map, Shape::MapOf(KeyKind::Name, &Shape::Setting), diagnostics);
     decode::settings(map)
