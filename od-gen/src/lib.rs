@@ -6,6 +6,8 @@
 mod artifact;
 #[cfg(all(feature = "eds", feature = "json"))]
 mod artifacts;
+#[cfg(feature = "eds")]
+pub mod boot;
 #[cfg(feature = "format")]
 mod builder;
 #[cfg(feature = "diff")]
@@ -23,6 +25,8 @@ mod hexadecimal;
 pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(feature = "yaml")]
+pub mod parameters;
 mod plan;
 pub mod rust;
 pub mod source;

@@ -1,8 +1,11 @@
 //! What is settled for one node of a network, beyond what its device is.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use crate::check::codes as rule_codes;
+use crate::check::texts_fit_eds::problem;
+use crate::diag::{Diagnostic, codes};
 use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, System, Value, Write, download};
 
 /// Values of single entries, by entry.
@@ -22,8 +25,12 @@ pub struct Commissioning {
     pub net_number: u32,
     /// Name of the network; may be empty.
     pub net_name: String,
+    /// Serial number by which LSS finds the node; that of the identity (1018h.4) where none is stated.
+    pub serial_number: Option<u32>,
     /// Values of single entries; every other entry keeps its default.
     pub values: ParameterValues,
+    /// Locked entries among the values: the device takes these only while it is unlocked for service.
+    pub unlocked: BTreeSet<EntryId>,
     /// What objects and entries are called in the application; beside the names that the device gives them.
     pub denotations: BTreeMap<Denoted, String>,
     /// The files of DOMAINs.
@@ -88,7 +95,9 @@ impl Commissioning {
             bit_rate,
             net_number: 1,
             net_name: String::new(),
+            serial_number: None,
             values: ParameterValues::new(),
+            unlocked: BTreeSet::new(),
             denotations: BTreeMap::new(),
             files: BTreeMap::new(),
         }
@@ -125,4 +134,75 @@ impl Commissioning {
     pub fn download(&self, system: &System, device: &Dictionary) -> Result<Vec<Write>, NoSuchValue> {
         download(system, device, &self.values, self.node)
     }
+
+    /// Leaves out the values that a device has anyway; how many those are.
+    pub fn keep_differences(&mut self, device: &Dictionary) -> usize {
+        let (before, node) = (self.values.len(), self.node);
+        self.values.retain(|id, value| {
+            let default = device.entry(*id).and_then(|entry| entry.default.as_ref());
+            default.is_none_or(|default| !is_same(default, value, node))
+        });
+        let values = &self.values;
+        self.unlocked.retain(|id| values.contains_key(id));
+        before - self.values.len()
+    }
+}
+
+/// Whether two values are one on a node, where a formula is a number.
+pub(crate) fn is_same(one: &Value, other: &Value, node: u8) -> bool {
+    one == other || one.integer_for(node).is_some_and(|raw| other.integer_for(node) == Some(raw))
+}
+
+/// A text of `[DeviceComissioning]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextOfNode {
+    /// `NodeName`.
+    Node,
+    /// `NetworkName`.
+    Network,
+}
+
+impl TextOfNode {
+    /// How long it may be: a line has 255 characters.
+    const fn longest(self) -> usize {
+        match self {
+            TextOfNode::Node => 246,
+            TextOfNode::Network => 243,
+        }
+    }
+
+    /// The text without blanks around it; `option` is where it was said.
+    ///
+    /// # Errors
+    /// A line of a DCF cannot hold it.
+    pub fn read(self, option: &str, text: &str) -> Result<String, Diagnostic> {
+        let text = text.trim();
+        match problem(text, self.longest()) {
+            None => Ok(text.to_owned()),
+            Some(problem) => {
+                let message = format!("the text of `{option}` {problem}");
+                Err(Diagnostic::without_place(rule_codes::NOT_FOR_EDS, message).help("choose another text"))
+            }
+        }
+    }
+}
+
+/// A bit rate in kbit/s that a device supports.
+///
+/// # Errors
+/// The device does not support it, or it is no number.
+pub fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {
+    let rates = device.info.bit_rates.iter().map(u16::to_string).collect::<Vec<_>>().join(", ");
+    let rate = text.trim().parse::<u16>().ok().filter(|rate| device.info.bit_rates.contains(rate));
+    rate.ok_or_else(|| {
+        Diagnostic::without_place(
+            codes::BIT_RATE_UNSUPPORTED,
+            format!("`{}` does not support a bit rate of `{text}` kbit/s", device.key),
+        )
+        .help(if rates.is_empty() {
+            "nobody says which bit rates it supports; state them in its specification".to_owned()
+        } else {
+            format!("it supports {rates} kbit/s")
+        })
+    })
 }

@@ -11,10 +11,14 @@
 //! texts also as the numbers and booleans for which YAML may take them. What the schema cannot see remains the
 //! compiler's: whether names are known, whether values fit their types, and the ranges of numbers written as text.
 
+mod parameters;
+
 use std::fmt::Write as _;
 
 use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape, VERSION};
 use crate::model::{Access, DataType};
+
+pub use parameters::parameter_schema;
 
 /// Prints the JSON Schema of specifications and libraries.
 pub fn json_schema() -> String {
@@ -342,6 +346,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         | Shape::List(_)
         | Shape::OneOrMore(_)
         | Shape::ShortOr(..)
+        | Shape::Setting
         | Shape::Feature => return None,
     })
 }

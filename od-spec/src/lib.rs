@@ -68,7 +68,7 @@ pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
 pub use check::start_values_are_allowed::start_of_code;
 pub use check::texts_fit_eds::problem as eds_text_problem;
-pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues};
+pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, TextOfNode, bit_rate};
 pub use compile::{Compiled, Strictness, compile, compile_as};
 pub use decode::is_device_key;
 pub use departures::departures;
@@ -77,10 +77,13 @@ pub use explain::{all_codes, code, explanation};
 pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
-pub use json_schema::json_schema;
+pub use json_schema::{json_schema, parameter_schema};
 pub use layout::layout;
 pub use library::{Feature, Library, LibraryObject, library, library_in};
-pub use parameters::{Assignment, assign};
+pub use parameters::{
+    Assigned, Assignment, Layer, Origin, ParameterFile, SettingDecl, SettingNames, assign, assign_layers,
+    is_parameter_file, parameter_file, settings, settings_of_map,
+};
 pub use parts::part_of;
 #[cfg(feature = "reference")]
 pub use reference::reference;

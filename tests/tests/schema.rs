@@ -7,8 +7,13 @@ use std::path::{Path, PathBuf};
 use jsonschema::Validator;
 use od_spec::diag::Diagnostics;
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, compile};
-use serde_json::{Map, Value};
+use od_spec::{NoFiles, assign_layers, compile, is_parameter_file, parameter_file};
+use serde_json::Value;
+
+#[path = "../shared/typed_yaml.rs"]
+mod typed_yaml;
+
+use typed_yaml::json;
 
 /// Codes of mistakes that the schema sees: unknown key, wrong kind, missing key, number out of range, unknown word.
 const SHAPE_CODES: [&str; 5] = ["od0201", "od0202", "od0203", "od0205", "od0207"];
@@ -39,28 +44,6 @@ fn root() -> PathBuf {
 fn validator() -> Validator {
     let schema: Value = serde_json::from_str(&od_spec::json_schema()).expect("JSON");
     jsonschema::draft7::new(&schema).expect("a schema")
-}
-
-/// YAML as an editor hands it to a schema: typed by YAML 1.2, with every key a text.
-fn json(yaml: &str) -> Value {
-    convert(serde_yaml::from_str(yaml).unwrap_or_else(|error| panic!("{error}\n{yaml}")))
-}
-
-fn convert(value: serde_yaml::Value) -> Value {
-    match value {
-        serde_yaml::Value::Mapping(map) => {
-            let members = map.into_iter().map(|(name, value)| {
-                let name = match convert(name) {
-                    Value::String(name) => name,
-                    other => other.to_string(),
-                };
-                (name, convert(value))
-            });
-            Value::Object(members.collect::<Map<_, _>>())
-        }
-        serde_yaml::Value::Sequence(list) => list.into_iter().map(convert).collect(),
-        other => serde_json::to_value(other).expect("a scalar"),
-    }
 }
 
 fn problems(validator: &Validator, yaml: &str) -> Vec<String> {
@@ -233,6 +216,10 @@ fn the_other_pieces_of_the_reference_compile() {
     let head = "od-spec: 1\ntitle: t\nvendor: {name: v, number: 1}\nuses: [cia301, cia401, cia402]\n";
     let pump = "devices: {pump: {name: Pump, bit-rates: [125], features: [heartbeat producer, drive, profile position mode]}}\n";
     for piece in &yaml_of_reference()[1..] {
+        if is_parameter_file(piece) {
+            check_parameters(piece);
+            continue;
+        }
         // A drive's objects can be mapped, so that it has PDOs.
         let has_devices = piece.lines().any(|line| line.starts_with("devices:"));
         let devices = if has_devices { "" } else { pump };
@@ -245,6 +232,22 @@ fn the_other_pieces_of_the_reference_compile() {
         let found: Vec<String> = found.iter().map(|one| format!("{} {}", one.code, one.message)).collect();
         assert_eq!(found, Vec::<String>::new(), "{piece}");
     }
+}
+
+/// A piece that is a parameter file is one of the oven.
+fn check_parameters(piece: &str) {
+    let mut sources = SourceMap::new();
+    let spec = sources.add("oven.od.yaml", include_str!("../shared/oven.od.yaml"));
+    let system = compile(&mut sources, spec, &mut NoFiles).system.expect("no errors");
+    let file = sources.add("parameters", piece);
+    let mut diagnostics = Diagnostics::new();
+    let read = parameter_file(&sources, file, &mut diagnostics).expect("a parameter file");
+    let oven = system.device("oven").expect("the oven");
+    read.check_device(&system, oven, &mut diagnostics);
+    let count = assign_layers(&system, oven, 5, &[read.layer], &mut diagnostics).values.len();
+    assert!(diagnostics.is_empty() && count > 5, "{count} of {piece}: {diagnostics:?}");
+    let schema = serde_json::from_str(&od_spec::parameter_schema(&system, oven)).expect("JSON");
+    assert_eq!(problems(&jsonschema::draft7::new(&schema).expect("a schema"), piece), Vec::<String>::new());
 }
 
 #[test]

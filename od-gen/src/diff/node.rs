@@ -43,6 +43,13 @@ pub(super) fn changes(
         ),
         fact("name", old.node_name.clone(), new.node_name.clone(), Class::Documents, "a name for people"),
         fact(
+            "serial number",
+            old.serial_number.map(number).unwrap_or_default(),
+            new.serial_number.map(number).unwrap_or_default(),
+            Class::Plc,
+            "LSS finds another node",
+        ),
+        fact(
             "name of the network",
             old.net_name.clone(),
             new.net_name.clone(),

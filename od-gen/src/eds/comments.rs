@@ -1,5 +1,6 @@
 //! What EDS keys cannot say: units, meanings, bits, storage, locks. Facts are worded by [`od_spec::wording`].
 
+use od_spec::Commissioning;
 use od_spec::model::{
     BitField, BitUsage, Dictionary, Entry, EntryId, Fact, Index, Object, Storage, Text, TypeKind,
 };
@@ -12,6 +13,21 @@ const MOST_MEMBERS: usize = 40;
 
 const WORDING: Wording = Wording::english(Notation::Eds);
 
+/// Above a locked entry that is set all the same. What reads the file back takes it for no lock, as the keys show none.
+const LIFTED: &str =
+    "LOCKED PARAMETER, set on request: the device takes it only while it is unlocked for service";
+
+/// What keeps an entry from being written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Lock {
+    /// Nothing.
+    None,
+    /// The service lock.
+    Closed,
+    /// Nothing in the file of a node for which the lock was lifted.
+    Lifted,
+}
+
 /// Comments above an object's section.
 pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
     warning(&object.warning, language)
@@ -21,10 +37,26 @@ pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
 }
 
 /// Comments above an entry's section.
-pub(super) fn entry(device: &Dictionary, index: Index, entry: &Entry, language: &str) -> Vec<String> {
-    let mut lines: Vec<String> = warning(&entry.warning, language).into_iter().collect();
+pub(super) fn entry(
+    device: &Dictionary,
+    index: Index,
+    entry: &Entry,
+    node: Option<&Commissioning>,
+    language: &str,
+) -> Vec<String> {
+    let id = EntryId { index, sub: entry.sub };
+    let lock = match node {
+        _ if !entry.locked => Lock::None,
+        Some(node) if node.unlocked.contains(&id) => Lock::Lifted,
+        Some(_) | None => Lock::Closed,
+    };
+    let mut lines: Vec<String> = Vec::new();
+    if lock == Lock::Lifted {
+        lines.push(LIFTED.to_owned());
+    }
+    lines.extend(warning(&entry.warning, language));
     lines.extend(entry.about.get(language).map(ToOwned::to_owned));
-    lines.extend(facts(device, index, entry));
+    lines.extend(facts(device, index, entry, lock));
     lines.extend(entry.special.iter().map(|special| WORDING.special(entry, special)));
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) if values.len() <= MOST_MEMBERS => {
@@ -47,7 +79,7 @@ fn warning(warning: &Text, language: &str) -> Option<String> {
 }
 
 /// Unit, alias, storage and the like, in one line.
-fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
+fn facts(device: &Dictionary, index: Index, entry: &Entry, lock: Lock) -> Option<String> {
     let mut facts = Vec::new();
     if let Some(unit) = &entry.unit {
         facts.push(format!("unit {}", WORDING.step(unit)));
@@ -55,7 +87,7 @@ fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
     if let Some(alias) = &entry.alias {
         facts.push(format!("view of {}", target(device, alias.target)));
     }
-    if entry.locked {
+    if lock == Lock::Closed {
         facts.push("writable only when unlocked for service".to_owned());
     }
     if entry.stored != Storage::No {

@@ -17,6 +17,8 @@ pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, commission
     section.flag("CANopenManager", false);
     let serial = EntryId { index: Index(0x1018), sub: SubIndex(4) };
     let serial = commissioning.values.get(&serial).or_else(|| device.entry(serial)?.default.as_ref());
-    section.key("LSS_SerialNumber", format_args!("0x{:08X}", serial.and_then(Value::integer).unwrap_or(0)));
+    let of_identity = serial.and_then(Value::integer).unwrap_or(0);
+    let serial = commissioning.serial_number.map_or(of_identity, i128::from);
+    section.key("LSS_SerialNumber", format_args!("0x{serial:08X}"));
     section.finish(document);
 }

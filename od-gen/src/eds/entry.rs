@@ -31,19 +31,21 @@ pub(super) fn write(
             section.key(key, format_args!("{:?}", limit.number()));
         }
     }
-    section.text("AccessType", entry.eds.access.word());
+    let id = EntryId { index: object.index, sub: entry.sub };
+    let is_unlocked = node.is_some_and(|node| node.unlocked.contains(&id));
+    let eds = if is_unlocked { entry.eds_while_unlocked() } else { entry.eds };
+    section.text("AccessType", eds.access.word());
     let notation = value::Notation { object, entry, node: node.map(|commissioning| commissioning.node) };
-    if let Some(default) = entry.default.as_ref().filter(|_| entry.eds.default && !is_domain) {
+    if let Some(default) = entry.default.as_ref().filter(|_| eds.default && !is_domain) {
         section.value("DefaultValue", &notation.text(default));
     }
     if !is_domain {
         section.flag("PDOMapping", entry.pdo != PdoMapping::None);
     }
-    if entry.eds.flags() != 0 {
-        section.key("ObjFlags", entry.eds.flags());
+    if eds.flags() != 0 {
+        section.key("ObjFlags", eds.flags());
     }
     let Some(node) = node else { return };
-    let id = EntryId { index: object.index, sub: entry.sub };
     if let Some(value) = node.values.get(&id) {
         section.value("ParameterValue", &notation.text(value));
     }

@@ -70,7 +70,7 @@ fn write_object(
     if !object.is_structured() {
         for var in &object.entries {
             let mut section =
-                SectionWriter::new(&name, &comments::entry(device, object.index, var, language));
+                SectionWriter::new(&name, &comments::entry(device, object.index, var, node, language));
             entry::write(&mut section, object, var, &object.name, node);
             section.finish(document);
         }
@@ -87,7 +87,8 @@ fn write_object(
     section.finish(document);
     for member in &object.entries {
         let name = entry_section(object.index, member.sub);
-        let mut section = SectionWriter::new(&name, &comments::entry(device, object.index, member, language));
+        let mut section =
+            SectionWriter::new(&name, &comments::entry(device, object.index, member, node, language));
         entry::write(&mut section, object, member, &member.name, node);
         section.finish(document);
     }

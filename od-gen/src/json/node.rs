@@ -14,6 +14,8 @@ pub(super) struct NodeView<'a> {
     bit_rate: u16,
     net_number: u32,
     net_name: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    serial_number: Option<u32>,
     values: Vec<ValueView>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     denotations: Vec<DenotationView<'a>>,
@@ -67,6 +69,7 @@ impl<'a> NodeView<'a> {
             bit_rate: node.bit_rate,
             net_number: node.net_number,
             net_name: &node.net_name,
+            serial_number: node.serial_number,
             values: values.collect(),
             denotations: denotations.collect(),
             files: files.collect(),

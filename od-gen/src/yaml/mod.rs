@@ -44,9 +44,17 @@ use context::Style;
 use emit::Written;
 use mend::{Draft, Effort};
 use node::Spot;
+pub(crate) use node::{Item, Node};
 pub use options::{Options, Place};
 use remarks::Remarks;
 pub use remarks::Repair;
+pub(crate) use scalar::spelled;
+pub(crate) use value::value;
+
+/// A document of these keys.
+pub(crate) fn written(items: &[Item]) -> String {
+    emit::write(items).text
+}
 
 /// A specification that was written for a model.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ use od_spec::model::{Direction, EntryId, Fact, Index};
 
 /// A value.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Node {
+pub(crate) enum Node {
     /// A text, which is quoted where YAML needs it.
     Text(String),
     /// A number or a word that is written as it is.
@@ -21,7 +21,7 @@ pub(super) enum Node {
 
 /// A key with its value.
 #[derive(Debug, Clone)]
-pub(super) struct Item {
+pub(crate) struct Item {
     /// Comment lines above; an empty one is an empty line.
     pub above: Vec<String>,
     /// The key, as it is written.
@@ -41,7 +41,7 @@ impl PartialEq for Item {
 
 /// What a part of a specification is about.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Spot {
+pub(crate) enum Spot {
     /// The maker.
     Vendor,
     /// The device.
@@ -64,34 +64,34 @@ pub(super) enum Spot {
 
 impl Item {
     /// A key that says nothing about an entry.
-    pub(super) fn new(key: impl Into<String>, value: Node) -> Self {
+    pub(crate) fn new(key: impl Into<String>, value: Node) -> Self {
         Self { above: Vec::new(), key: key.into(), value, spot: None }
     }
 
     /// The same with what it says.
-    pub(super) fn about(self, spot: Spot) -> Self {
+    pub(crate) fn about(self, spot: Spot) -> Self {
         Self { spot: Some(spot), ..self }
     }
 }
 
 impl Node {
     /// A word or a number.
-    pub(super) fn plain(value: impl Display) -> Self {
+    pub(crate) fn plain(value: impl Display) -> Self {
         Self::Plain(format!("{value}"))
     }
 
     /// A text.
-    pub(super) fn text(text: impl Into<String>) -> Self {
+    pub(crate) fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
 
     /// `yes` or `no`.
-    pub(super) fn yes_no(flag: bool) -> Self {
+    pub(crate) fn yes_no(flag: bool) -> Self {
         Self::plain(if flag { "yes" } else { "no" })
     }
 
     /// A number of 32 bits that people read bit by bit: `0x0001_0002`.
-    pub(super) fn hex32(number: u32) -> Self {
+    pub(crate) fn hex32(number: u32) -> Self {
         Self::Plain(format!("0x{:04X}_{:04X}", number >> 16, number & 0xFFFF))
     }
 }

@@ -4,7 +4,7 @@
 const WORDS: [&str; 10] = ["yes", "no", "on", "off", "true", "false", "null", "y", "n", "nan"];
 
 /// A text as YAML: plain where nobody can misread it, else in quotes.
-pub(super) fn spelled(text: &str) -> String {
+pub(crate) fn spelled(text: &str) -> String {
     if is_plain(text) {
         return text.to_owned();
     }

@@ -6,7 +6,7 @@ use od_spec::scalar;
 use super::node::Node;
 
 /// A default, or a limit.
-pub(super) fn value(index: Index, entry: &Entry, value: &Value) -> Node {
+pub(crate) fn value(index: Index, entry: &Entry, value: &Value) -> Node {
     match value {
         Value::NodeId(0) => Node::plain("$NODEID"),
         Value::NodeId(offset) => Node::Plain(format!("$NODEID + 0x{offset:X}")),

@@ -49,3 +49,24 @@ fn the_way_from_an_eds_to_a_specification_is_as_shown() {
     let (_, objects) = specification.split_once("\nobjects:\n").unwrap();
     shows("specification", ["objects:"].into_iter().chain(objects.lines()));
 }
+
+#[test]
+fn the_parameter_file_is_one_of_the_valve() {
+    let scratch = Scratch::new("readme-parameters");
+    scratch.file("valve.od.yaml", include_str!("../../../tests/readme/valve.od.yaml"));
+    let readme = readme();
+    let (_, rest) = readme.split_once("<!-- parameters -->\n```yaml\n").unwrap();
+    scratch.file("valve-5.yaml", rest.split_once("```").unwrap().0);
+    let dcf = odgen(&scratch.0, &["dcf", "valve.od.yaml", "--params", "valve-5.yaml", "--out", "saved.dcf"]);
+    assert_eq!(stderr(&dcf), "");
+    let text = fs::read_to_string(scratch.0.join("saved.dcf")).unwrap();
+    assert!(text.contains("ParameterValue=60\r\n") && text.contains("Baudrate=500\r\n"));
+    let explained = odgen(&scratch.0, &["dcf", "valve.od.yaml", "--params", "valve-5.yaml", "--explain"]);
+    assert!(
+        stdout(&explained).contains("*  2000h     set pressure = 6.0 bar  (set; the default is 2.5 bar)")
+    );
+    let back = odgen(&scratch.0, &["params", "saved.dcf", "--spec", "valve.od.yaml"]);
+    assert!(stdout(&back).ends_with("\n  set pressure: 6.0 bar\n"), "{}", stdout(&back));
+    let schema = odgen(&scratch.0, &["schema", "--params", "valve.od.yaml"]);
+    assert!(stdout(&schema).contains("\"title\": \"Parameters of Valve (valve)\""));
+}

@@ -7,7 +7,8 @@ use crate::diag::{Code, Diagnostic, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Settings(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0707",
     severity: Severity::Error,
     foreign: Severity::Error,

@@ -95,8 +95,10 @@ mod write_conditions_are_met;
 /// Codes of rules that reading and looking up report as well.
 pub mod codes {
     pub(crate) use super::cob_ids_are_unrestricted::CODE as BAD_COB_ID;
+    pub use super::commands_are_not_downloaded::CODE as IS_COMMAND;
     pub use super::counts_agree::CODE as COUNT_MISMATCH;
     pub use super::names_are_unique::CODE as DUPLICATE_NAME;
+    pub use super::set_entries_are_writable::CODE as NOT_WRITABLE;
     pub use super::texts_fit_eds::CODE as NOT_FOR_EDS;
     pub use super::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
     pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;

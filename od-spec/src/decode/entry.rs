@@ -57,7 +57,8 @@ impl FromNode for DefaultDecl {
     }
 }
 
-fn default(reader: Reader<'_>) -> Option<Spanned<DefaultDecl>> {
+/// A value, a list of values, or a map of them.
+pub(super) fn default(reader: Reader<'_>) -> Option<Spanned<DefaultDecl>> {
     let value = match &reader.node.kind {
         NodeKind::List(items) if items.is_empty() => return None,
         NodeKind::List(items) => {

@@ -12,6 +12,7 @@ mod machines;
 mod manual;
 mod numbered;
 mod objects;
+mod parameters;
 mod pdos;
 mod read;
 mod shape;
@@ -19,17 +20,24 @@ mod spec;
 mod types;
 
 pub use lexical::is_device_key;
+pub(crate) use parameters::{parameter_file, settings};
 pub(crate) use shape::inside;
 
 use crate::ast::Spec;
 use crate::diag::Diagnostics;
-use crate::keys::{self, Keys};
+use crate::keys::{self, Keys, Shape};
 use crate::yaml::Node;
 
 /// Says what in a file is not as its keys want it, and gives keys their name of today.
 pub(crate) fn check(root: &mut Node, keys: &Keys, diagnostics: &mut Diagnostics) {
     let owner = shape::start(root);
     shape::check_map(root, keys, owner, diagnostics);
+}
+
+/// Says what in a part of a file is not of the shape that it is expected to have.
+pub(crate) fn check_shape(node: &mut Node, shape: Shape, diagnostics: &mut Diagnostics) {
+    let owner = shape::start(node);
+    shape::check(node, shape, owner, diagnostics);
 }
 
 /// Reads a specification whose files were checked, or a library of one that shows some languages; without any, texts stay

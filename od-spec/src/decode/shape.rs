@@ -116,7 +116,8 @@ fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut 
     );
 }
 
-fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
+/// Checks a value of any shape.
+pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
     match shape {
         Shape::Map(keys) => check_map(node, keys, owner, diagnostics),
         Shape::ShortOr(short, keys) => match node.kind {
@@ -144,15 +145,15 @@ fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnosti
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
         Shape::Feature => check_feature(node, diagnostics),
-        Shape::Default => match &mut node.kind {
+        Shape::Default | Shape::Setting => match &mut node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
                 for node in items {
                     let owner = start(node);
-                    check(node, Shape::Default, owner, diagnostics);
+                    check(node, shape, owner, diagnostics);
                 }
             }
-            NodeKind::Map(_) => check_keyed(node, KeyKind::Name, Shape::Default, diagnostics),
+            NodeKind::Map(_) => check_keyed(node, KeyKind::Name, shape, diagnostics),
             NodeKind::Scalar { .. } => {}
             NodeKind::Null | NodeKind::Broken => wrong_kind(node, expected(shape), diagnostics),
         },
@@ -298,7 +299,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Entries => "an entry such as `0x6040`, `0x30FA.3` or its name, or a run such as `0x2021.1..4`",
         Shape::Access => "an access type such as `ro` or `rw locked`",
         Shape::Type => "a data type or the name of a type",
-        Shape::Value | Shape::Default => "a value",
+        Shape::Value | Shape::Default | Shape::Setting => "a value",
         Shape::Ratio => "a fraction such as `1/10`",
         Shape::SignedRatio => "a number such as `-40` or `-273.15`, in the unit's symbol",
         Shape::Base => "a fraction and a symbol such as `1/1000 V`",

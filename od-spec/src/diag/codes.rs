@@ -162,6 +162,8 @@ codes! {
         "A file could not be created, written or renamed. Nothing was changed: the old files are all still there."
     BAD_TEMPLATE Error "OD0711" "a template that cannot be printed":
         "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
+    NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
+        "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
     DEPARTURE Note "OD0811" "a departure from a standard":
         "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
     OPEN_GAP Warning "OD0841" "a gap that nobody has filled":

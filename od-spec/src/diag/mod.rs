@@ -121,6 +121,13 @@ impl Diagnostic {
         }
     }
 
+    /// The same about a place.
+    #[must_use]
+    pub(crate) fn at(mut self, span: Span) -> Self {
+        self.labels.insert(0, Label { span, text: String::new() });
+        self
+    }
+
     /// Words at the primary place.
     #[must_use]
     pub fn label(mut self, text: impl Into<String>) -> Self {

@@ -10,6 +10,7 @@ mod libraries;
 mod machines;
 mod manual;
 mod objects;
+mod parameters;
 mod pdos;
 mod shape;
 mod table;
@@ -27,6 +28,7 @@ pub use manual::{
     TIMING_STEP,
 };
 pub use objects::{ARRAY, OBJECT, SUB0};
+pub use parameters::{PARAMETER_FILE, PARAMETERS_VERSION};
 pub use pdos::{
     PDO, PDO_COMMUNICATION, PDO_DIRECTIONS, PDO_MAPPED_ENTRY, PDO_MAPPING, PDO_PARAMETER, PDO_PARAMETERS,
     PDO_RESERVED, PDOS,

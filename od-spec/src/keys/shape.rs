@@ -71,6 +71,8 @@ pub enum Shape {
     /// A value; a list of values, one for each element of an array, or of the bits of a bit field that are 1,
     /// `[enable, {mode: homing}]`; or a map from device to one of these.
     Default,
+    /// What a node's parameter is set to: a value, a list of the bits that are 1, or a map with the entries of an object.
+    Setting,
     /// A fraction: `1/10`.
     Ratio,
     /// A fraction that may be negative or 0: `-40`.

@@ -285,6 +285,11 @@ impl Entry {
         self.facts.state(Fact::Default, statement);
     }
 
+    /// What an EDS shows of it while the device is unlocked for service: the lock keeps no tool from writing it.
+    pub const fn eds_while_unlocked(&self) -> EdsPolicy {
+        EdsPolicy { access: self.access.joined(self.pdo), no_write: false, ..self.eds }
+    }
+
     /// Whether a raw value is allowed: inside the limits, or special.
     pub fn allows(&self, value: i128) -> bool {
         self.special.iter().any(|special| special.value == value)

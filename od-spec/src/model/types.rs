@@ -389,6 +389,15 @@ impl Access {
             Access::Const | Access::Ro => false,
         }
     }
+
+    /// The access type of an EDS, which holds the direction of the PDO mapping as well.
+    pub const fn joined(self, pdo: PdoMapping) -> Self {
+        match (self, pdo) {
+            (Access::Rw, PdoMapping::Receive) => Access::Rww,
+            (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
+            (access, _) => access,
+        }
+    }
 }
 
 word_enum! {

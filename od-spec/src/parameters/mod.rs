@@ -1,18 +1,26 @@
 //! Parameter values for one device: what a DCF carries beyond the defaults. Settings are read here and laid over the model;
 //! whether the result is right is for the rules to say, the same ones as for a specification.
 
+mod decl;
+mod entries;
+mod file;
+mod layers;
 mod overlay;
 mod read;
 
-use std::collections::BTreeMap;
+pub use decl::SettingDecl;
+pub use file::{ParameterFile, is_parameter_file, parameter_file, settings_of_map};
+pub use layers::{Assigned, Layer, Origin, assign_layers};
 
 use crate::check;
 use crate::commissioning::{Commissioning, ParameterValues};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostics, Suggestions};
 use crate::eds::read::{FileUse, NodeDecl};
-use crate::model::{Author, Dictionary, EntryId, Statement, System, Value};
+use crate::model::{Author, Dictionary, EntryId, Index, Statement, SubIndex, System, Value};
 use crate::source::{Span, Spanned};
 use crate::standard;
+
+use layers::assign_layers_with;
 
 /// A setting `ENTRY=VALUE` and its place.
 pub type Assignment = Spanned<String>;
@@ -86,46 +94,56 @@ pub(crate) fn assign_with(
     assignments: &[Assignment],
     diagnostics: &mut Diagnostics,
 ) -> ParameterValues {
-    let mut settings: Vec<Setting> = Vec::new();
-    let mut held: BTreeMap<EntryId, usize> = BTreeMap::new();
-    let entries = read::Entries::of(device);
-    for assignment in assignments {
-        match read::setting(&entries, node, assignment, &mut diagnostics.suggestions) {
-            Ok(setting) => match held.get(&setting.holder).and_then(|at| settings.get(*at)) {
-                Some(before) => diagnostics.push(set_twice(&setting, before)),
-                None => {
-                    held.insert(setting.holder, settings.len());
-                    settings.push(setting);
-                }
-            },
-            // What cannot be set at all needs no better value.
-            Err(unread) => match refused(rules, system, device, node, assignment, &unread) {
-                Some(refusal) => diagnostics.append(refusal),
-                None => diagnostics.push(*unread.diagnostic),
-            },
-        }
-    }
-    let configured = overlay::configured(device, node, &settings);
-    check::configuration(rules, system, &configured, node, diagnostics);
-    settings.into_iter().map(|setting| (setting.id, setting.value)).collect()
+    let layer = Layer::of(settings(assignments, diagnostics));
+    assign_layers_with(rules, system, device, node, &[layer], diagnostics).values
 }
 
-/// What the rules say about setting an entry at all, whatever the value; `None` if nothing.
-fn refused(
-    rules: check::Rules<'_>,
-    system: &System,
-    device: &Dictionary,
-    node: u8,
-    assignment: &Assignment,
-    unread: &read::Unread,
-) -> Option<Diagnostics> {
-    let marked = overlay::marked(device, unread.id?, assignment.span);
-    let about_setting: Vec<&check::Rule> =
-        rules.list.iter().copied().filter(|rule| rule.is_about_setting()).collect();
-    let mut refusal = Diagnostics::new();
-    let rules = check::Rules { list: &about_setting, ..rules };
-    check::configuration(rules, system, &marked, node, &mut refusal);
-    refusal.has_errors().then_some(refusal)
+/// The settings of texts `ENTRY=VALUE`, as a layer has them; what is none goes to `diagnostics`.
+pub fn settings(assignments: &[Assignment], diagnostics: &mut Diagnostics) -> Vec<SettingDecl> {
+    let mut settings = Vec::new();
+    for assignment in assignments {
+        match SettingDecl::of_assignment(assignment) {
+            Ok(setting) => settings.push(setting),
+            Err(diagnostic) => diagnostics.push(diagnostic),
+        }
+    }
+    settings
+}
+
+/// The serial number of the identity.
+const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
+
+/// The entries of a device by the names that settings give them, to be asked often.
+pub struct SettingNames<'a> {
+    device: &'a Dictionary,
+    entries: entries::Entries<'a>,
+}
+
+impl<'a> SettingNames<'a> {
+    /// Those of a device.
+    pub const fn of(device: &'a Dictionary) -> Self {
+        Self { device, entries: entries::Entries::of(device) }
+    }
+
+    /// The object that a text without a sub-index means.
+    pub fn object(&self, text: &str) -> Option<Index> {
+        self.entries.lookup().object(text)
+    }
+
+    /// The entry that a text means.
+    pub fn entry(&self, text: &str) -> Option<EntryId> {
+        self.entries.lookup().find(text, &mut Suggestions::default()).ok()
+    }
+
+    /// What settings are read as, without a look at whether they can be set: an entry and its value each. What cannot be read
+    /// is left out.
+    pub fn read(&self, node: u8, settings: &[SettingDecl]) -> Vec<(EntryId, Value)> {
+        let mut suggestions = Suggestions::default();
+        let read = settings
+            .iter()
+            .filter_map(|decl| read::setting(self.device, &self.entries, node, decl, &mut suggestions).ok());
+        read.map(|setting| (setting.id, setting.value)).collect()
+    }
 }
 
 /// The node that a DCF configures, under some of the rules. Values that cannot be read are left out.
@@ -159,11 +177,15 @@ pub(crate) fn of_node(
         pdo.follow(objects);
     }
     check::foreign_node(rules, system, &configured, node, diagnostics);
+    // What the identity says is no statement of its own.
+    let of_identity = configured.entry(SERIAL_NUMBER).and_then(|entry| entry.default.as_ref()?.integer());
+    let serial_number = decl.serial_number.filter(|number| of_identity != Some(i128::from(*number)));
     let mut read = Commissioning {
         node_name: decl.node_name.unwrap_or_default(),
         bit_rate: decl.bit_rate.unwrap_or(usual.bit_rate),
         net_number: decl.net_number.unwrap_or(0),
         net_name: decl.net_name.unwrap_or_default(),
+        serial_number,
         values,
         ..usual
     };
@@ -178,12 +200,4 @@ pub(crate) fn of_node(
         }
     }
     read
-}
-
-fn set_twice(again: &Setting, before: &Setting) -> Diagnostic {
-    let Setting { id, holder, span, .. } = again;
-    Diagnostic::new(codes::SET_TWICE, *span, format!("{holder} is set twice"))
-        .label(if holder == id { "again here".to_owned() } else { format!("again here, as {id}") })
-        .with(before.span, "first here")
-        .help("keep one of the two")
 }

@@ -1,66 +1,49 @@
-//! One setting as it is written: `607D.2=9000`, `target position = 90.00 °`.
+//! One setting: which entry, and which value of its type.
 
-use super::{Assignment, Setting};
-use crate::diag::{Diagnostic, Suggestions, codes};
-use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, Ratio, Value};
-use crate::resolve::{self, values};
+use super::Setting;
+use super::decl::SettingDecl;
+use super::entries::Entries;
+use crate::ast::DefaultDecl;
+use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
+use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, NamedType, Ratio, TypeKind, Value};
+use crate::resolve::{bit_values, consumers, values};
 use crate::source::{Span, Spanned};
-use crate::visible::{is_hidden, turns_text};
 use crate::wording::format_value;
 
 /// Why a setting cannot be read.
 pub(super) struct Unread {
     /// What is wrong with it.
-    pub diagnostic: Box<Diagnostic>,
+    pub diagnostics: Diagnostics,
     /// The entry that it names, where that much is clear.
     pub id: Option<EntryId>,
 }
 
-impl From<Box<Diagnostic>> for Unread {
-    fn from(diagnostic: Box<Diagnostic>) -> Self {
-        Self { diagnostic, id: None }
+impl Unread {
+    fn one(diagnostic: Diagnostic, id: Option<EntryId>) -> Self {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(diagnostic);
+        Self { diagnostics, id }
     }
 }
 
-/// Reads a setting: which entry, and which value of its type.
+/// Reads a setting.
 pub(super) fn setting(
+    device: &Dictionary,
     entries: &Entries<'_>,
     node: u8,
-    assignment: &Assignment,
+    decl: &SettingDecl,
     suggestions: &mut Suggestions,
 ) -> Result<Setting, Unread> {
-    let device = entries.device;
-    let span = assignment.span;
-    if let Some((at, c)) = assignment.value.char_indices().find(|(_, c)| is_hidden(*c)) {
-        return Err(Box::new(hidden(span.part(at, at + c.len_utf8()), c)).into());
-    }
-    let Some((name, text)) = assignment.value.split_once('=') else {
-        return Err(Box::new(
-            Diagnostic::new(
-                codes::BAD_ASSIGNMENT,
-                span,
-                format!("found `{}`, expected ENTRY=VALUE", assignment.value),
-            )
-            .help("write an index or a name, `=`, and a value: `607D.2=9000`"),
-        )
-        .into());
-    };
-    let value_span = span.part(name.len() + 1, assignment.value.len());
-    let (id, entry) = entries.find(name.trim(), span.part(0, name.len()), suggestions)?;
-    // Blanks around a number are no part of it, but a text may not lose them unnoticed.
-    let text = if matches!(entry.data_type, DataType::VisibleString | DataType::UnicodeString) {
-        text
-    } else {
-        text.trim()
-    };
-    let value = values::read(text, value_span, expected(entry), suggestions)
-        .map_err(|diagnostic| Unread { diagnostic, id: Some(id) })?;
+    let (id, entry) =
+        entries.find(&decl.reference, suggestions).map_err(|diagnostic| Unread::one(*diagnostic, None))?;
+    let value = value(id, entry, &decl.value, suggestions)
+        .map_err(|diagnostics| Unread { diagnostics, id: Some(id) })?;
+    let (span, value_span) = (decl.span, decl.value.span);
     let holder = match &entry.alias {
         Some(alias) => {
             let raw = value.integer_for(node);
             if let Some(raw) = raw.filter(|raw| target_value(alias, *raw).is_none()) {
-                let diagnostic = Box::new(no_whole_steps(device, id, alias, raw, value_span));
-                return Err(Unread { diagnostic, id: Some(id) });
+                return Err(Unread::one(no_whole_steps(device, id, alias, raw, value_span), Some(id)));
             }
             alias.target
         }
@@ -69,11 +52,51 @@ pub(super) fn setting(
     Ok(Setting { id, holder, value, span, value_span })
 }
 
-/// As in a specification, which cannot hold a control character without an escape.
-fn hidden(span: Span, c: char) -> Diagnostic {
-    let what = if turns_text(c) { "turns the text around it" } else { "nobody sees" };
-    Diagnostic::new(codes::TURNED_TEXT, span, format!("found U+{:04X}, which {what}", u32::from(c)))
-        .help("remove the character")
+/// A value as it is written: one, the bits that are 1, or a heartbeat consumer by node and time.
+fn value(
+    id: EntryId,
+    entry: &Entry,
+    written: &Spanned<DefaultDecl>,
+    suggestions: &mut Suggestions,
+) -> Result<Value, Diagnostics> {
+    let mut diagnostics = Diagnostics::new();
+    let read = match (&written.value, entry.named_type.as_deref()) {
+        (DefaultDecl::One(text), _) => {
+            // Blanks around a number are no part of it, but a text may not lose them unnoticed.
+            let is_text = matches!(entry.data_type, DataType::VisibleString | DataType::UnicodeString);
+            let text = if is_text { text } else { text.trim() };
+            match values::read(text, written.span, expected(entry), suggestions) {
+                Ok(value) => Some(value),
+                Err(diagnostic) => {
+                    diagnostics.push(*diagnostic);
+                    None
+                }
+            }
+        }
+        (DefaultDecl::Each(bits), Some(NamedType { kind: TypeKind::Bits(fields), .. })) => {
+            bit_values::read(bits, fields, entry.data_type, &mut diagnostics)
+        }
+        (DefaultDecl::ByDevice(keys), _) if consumers::are_meant(id.index, keys) => {
+            consumers::raw(keys, written.span, &mut diagnostics).map(Value::Integer)
+        }
+        (DefaultDecl::Each(_) | DefaultDecl::ByDevice(_), _) => {
+            diagnostics.push(no_such_form(id, entry, written));
+            None
+        }
+    };
+    read.ok_or(diagnostics)
+}
+
+/// A list for what has no bits, or a map for what has no entries.
+fn no_such_form(id: EntryId, entry: &Entry, written: &Spanned<DefaultDecl>) -> Diagnostic {
+    let name = &entry.name;
+    let message = match &written.value {
+        DefaultDecl::Each(_) => format!("a list names bits, and {id} ({name}) is no bit field"),
+        DefaultDecl::One(_) | DefaultDecl::ByDevice(_) => {
+            format!("a map has the entries of an object, and {id} ({name}) is one value")
+        }
+    };
+    Diagnostic::new(codes::BAD_VALUE, written.span, message).help("write one value")
 }
 
 /// Reads the value of a known entry.
@@ -91,57 +114,6 @@ fn expected(entry: &Entry) -> values::Expected<'_> {
         named: entry.named_type.as_deref(),
         unit: entry.unit.as_deref(),
         special: &entry.special,
-    }
-}
-
-/// The entries of a device, as settings name them.
-pub(super) struct Entries<'a> {
-    device: &'a Dictionary,
-    lookup: resolve::Lookup<'a>,
-}
-
-impl<'a> Entries<'a> {
-    pub(super) const fn of(device: &'a Dictionary) -> Self {
-        Self { device, lookup: resolve::Lookup::new(device) }
-    }
-
-    fn find(
-        &self,
-        name: &str,
-        span: Span,
-        suggestions: &mut Suggestions,
-    ) -> Result<(EntryId, &'a Entry), Box<Diagnostic>> {
-        let device = self.device;
-        let id = self.lookup.find(name, suggestions).map_err(|why| {
-            Box::new(match why {
-                resolve::NotFound::Unknown { nearest } => {
-                    let message = format!("`{}` has no entry `{name}`", device.key);
-                    let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, span, message);
-                    match nearest {
-                        Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-                        None => diagnostic.help(
-                            "write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`",
-                        ),
-                    }
-                }
-                resolve::NotFound::Ambiguous { decimal, hexadecimal } => Diagnostic::new(
-                    codes::BAD_ASSIGNMENT,
-                    span,
-                    format!(
-                        "sub-index {0} is {0} in decimal and {1} in hexadecimal, and behind a colon both are usual",
-                        decimal.sub, hexadecimal.sub
-                    ),
-                )
-                .help(format!("write `{0}.{1}` for sub-index {1}, or `{0}.{2}` for sub-index {2}",
-                    format_args!("{:04X}", decimal.index.0), decimal.sub, hexadecimal.sub)),
-            })
-        })?;
-        device.entry(id).map(|entry| (id, entry)).ok_or_else(|| {
-            Box::new(
-                Diagnostic::new(codes::UNKNOWN_ENTRY, span, format!("there is no entry {id}"))
-                    .help("correct it"),
-            )
-        })
     }
 }
 

@@ -9,11 +9,12 @@ mod tables;
 mod words;
 
 use crate::json_schema::reachable;
+use crate::keys::PARAMETER_FILE;
 use crate::model::DataType;
 use words::WORD_TABLES;
 
 /// The chapters, in order.
-static CHAPTERS: [&str; 14] = [
+static CHAPTERS: [&str; 15] = [
     include_str!("chapters/introduction.md"),
     include_str!("chapters/reading.md"),
     include_str!("chapters/naming.md"),
@@ -28,6 +29,7 @@ static CHAPTERS: [&str; 14] = [
     include_str!("chapters/machines.md"),
     include_str!("chapters/constraints.md"),
     include_str!("chapters/manual.md"),
+    include_str!("chapters/parameters.md"),
 ];
 
 /// Prints the language reference in Markdown.
@@ -38,7 +40,8 @@ pub fn reference() -> String {
 
 /// What stands for something else in the chapters, and for what.
 fn marks() -> Vec<(String, String)> {
-    let keys = reachable().into_iter().map(|keys| (keys_mark(keys.name), tables::section(keys)));
+    let tables = reachable().into_iter().chain([&PARAMETER_FILE]);
+    let keys = tables.map(|keys| (keys_mark(keys.name), tables::section(keys)));
     let words = WORD_TABLES.iter().map(|words| (words.mark.to_owned(), words.markdown()));
     let types = DataType::ALL.map(|data_type| format!("`{}`", data_type.name())).join(", ");
     let others = [("{NOTICE}", NOTICE.to_owned()), ("{TYPES}", types), ("{FEATURES}", features::features())];

@@ -88,6 +88,7 @@ fn value(shape: Shape) -> String {
         Shape::Index => "index".to_owned(),
         Shape::ErrorCode => "error code".to_owned(),
         Shape::Default => "value, list: value or bit, or map: device → value or list".to_owned(),
+        Shape::Setting => "value, list of bits, or map: entry → value or list".to_owned(),
         Shape::Entry => "entry".to_owned(),
         Shape::Entries => "entry or entries".to_owned(),
         Shape::Access => "access".to_owned(),

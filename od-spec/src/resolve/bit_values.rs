@@ -36,7 +36,7 @@ fn not_a_bit(place: Span) -> Diagnostic {
 }
 
 /// The raw value with these fields; all others are 0.
-pub(super) fn read(
+pub(crate) fn read(
     list: &[Spanned<DefaultDecl>],
     fields: &[BitField],
     data_type: DataType,

@@ -14,7 +14,7 @@ const TIME: &str = "time";
 type Keys = [(Name, Spanned<DefaultDecl>)];
 
 /// Whether the keys of a default are those of a consumer, at an object that has such.
-pub(super) fn are_meant(index: Index, keys: &Keys) -> bool {
+pub(crate) fn are_meant(index: Index, keys: &Keys) -> bool {
     index == CONSUMERS && !keys.is_empty() && keys.iter().all(|(key, _)| is_key(&key.value))
 }
 
@@ -24,7 +24,7 @@ pub(super) fn is_key(name: &str) -> bool {
 }
 
 /// The raw value of a consumer.
-pub(super) fn raw(keys: &Keys, place: Span, diagnostics: &mut Diagnostics) -> Option<i128> {
+pub(crate) fn raw(keys: &Keys, place: Span, diagnostics: &mut Diagnostics) -> Option<i128> {
     let mut value = |name: &str, example: &str| {
         let Some((_, value)) = keys.iter().find(|(key, _)| key.value == name) else {
             let message = format!("a heartbeat consumer needs the key `{name}`");

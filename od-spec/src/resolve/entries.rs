@@ -308,9 +308,7 @@ fn eds_policy(entry: &Entry, decl: &EntryDecl, defaults: EdsDefaults) -> EdsPoli
     let access = match (entry.access, entry.pdo) {
         // What cannot be read stays `wo`; its flags keep tools from writing it.
         _ if entry.locked && entry.access.is_readable() => Access::Ro,
-        (Access::Rw, PdoMapping::Receive) => Access::Rww,
-        (Access::Rw, PdoMapping::Transmit) => Access::Rwr,
-        (access, _) => access,
+        (access, pdo) => access.joined(pdo),
     };
     let stated = decl.eds.as_ref().map(|eds| &eds.value);
     let protected = kept && entry.access.is_writable();

@@ -2,11 +2,11 @@
 
 mod aliases;
 mod assigned;
-mod bit_values;
+pub(crate) mod bit_values;
 mod channels;
 mod condition_names;
 mod constraints;
-mod consumers;
+pub(crate) mod consumers;
 mod declared;
 mod decls;
 mod defaults;

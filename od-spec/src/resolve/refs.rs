@@ -380,6 +380,26 @@ impl<'a> Lookup<'a> {
         }
     }
 
+    /// The object that a text without a sub-index stands for.
+    pub(crate) fn object(&self, text: &str) -> Option<Index> {
+        let is_whole = !text.contains(['.', ':']) && !text.to_ascii_lowercase().contains("sub");
+        if is_whole
+            && let Some(HexReference::Entry(id)) = hex_reference(text)
+            && self.dictionary.objects.contains_key(&id.index)
+        {
+            return Some(id.index);
+        }
+        let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
+        if let Some(object) = names.named(text).next() {
+            return Some(object.index);
+        }
+        // As for entries, capitals do not matter where it is clear what is meant.
+        let lower = text.to_lowercase();
+        let mut alike = self.dictionary.objects.values().filter(|object| object.name.to_lowercase() == lower);
+        let only = alike.next()?;
+        alike.next().is_none().then_some(only.index)
+    }
+
     fn alike(&self, names: &Names<'a>) -> &BTreeMap<String, Option<EntryId>> {
         self.alike.get_or_init(|| {
             let mut alike: BTreeMap<String, Option<EntryId>> = BTreeMap::new();

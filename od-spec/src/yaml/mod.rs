@@ -119,8 +119,43 @@ impl Node {
     }
 }
 
+/// What a document is expected to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Document {
+    /// A specification, a part of one or a library.
+    Specification,
+    /// The values of a node.
+    Parameters,
+}
+
+impl Document {
+    /// What is said about an empty one.
+    const fn missing(self) -> (&'static str, &'static str) {
+        match self {
+            Document::Specification => (
+                "the file holds no specification",
+                "start with `od-spec: 1`; `odgen explain OD0110` shows the smallest specification",
+            ),
+            Document::Parameters => (
+                "the file holds no parameters",
+                "start with `od-parameters: 1`, and put values under `parameters:`",
+            ),
+        }
+    }
+}
+
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.
 pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Option<Node> {
+    parse_as(Document::Specification, id, file, diagnostics)
+}
+
+/// [`parse`], of a document that is to hold this.
+pub(crate) fn parse_as(
+    what: Document,
+    id: FileId,
+    file: &SourceFile,
+    diagnostics: &mut Diagnostics,
+) -> Option<Node> {
     refuse_turned_text(id, file.text(), diagnostics);
     let options = granit_parser::options! { emit_comments: false, emit_unresolved_aliases: true };
     let mut builder = Builder {
@@ -152,10 +187,8 @@ pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Op
     match builder.root {
         Some(Node { kind: NodeKind::Null, .. }) | None => {
             let span = builder.point(0);
-            diagnostics
-                .push(Diagnostic::new(codes::EMPTY_DOCUMENT, span, "the file holds no specification").help(
-                    "start with `od-spec: 1`; `odgen explain OD0110` shows the smallest specification",
-                ));
+            let (message, help) = what.missing();
+            diagnostics.push(Diagnostic::new(codes::EMPTY_DOCUMENT, span, message).help(help));
             None
         }
         root => root,

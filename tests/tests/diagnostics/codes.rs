@@ -10,7 +10,7 @@ use od_spec::{NoFiles, Strictness, all_codes, code, compile_as, read_text};
 
 use crate::bytes_and_libraries::{LAMP, compiled_with};
 use crate::settings::{HEATER, assigned};
-use crate::{cases, codes, parts, run};
+use crate::{cases, codes, parameter_files, parts, run};
 
 #[path = "../../../od-gen/tests/cli/provoked.rs"]
 mod command_line;
@@ -85,11 +85,15 @@ fn example(example: &Example) -> BTreeSet<&'static Code> {
 #[test]
 fn every_code_has_a_case() {
     let mut provoked: BTreeSet<&'static Code> = BTreeSet::new();
+    let mut of_parameters: BTreeSet<&'static Code> = BTreeSet::new();
     for (name, text) in cases() {
         provoked.extend(codes(&run(&name, &text).2.diagnostics));
     }
     for code in all_codes() {
         provoked.extend(code.example.iter().flat_map(example));
+    }
+    for (name, text) in parameter_files::cases() {
+        of_parameters.extend(codes(&parameter_files::settled(&name, &[&text]).diagnostics));
     }
     for Provocation { code, diagnostics } in PROVOKED {
         assert!(!provoked.contains(code), "{code} has a case: take it out of the table");
@@ -100,6 +104,7 @@ fn every_code_has_a_case() {
         let code = code(id).unwrap();
         assert!(provoked.insert(code), "{code} has a case: take `{}` out of its table", arguments.join(" "));
     }
+    provoked.extend(of_parameters);
     for code in all_codes().into_iter().filter(|code| !is_of_the_eds_reader(code)) {
         assert!(provoked.contains(&code), "{code} ({}) has no case", code.title);
     }

@@ -10,6 +10,7 @@ mod bytes_and_libraries;
 mod cases;
 mod codes;
 mod other_yaml_reader;
+mod parameter_files;
 mod parts;
 mod random;
 mod settings;

@@ -1,12 +1,14 @@
 //! Random specifications: nothing panics, and a refusal has a reason with a place.
 
+use od_gen::parameters::{About, write};
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity, codes};
 use od_spec::read_text;
 use proptest::prelude::*;
 
+use crate::parameter_files::{Settled, settled};
 use crate::wording_rules::check_wording;
-use crate::{read, run, ui};
+use crate::{human, read, run, ui};
 
 /// A valid specification that has every section.
 fn everything() -> String {
@@ -93,6 +95,38 @@ fn compile_anything(text: &str) {
     }
 }
 
+/// A parameter file that sets everything.
+fn every_parameter() -> String {
+    read(&ui().join("parameters/ok_everything.yaml"))
+}
+
+/// Reads a parameter file; nothing may panic, and what is wrong has a place. What is right can be downloaded, and comes back from
+/// the file that is written for it.
+fn settle_anything(text: &str) {
+    let Settled { system, mut node, assigned, diagnostics, sources } = settled("random.yaml", &[text]);
+    for diagnostic in &diagnostics {
+        check_wording(diagnostic, &sources, text);
+        assert!(!diagnostic.labels.is_empty(), "{} has no place:\n{text}", diagnostic.message);
+    }
+    if diagnostics.has_errors() {
+        return;
+    }
+    let oven = system.device("oven").unwrap();
+    (node.values, node.unlocked) = (assigned.values, assigned.unlocked);
+    assert!(node.download(&system, oven).is_ok(), "{text}");
+    let node_id = Some(node.node);
+    let about = About { system: &system, sources: &sources, device: oven, names_device: true, node_id };
+    let written = write(about, &node, Vec::new());
+    let back = settled("back.yaml", &[&written.text]);
+    assert!(!back.diagnostics.has_errors(), "{}\n{}", written.text, human(&back.diagnostics, &back.sources));
+    node.keep_differences(oven);
+    assert_eq!(back.assigned.values, node.values, "{text}\n{}", written.text);
+    assert_eq!(back.assigned.unlocked, node.unlocked);
+    assert_eq!((back.node.node, back.node.bit_rate), (node.node, node.bit_rate));
+    assert_eq!((back.node.net_number, back.node.serial_number), (node.net_number, node.serial_number));
+    assert_eq!((&back.node.node_name, &back.node.net_name), (&node.node_name, &node.net_name));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -100,6 +134,23 @@ proptest! {
     fn damaged_specifications_are_refused_with_a_place(list in prop::collection::vec(damage(), 1..5)) {
         let text = list.iter().fold(everything(), |text, damage| apply(&text, damage));
         compile_anything(&text);
+    }
+
+    #[test]
+    fn damaged_parameter_files_are_refused_or_come_back(list in prop::collection::vec(damage(), 1..4)) {
+        let text = list.iter().fold(every_parameter(), |text, damage| apply(&text, damage));
+        settle_anything(&text);
+    }
+
+    #[test]
+    fn parameters_come_back(
+        (position, low, label, bits, real) in (any::<i32>(), -500..1500i16, "[ -~]{0,8}", 0..64u16, any::<f32>()),
+    ) {
+        prop_assume!(real.is_finite());
+        let label = serde_yaml::to_string(&label).unwrap();
+        settle_anything(&format!(
+            "od-parameters: 1\nparameters:\n  position: {position}\n  2001.1: {low}\n  label: {label}  2004: {bits}\n  2007: {real:?}\n"
+        ));
     }
 
     #[test]

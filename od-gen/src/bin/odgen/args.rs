@@ -1,10 +1,14 @@
 //! The command line.
 
+mod node;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
 use od_spec::eds::readers::Reader;
+
+pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 
 /// Checks CANopen object dictionaries – specifications, EDS and DCF files – and makes EDS, DCF, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
@@ -100,6 +104,7 @@ impl Cli {
             Command::Fix(args) => args.messages.format,
             Command::Fmt(args) => args.messages.format,
             Command::New(args) => args.messages.format,
+            Command::Params(args) => args.messages.format,
             _ => None,
         };
         behind.or(self.format).unwrap_or_default()
@@ -161,6 +166,8 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Write a commented specification to start from
     New(NewArgs),
+    /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
+    Params(ParamsArgs),
     /// Tell what a message code means and what to do about it
     Explain {
         /// A code such as OD0507, or `all`
@@ -173,8 +180,8 @@ pub(crate) enum Command {
     },
     /// Print the language reference (Markdown)
     Reference,
-    /// Print the JSON Schema of the language, for editors
-    Schema,
+    /// Print the JSON Schema of the language, or of the parameter files of a device, for editors
+    Schema(SchemaArgs),
     /// Print a completion script for a shell
     Completions {
         /// The shell
@@ -297,55 +304,6 @@ pub(crate) struct CheckArgs {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct DcfArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
-    pub spec: Option<PathBuf>,
-
-    /// Key of the device [default: the only one]
-    #[arg(long, value_name = "KEY")]
-    pub device: Option<String>,
-
-    /// Node-ID, 1 to 127 [default: of a DCF its own]
-    #[arg(long, value_name = "ID")]
-    pub node: Option<String>,
-
-    /// Bit rate in kbit/s [default: of a DCF its own; 250, or the device's highest]
-    #[arg(long, value_name = "KBIT")]
-    pub bit_rate: Option<String>,
-
-    /// Name of the node [default: of a DCF its own; product name and node-ID]
-    #[arg(long, value_name = "NAME")]
-    pub node_name: Option<String>,
-
-    /// Number of the network [default: of a DCF its own; 1]
-    #[arg(long, value_name = "N")]
-    pub net_number: Option<u32>,
-
-    /// Name of the network [default: of a DCF its own; none]
-    #[arg(long, value_name = "NAME")]
-    pub net_name: Option<String>,
-
-    /// Value of an entry: `607D.2=9000`, `607Dsub2=9000`, `"EFC target position=90.00 °"`, `"sensor selection code=-1"`
-    #[arg(long = "set", value_name = "ENTRY=VALUE")]
-    pub settings: Vec<String>,
-
-    /// File with one such setting on each line; lines that begin with `#` are comments
-    #[arg(long, value_name = "FILE")]
-    pub set_file: Vec<PathBuf>,
-
-    /// File to write [default: the key and node-ID, such as pmc-5.dcf]
-    #[arg(long, short, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-
-    /// Replace a file of this name that odgen did not make
-    #[arg(long)]
-    pub force: bool,
-
-    #[command(flatten)]
-    pub messages: Messages,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct DiffArgs {
     /// The dictionary before the changes; with --git the specification
     #[arg(value_name = "OLD")]
@@ -354,6 +312,10 @@ pub(crate) struct DiffArgs {
     /// The dictionary after the changes
     #[arg(value_name = "NEW", required_unless_present = "git", conflicts_with = "git")]
     pub new: Option<PathBuf>,
+
+    /// Specification of the device that parameter files are for; they are compared with each other, or with a DCF
+    #[arg(long, value_name = "SPEC", conflicts_with = "git")]
+    pub spec: Option<PathBuf>,
 
     /// Compare a specification with itself as it was at a revision of git, such as `HEAD` or `v1.08`
     #[arg(long, value_name = "REV")]

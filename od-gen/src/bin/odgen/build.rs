@@ -45,7 +45,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    for Built { path, used: Used { system, node: configured, stated_node_id }, rust } in &mut systems {
+    for Built { path, used: Used { system, node: configured, stated_node_id, .. }, rust } in &mut systems {
         let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
             continue;

@@ -1,9 +1,11 @@
 //! `odgen dcf`.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
+use od_gen::boot::explain;
 use od_gen::condense;
 use od_gen::eds::write_dcf;
 use od_gen::files::Existing;
@@ -11,18 +13,14 @@ use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
 use od_spec::source::SourceMap;
-use od_spec::{Commissioning, assign, eds_text_problem, rule_codes};
+use od_spec::{Commissioning, TextOfNode, assign_layers, bit_rate};
 
 use super::ERRORS;
 use super::args::DcfArgs;
 use super::output::{forced, save};
 use super::report::{Report, node_id, print, shown};
-use super::settings::settings;
+use super::settings::{layer, parameter_files};
 use super::specs;
-
-/// Longest `NodeName` and `NetworkName`: a line has 255 characters.
-const LONGEST_NODE_NAME: usize = 246;
-const LONGEST_NET_NAME: usize = 243;
 
 pub(crate) fn run(args: &DcfArgs, directory: &Path, report: &Report) -> u8 {
     match dcf(args, directory, report) {
@@ -43,91 +41,110 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     }
     report.show(&compiled.diagnostics, &sources);
     let system = compiled.system.ok_or(ERRORS)?;
-    let device = report.device_or_only(&system, args.device.as_deref())?;
-    let mut commissioning =
-        commissioning(args, device, node.or(compiled.stated_node_id), compiled.node).map_err(refuse)?;
+    let mut diagnostics = Diagnostics::new();
+    let files = parameter_files(&args.params, &mut sources, &mut diagnostics).map_err(|one| refuse(*one))?;
+    let show = |mut diagnostics: Diagnostics, sources: &SourceMap| {
+        diagnostics.sort();
+        report.show(&diagnostics, sources);
+        if diagnostics.has_errors() { Err(ERRORS) } else { Ok(()) }
+    };
+    if diagnostics.has_errors() {
+        return Err(show(diagnostics, &sources).err().unwrap_or(ERRORS));
+    }
+    let device = files.device(&system, args.device.as_deref(), report)?;
+    files.check_device(&system, device, &mut diagnostics);
+    let node = files.node(node, report).or(compiled.stated_node_id);
+    let mut commissioning = commissioning(device, node, compiled.node).map_err(refuse)?;
+    files.settle(device, &mut commissioning, &mut diagnostics);
+    said_in_options(args, device, &mut commissioning).map_err(refuse)?;
     let node = commissioning.node;
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
-    let read: Vec<PathBuf> = loader.read.iter().chain(&args.set_file).cloned().collect();
+    let read: Vec<PathBuf> = loader.read.iter().chain(&args.set_file).chain(&args.params).cloned().collect();
     let name = file_name(&path, &read).map_err(refuse)?;
-    let settings = settings(args, &mut sources).map_err(|diagnostic| refuse(*diagnostic))?;
-    let mut diagnostics = Diagnostics::new();
-    let settings = assign(&system, &commissioning.configured(device), node, &settings, &mut diagnostics);
-    diagnostics.sort();
-    report.show(&diagnostics, &sources);
-    if diagnostics.has_errors() {
-        return Err(ERRORS);
+    let mut layers = files.into_layers();
+    layers.push(layer(args, &mut sources, &mut diagnostics).map_err(|diagnostic| refuse(*diagnostic))?);
+    let assigned = assign_layers(&system, &commissioning.configured(device), node, &layers, &mut diagnostics);
+    show(diagnostics, &sources)?;
+    let count = assigned.values.len();
+    commissioning.values.extend(assigned.values);
+    commissioning.unlocked.extend(assigned.unlocked);
+    let kept = commissioning.values.len() - count;
+    let as_default = if args.since_default { commissioning.keep_differences(device) } else { 0 };
+    if args.explain {
+        return explain(&system, device, &commissioning).map_err(|error| {
+            refuse(Diagnostic::without_place(codes::BAD_VALUE, error.to_string()).help("leave the entry out"))
+        });
     }
-    let count = settings.len();
-    commissioning.values.extend(settings);
-    let kept = match commissioning.values.len() - count {
-        0 => String::new(),
-        kept => format!(", {kept} kept"),
-    };
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
     let artifact = Artifact { path: name, bytes, purpose: String::new() };
     save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::Generated))
         .map_err(refuse)?;
-    let plural = if count == 1 { "" } else { "s" };
+    let mut line = count_of(count, "set");
+    for (number, what) in [(kept, "kept"), (as_default, "as the default left out")] {
+        if number > 0 {
+            let _ = write!(line, ", {number} {what}");
+        }
+    }
     let size = artifact.bytes.len().div_ceil(1024);
-    Ok(format!(
-        "  {}  {size} kB  {} node {node}, {count} value{plural} set{kept}\n",
-        shown(&path),
-        device.key
-    ))
+    let mut said = format!("  {}  {size} kB  {} node {node}, {line}\n", shown(&path), device.key);
+    for id in &commissioning.unlocked {
+        let name = device.entry_name(*id).unwrap_or_default();
+        let _ = writeln!(
+            said,
+            "  LOCKED  {id} {name}: the device takes it only while it is unlocked for service"
+        );
+    }
+    Ok(said)
 }
 
-/// What the command line says about the node, and else the DCF that it is made from, without the settings. The node-ID is the
-/// one that the command line or the DCF states.
+/// `1 value set`, `2 values set`.
+fn count_of(count: usize, what: &str) -> String {
+    format!("{count} value{} {what}", if count == 1 { "" } else { "s" })
+}
+
+/// A node of the device, or that of the DCF it is made from, without the settings. The node-ID is the one that the command line,
+/// a parameter file or the DCF states.
 fn commissioning(
-    args: &DcfArgs,
     device: &Dictionary,
     node: Option<u8>,
     configured: Option<Commissioning>,
 ) -> Result<Commissioning, Diagnostic> {
-    let mut commissioning = match (node, configured) {
-        (Some(node), None) => Commissioning::of_node(device, node),
+    match (node, configured) {
+        (Some(node), None) => Ok(Commissioning::of_node(device, node)),
         (Some(node), Some(mut configured)) => {
             configured.node = node;
-            configured
+            Ok(configured)
         }
         (None, configured) => {
             let message = match configured {
                 Some(_) => "no node-ID is given, and the DCF states none",
                 None => "no node-ID is given",
             };
-            return Err(
-                Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`, 1 to 127")
-            );
+            Err(Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`, 1 to 127"))
         }
-    };
+    }
+}
+
+/// Takes what the options say about the node but its node-ID and its values.
+fn said_in_options(
+    args: &DcfArgs,
+    device: &Dictionary,
+    commissioning: &mut Commissioning,
+) -> Result<(), Diagnostic> {
     if let Some(text) = &args.bit_rate {
         commissioning.bit_rate = bit_rate(device, text)?;
     }
     if let Some(name) = &args.node_name {
-        commissioning.node_name = text("--node-name", name, LONGEST_NODE_NAME)?;
+        commissioning.node_name = TextOfNode::Node.read("--node-name", name)?;
     }
     if let Some(number) = args.net_number {
         commissioning.net_number = number;
     }
     if let Some(name) = &args.net_name {
-        commissioning.net_name = text("--net-name", name, LONGEST_NET_NAME)?;
+        commissioning.net_name = TextOfNode::Network.read("--net-name", name)?;
     }
-    Ok(commissioning)
-}
-
-/// A text of `[DeviceComissioning]`.
-fn text(option: &str, text: &str, longest: usize) -> Result<String, Diagnostic> {
-    let text = text.trim();
-    match eds_text_problem(text, longest) {
-        None => Ok(text.to_owned()),
-        Some(problem) => Err(Diagnostic::without_place(
-            rule_codes::NOT_FOR_EDS,
-            format!("the text of `{option}` {problem}"),
-        )
-        .help("choose another text")),
-    }
+    Ok(())
 }
 
 /// The name of the file to write, which is none of those that were read.
@@ -150,16 +167,4 @@ fn file_name(path: &Path, read: &[PathBuf]) -> Result<String, Diagnostic> {
         return refuse("the DCF is made from this file", "write the DCF to another file");
     }
     Ok(name.to_owned())
-}
-
-fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {
-    let rates = device.info.bit_rates.iter().map(u16::to_string).collect::<Vec<_>>().join(", ");
-    let rate = text.trim().parse::<u16>().ok().filter(|rate| device.info.bit_rates.contains(rate));
-    rate.ok_or_else(|| {
-        Diagnostic::without_place(
-            codes::BIT_RATE_UNSUPPORTED,
-            format!("`{}` does not support a bit rate of `{text}` kbit/s", device.key),
-        )
-        .help(format!("it supports {rates} kbit/s"))
-    })
 }

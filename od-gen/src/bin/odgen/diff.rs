@@ -1,14 +1,16 @@
 //! `odgen diff`.
 
+use std::fs::read_to_string;
 use std::io::IsTerminal as _;
 use std::path::Path;
 
 use od_gen::diff::{Difference, Question, Scope, Unpaired, compare, human, json, markdown, short};
-use od_spec::Commissioning;
-use od_spec::diag::{Diagnostic, codes};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::{Commissioning, assign_layers, is_parameter_file};
 
 use super::args::{Color, DiffArgs, DiffFormat};
 use super::report::{Report, Used, print, print_json, print_styled};
+use super::settings::parameter_files;
 use super::{DIFFERS, ERRORS, git};
 
 pub(crate) fn run(args: &DiffArgs, color: Color, report: &Report) -> u8 {
@@ -29,7 +31,12 @@ pub(crate) fn run(args: &DiffArgs, color: Color, report: &Report) -> u8 {
 }
 
 fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
-    let read = |path: &Path| report.compile_with_sources(path).map(|(used, _)| used).ok_or(ERRORS);
+    let read = |path: &Path| match Source::of(path) {
+        Source::Parameters => configured(path, args, report),
+        Source::Specification | Source::Eds | Source::Dcf => {
+            report.compile_with_sources(path).map(|(used, _)| used).ok_or(ERRORS)
+        }
+    };
     let (old, new, scope) = match (&args.git, &args.new) {
         (Some(revision), _) => {
             if Source::of(&args.old) != Source::Specification {
@@ -38,8 +45,8 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
                         .help("write the old file down, `git show REV:FILE > old.eds`, and compare both"),
                 ));
             }
-            let old =
-                Used { system: git::compile(revision, &args.old, report)?, node: None, stated_node_id: None };
+            let system = git::compile(revision, &args.old, report)?;
+            let old = Used { system, node: None, stated_node_id: None, device: None };
             (old, read(&args.old)?, Scope::Everything)
         }
         (None, Some(new)) => {
@@ -51,11 +58,13 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
         (None, None) => return Err(super::USAGE),
     };
     let nodes = nodes(&old, &new, report);
+    // Who compares the values of a node does not ask about other devices.
+    let device = args.device.clone().or_else(|| old.device.clone()).or_else(|| new.device.clone());
     let question = Question {
         old: &old.system,
         new: &new.system,
         scope,
-        device: args.device.as_deref(),
+        device: device.as_deref(),
         nodes: nodes.as_ref().map(|(old, new)| (old, new)),
     };
     compare(&question).map_err(|unpaired| {
@@ -66,6 +75,36 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
         };
         report.refuse(Diagnostic::without_place(codes::UNKNOWN_DEVICE, unpaired.to_string()).help(help))
     })
+}
+
+/// The node that a parameter file settles, as a DCF made of it would.
+fn configured(path: &Path, args: &DiffArgs, report: &Report) -> Result<Used, u8> {
+    let Some(spec) = &args.spec else {
+        let message = format!("{} is a parameter file, and no specification is named", path.display());
+        return Err(report.refuse(
+            Diagnostic::without_place(codes::UNREADABLE, message)
+                .help("add `--spec SPEC`, the specification of the device that it is for"),
+        ));
+    };
+    let (used, mut sources) = report.compile_with_sources(spec).ok_or(ERRORS)?;
+    let mut diagnostics = Diagnostics::new();
+    let files = parameter_files(&[path.to_owned()], &mut sources, &mut diagnostics)
+        .map_err(|diagnostic| report.refuse(*diagnostic))?;
+    let device = files.device(&used.system, args.device.as_deref(), report)?;
+    files.check_device(&used.system, device, &mut diagnostics);
+    let stated_node_id = files.node(None, report);
+    let mut node = Commissioning::of_node(device, stated_node_id.unwrap_or(1));
+    files.settle(device, &mut node, &mut diagnostics);
+    let layers = files.into_layers();
+    let assigned = assign_layers(&used.system, device, node.node, &layers, &mut diagnostics);
+    diagnostics.sort();
+    report.show(&diagnostics, &sources);
+    if diagnostics.has_errors() {
+        return Err(ERRORS);
+    }
+    (node.values, node.unlocked) = (assigned.values, assigned.unlocked);
+    let device = Some(device.key.clone());
+    Ok(Used { system: used.system, node: Some(node), stated_node_id, device })
 }
 
 /// The nodes of two DCF files. Values of one alone cannot be compared, which is said.
@@ -98,6 +137,7 @@ enum Source {
     Specification,
     Eds,
     Dcf,
+    Parameters,
 }
 
 impl Source {
@@ -107,6 +147,8 @@ impl Source {
             Self::Eds
         } else if ends_with("dcf") {
             Self::Dcf
+        } else if read_to_string(path).is_ok_and(|text| is_parameter_file(&text)) {
+            Self::Parameters
         } else {
             Self::Specification
         }
@@ -116,11 +158,13 @@ impl Source {
 /// The facts that both kinds of file can state.
 const fn scope(old: Source, new: Source) -> Scope {
     match (old, new) {
-        (Source::Specification, Source::Specification) => Scope::Everything,
-        (Source::Dcf, Source::Specification | Source::Eds)
-        | (Source::Specification | Source::Eds, Source::Dcf) => Scope::WhatADcfStates,
-        (Source::Eds, Source::Specification | Source::Eds)
-        | (Source::Specification, Source::Eds)
+        (Source::Specification | Source::Parameters, Source::Specification | Source::Parameters) => {
+            Scope::Everything
+        }
+        (Source::Dcf, Source::Specification | Source::Parameters | Source::Eds)
+        | (Source::Specification | Source::Parameters | Source::Eds, Source::Dcf) => Scope::WhatADcfStates,
+        (Source::Eds, Source::Specification | Source::Parameters | Source::Eds)
+        | (Source::Specification | Source::Parameters, Source::Eds)
         | (Source::Dcf, Source::Dcf) => Scope::WhatAnEdsStates,
     }
 }

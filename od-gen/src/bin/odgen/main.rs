@@ -15,6 +15,7 @@ mod line_diff;
 mod listing;
 mod new;
 mod output;
+mod params;
 mod report;
 mod settings;
 mod specs;
@@ -64,10 +65,11 @@ fn main() -> ExitCode {
         Command::Fix(args) => fix::run(&args, &report),
         Command::Fmt(args) => fmt::run(&args, directory, &report),
         Command::New(args) => new::run(&args, &report),
+        Command::Params(args) => params::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
         Command::Reference => report::print(&od_spec::reference()),
-        Command::Schema => report::print(&od_spec::json_schema()),
+        Command::Schema(args) => schema(&args, &report),
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "odgen", &mut text);
@@ -101,6 +103,15 @@ fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 
         None => od_gen::json::dump(&system, &args.device),
     };
     report::print_json(&dump)
+}
+
+fn schema(args: &args::SchemaArgs, report: &report::Report) -> u8 {
+    let Some(spec) = &args.params else { return report::print(&od_spec::json_schema()) };
+    let Some(system) = report.compile(spec) else { return ERRORS };
+    match report.device_or_only(&system, args.device.as_deref()) {
+        Ok(device) => report::print_json(od_spec::parameter_schema(&system, device).as_bytes()),
+        Err(code) => code,
+    }
 }
 
 fn library(name: Option<&str>, report: &report::Report) -> u8 {

@@ -31,6 +31,8 @@ pub(crate) struct Used {
     pub(crate) node: Option<Commissioning>,
     /// The node-ID that a DCF states.
     pub(crate) stated_node_id: Option<u8>,
+    /// Of a parameter file: the device that it is for.
+    pub(crate) device: Option<String>,
 }
 
 impl Used {
@@ -108,7 +110,7 @@ impl Report {
         }
         let Compiled { system, node, stated_node_id, diagnostics, .. } = compiled;
         self.show(&diagnostics, &sources);
-        Some((Used { system: system?, node, stated_node_id }, sources))
+        Some((Used { system: system?, node, stated_node_id, device: None }, sources))
     }
 
     /// Shows one message that has no place in a source text.

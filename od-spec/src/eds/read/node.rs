@@ -40,6 +40,8 @@ pub(crate) struct NodeDecl {
     pub net_number: Option<u32>,
     /// Name of the network.
     pub net_name: Option<String>,
+    /// Serial number for LSS; 0 is none.
+    pub serial_number: Option<u32>,
     /// Parameter values, as a specification would write them.
     pub values: Vec<(EntryId, Name)>,
     /// Names of objects and entries in the application.
@@ -59,6 +61,9 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
         bit_rate: number("Baudrate").and_then(|rate| u16::try_from(rate).ok()),
         net_number: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
         net_name: text("NetworkName"),
+        serial_number: number("LSS_SerialNumber")
+            .and_then(|number| u32::try_from(number).ok())
+            .filter(|number| *number != 0),
         values: Vec::new(),
         denotations: Vec::new(),
         files: Vec::new(),

@@ -7,7 +7,7 @@ use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{Commissioning, assign};
+use od_spec::{Commissioning, Layer, assign, assign_layers, parameter_file};
 use od_tests::{Failure, root};
 
 /// Where the DCF with [`SETTINGS`] is put.
@@ -47,6 +47,15 @@ const SETTINGS: [(&str, &str); 29] = [
     ("1605.1=0x20090008", "1605.1 537460744"),
 ];
 
+/// The settings as a parameter file.
+fn parameter_file_text() -> String {
+    let setting = |(setting, _): (&str, &str)| {
+        let (entry, value) = setting.split_once('=').unwrap_or((setting, ""));
+        format!("  \"{entry}\": \"{value}\"\n")
+    };
+    format!("od-parameters: 1\nparameters:\n{}", SETTINGS.map(setting).concat())
+}
+
 /// A DCF with every setting, and the list of what it must say.
 pub(crate) fn write_configured(system: &System, mut sources: SourceMap) -> Result<(), Failure> {
     let device = system.devices.first().ok_or("everything.od.yaml has no device")?;
@@ -54,12 +63,20 @@ pub(crate) fn write_configured(system: &System, mut sources: SourceMap) -> Resul
         let file = sources.add("SETTINGS", setting);
         Spanned::new(setting.to_owned(), sources.whole(file))
     });
+    let parameters = sources.add("SETTINGS as a parameter file", parameter_file_text());
     let mut diagnostics = Diagnostics::new();
     let mut commissioning = Commissioning::of_node(device, 5);
     commissioning.values = assign(system, device, commissioning.node, &settings, &mut diagnostics);
+    let layers: Vec<Layer> =
+        parameter_file(&sources, parameters, &mut diagnostics).into_iter().map(|file| file.layer).collect();
+    let of_file = assign_layers(system, device, commissioning.node, &layers, &mut diagnostics);
     if !diagnostics.is_empty() {
         return Err(render(&diagnostics, &sources, Format::Human, false).into());
     }
+    if commissioning.values != of_file.values {
+        return Err("a parameter file gives other values than the same settings".into());
+    }
+    commissioning.values = of_file.values;
     let file = format!("{}.dcf", device.key);
     let bytes = write_dcf(system, device, &commissioning, &file);
     let values = SETTINGS.map(|(_, value)| format!("{value}\n")).concat();
