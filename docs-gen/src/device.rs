@@ -13,7 +13,7 @@ use crate::long_list::LongList;
 use crate::outline::section_anchor;
 use crate::source::Source;
 use crate::tables::Columns;
-use crate::tables::bits::{type_anchor, types_of};
+use crate::tables::bits::types_of;
 use crate::tables::overview::among;
 use crate::uses::Uses;
 use crate::view::{
@@ -356,18 +356,21 @@ impl Source<'_> {
     }
 }
 
-/// The rows of a type with anchors below the first entry that has it: `6041.b3` is a bit, `6060.v8` a value.
+/// The rows of a type with anchors below each entry that has it: `6041.b3` is a bit, `6060.v8` a value.
 fn anchored(mut grid: Grid, object: &Object, named: &NamedType) -> Grid {
     let has_it =
         |entry: &&Entry| entry.named_type.as_deref().is_some_and(|its_type| its_type.name == named.name);
-    let first = object.entries.iter().find(has_it);
-    let Some(entry) = first.and_then(|entry| type_anchor(object, entry.sub)) else { return grid };
+    let having = object.entries.iter().filter(has_it);
+    let anchors: Vec<String> =
+        having.map(|entry| entry_anchor(EntryId { index: object.index, sub: entry.sub })).collect();
+    let Some((first, others)) = anchors.split_first() else { return grid };
     let parts: Vec<String> = match &named.kind {
         TypeKind::Bits(fields) => fields.iter().map(|field| format!("b{}", field.first)).collect(),
         TypeKind::Enum(values) => values.iter().map(|value| format!("v{}", value.value)).collect(),
     };
     for (row, part) in grid.rows.items_mut().iter_mut().zip(parts) {
-        row.anchor = format!("{entry}.{part}");
+        row.anchor = format!("{first}.{part}");
+        row.also = others.iter().map(|entry| format!("{entry}.{part}")).collect();
     }
     grid
 }

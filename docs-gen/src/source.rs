@@ -15,7 +15,7 @@ use crate::indices::{self, Written};
 use crate::language::{Language, Word};
 use crate::options::Options;
 use crate::outline::Outline;
-use crate::view::Cell;
+use crate::view::{Cell, Target};
 
 /// What would otherwise be searched for again and again.
 #[derive(Default)]
@@ -324,12 +324,24 @@ impl<'a> Source<'a> {
 
     /// A link to something of an object of these devices.
     pub(crate) fn link_on(&self, devices: &Devices, index: Index, text: String, anchor: String) -> Cell {
-        let Some(device) = self.led_to(devices, index).next() else { return Cell::plain(text) };
+        let Some(target) = self.target(devices, index, anchor) else { return Cell::plain(text) };
+        Cell::default().link(text, target.anchor, target.page)
+    }
+
+    /// Where something of an object of these devices stands, if one of them has a page and the object.
+    pub(crate) fn target(&self, devices: &Devices, index: Index, anchor: String) -> Option<Target> {
+        let device = self.led_to(devices, index).next()?;
         // What no chapter details stands on the page of its device: each device has one. So does what another device has.
         let home = self.home(index);
         let is_shown = self.devices.iter().any(|one| one.key == device.key);
         let is_on_page_of_device = !is_shown || self.devices.iter().any(|device| device.key == home);
-        Cell::default().link(text, anchor, if is_on_page_of_device { &device.key } else { home })
+        let page = if is_on_page_of_device { &device.key } else { home };
+        Some(Target { anchor, page: page.to_owned() })
+    }
+
+    /// Where an entry of a device stands.
+    pub(crate) fn entry_target(&self, device: &Dictionary, id: EntryId) -> Option<Target> {
+        self.target(&Devices::one(&device.key), id.index, entry_anchor(id))
     }
 
     /// A link to an entry of a device.

@@ -48,6 +48,7 @@ const MARKDOWN: &[(&str, &str)] =
     files!("md/_macros.md", "md/README.md", "md/chapter.md", "md/device.md", "md/appendix.md");
 const HTML: &[(&str, &str)] = files!(
     "html/_layout.html",
+    "html/_links.html",
     "html/_macros.html",
     "html/_pictures.html",
     "html/_style.css",
@@ -60,6 +61,7 @@ const HTML: &[(&str, &str)] = files!(
     "html/device.html",
 );
 const PRINT: &[(&str, &str)] = files!(
+    "html/_links.html",
     "html/_macros.html",
     "html/_pictures.html",
     "html/_user.css",

@@ -180,6 +180,8 @@ pub enum Align {
 pub struct Row {
     /// Where links lead: `3020.5`; may be empty.
     pub anchor: String,
+    /// Where links to the same lead that name it otherwise: the bit of another entry of this type.
+    pub also: Vec<String>,
     /// Cells, one for each column.
     pub cells: Vec<Cell>,
     /// Whether an entry of the row is stored; such rows are shaded.
@@ -349,6 +351,15 @@ pub struct ObjectView {
     pub search: String,
 }
 
+/// Where a name in a picture leads.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Target {
+    /// Anchor.
+    pub anchor: String,
+    /// Page that has it, where pages are small.
+    pub page: String,
+}
+
 /// A place in the manual.
 #[derive(Debug, Clone, Serialize)]
 pub struct Place {
@@ -495,6 +506,8 @@ pub struct PdoField {
     pub anchor: String,
     /// Name.
     pub name: String,
+    /// Where its entry stands, if anywhere.
+    pub target: Option<Target>,
 }
 
 /// A state machine, to be drawn; all lengths are in the units of the picture.
@@ -504,6 +517,8 @@ pub struct MachinePicture {
     pub width: u32,
     /// Height of the picture.
     pub height: u32,
+    /// Where the entry stands that shows the state.
+    pub status: Option<Target>,
     /// Its states, from the top.
     pub states: Vec<MachineState>,
     /// Its transitions.
@@ -566,6 +581,8 @@ pub struct TimingSignal {
     pub name: String,
     /// Where it stands: `controlword, Bit 4` or `607Ah`.
     pub place: String,
+    /// Where its entry or bit stands, if it is one alone.
+    pub target: Option<Target>,
     /// The middle of its wave.
     pub y: u32,
     /// Where it is 0 or 1, as SVG writes it; may be empty.
@@ -650,6 +667,8 @@ pub struct PictureText {
     pub y: u32,
     /// Whether it begins there (`left`) or ends there (`right`).
     pub align: Align,
+    /// Where the entry stands that says it, if one does.
+    pub target: Option<Target>,
 }
 
 /// Thresholds in their order.
@@ -676,6 +695,8 @@ pub struct Rung {
     pub anchor: String,
     /// Name.
     pub name: String,
+    /// Where its entry stands, if anywhere.
+    pub target: Option<Target>,
 }
 
 /// Tables over the whole system.

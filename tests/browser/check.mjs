@@ -3,10 +3,11 @@
 //
 //   node check.mjs DOCS DUMP CONTEXT OUT CHROMIUM
 import { readFileSync, writeFileSync, mkdirSync, statSync } from "node:fs";
-import { execFileSync } from "node:child_process";
+import { execFile, execFileSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { promisify } from "node:util";
 import { chromium } from "playwright-core";
 
 const [docs, dumpFile, contextFile, out, executablePath] = process.argv.slice(2).map((path) => resolve(path));
@@ -255,7 +256,7 @@ for (const device of dump.devices) {
   }
   const ids = await page.$$eval("[id]", (all) => all.map((one) => one.id));
   same(ids.filter((id, at) => ids.indexOf(id) !== at), [], "index.html: ids stand once");
-  const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.hash.slice(1))).filter((id) => id && !document.getElementById(id)));
+  const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.getAttribute("href").slice(1))).filter((id) => id && !document.getElementById(id)));
   same(dead, [], "index.html: links");
   same(await page.evaluate(unlinked, dump.errors.map((error) => error.code)), [], "index.html: indices without a link");
   const duration = await search(page, "table");
@@ -267,7 +268,7 @@ for (const device of dump.devices) {
   const page = await open(`${device.key}.html`);
   const ids = await page.$$eval("[id]", (all) => all.map((one) => one.id));
   same(ids.filter((id, at) => ids.indexOf(id) !== at), [], `${device.key}: ids stand once`);
-  const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.hash.slice(1))).filter((id) => id && !document.getElementById(id)));
+  const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.getAttribute("href").slice(1))).filter((id) => id && !document.getElementById(id)));
   same([...new Set(dead)], [], `${device.key}: links`);
   same(await page.evaluate(unlinked, dump.errors.map((error) => error.code)), [], `${device.key}: indices without a link`);
   await page.close();
@@ -394,6 +395,61 @@ for (const device of context.devices) {
   await page.close();
 }
 
+// ---------------------------------------------------------------- pictures: what they name is a link, for fingers and keys, too
+const targetsOf = (table) => [...(table.ladder?.rungs ?? []), ...table.grids.flatMap((grid) => [
+  ...(grid.timing?.signals ?? []), ...(grid.hysteresis?.switches ?? []).flatMap((one) => one.texts), ...(grid.machine?.states ?? []).map(() => ({ target: grid.machine.status })),
+])].flatMap(({ target }) => target ?? []);
+// Tables of a page with the targets that their pictures have to lead to, in any order.
+const isLinked = async (page, name, key, wanted) => {
+  const addressOf = ({ anchor, page: home }) => (home && home !== key && context.devices.some((device) => device.key === home) ? `${home}.html#${anchor}` : `#${anchor}`);
+  const found = await page.evaluate((ids) => ids.map((id) => {
+    const box = document.getElementById(id);
+    // The pictures of a PDO follow its heading.
+    const boxes = box.matches("h3") ? [box.nextElementSibling, box.nextElementSibling.nextElementSibling].filter((one) => one?.matches(".scroll, .narrow")) : [box];
+    return boxes.flatMap((one) => [...one.querySelectorAll("svg a, .narrow a, li a")].map((link) => link.getAttribute("href")));
+  }), wanted.map(({ id }) => id));
+  for (const [at, { id, targets }] of wanted.entries()) same([...found[at]].sort(), targets.map(addressOf).sort(), `${name}: links in the pictures of #${id}`);
+  for (const width of [390, 800, 1400]) {
+    await page.setViewportSize({ width, height: 900 });
+    const faults = await page.$$eval(".picture a, .narrow a", (links) => links.flatMap((link) => {
+      const { width: wide, height } = link.getBoundingClientRect(), name = link.textContent.trim(), picture = link.closest("svg");
+      link.focus();
+      return [name === "" && "no name", picture && (wide < 24 || height < 24) && `${wide} x ${height}`, document.activeElement !== link && "no focus",
+        picture && (picture.getAttribute("role") !== "group" || !picture.getAttribute("aria-label")) && "in an image"].filter(Boolean).map((fault) => `${name}: ${fault}`);
+    }));
+    same(faults, [], `${name} (${width} px): links in pictures`);
+  }
+};
+{
+  const page = await open("index.html");
+  await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  const tables = [...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)), ...context.appendices.flatMap((appendix) => appendix.tables)];
+  await isLinked(page, "index.html", "index", tables.map((table) => ({ id: table.anchor, targets: targetsOf(table) })).filter(({ targets }) => targets.length > 0));
+  await page.close();
+}
+for (const device of context.devices) {
+  const page = await open(`${device.key}.html`);
+  await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  await isLinked(page, device.key, device.key, [
+    ...device.pdos.map((pdo) => ({ id: pdo.anchor, targets: pdo.fields.flatMap(({ target }) => target ?? []) })),
+    ...device.appendices.flatMap((appendix) => appendix.tables).map((table) => ({ id: table.anchor, targets: targetsOf(table) })).filter(({ targets }) => targets.length > 0),
+  ]);
+  const entries = device.pdos.flatMap((pdo) => pdo.fields).filter((field) => field.entry);
+  same(entries.filter((field) => field.target?.anchor !== field.anchor).map((field) => field.entry), [], `${device.key}: mapped entries without a link`);
+
+  // The bits and values of a type have an address below each entry that has the type.
+  const objects = dump.devices.find((one) => one.key === device.key).objects;
+  const types = Object.fromEntries(dump.types.map((type) => [type.name, (type.bits ?? []).map((bit) => `b${bit.first}`).concat((type.values ?? []).map((value) => `v${value.value}`))]));
+  const wanted = objects.flatMap((object) => object.entries.filter((entry) => entry["named-type"]).flatMap((entry) => {
+    const before = entry.sub === 0 ? key(object.index) : `${key(object.index)}.${entry.sub}`;
+    return (types[entry["named-type"]] ?? []).map((part) => `${before}.${part}`);
+  }));
+  const missing = await page.evaluate((ids) => ids.filter((id) => !document.getElementById(id)?.closest("tr")), wanted);
+  same(missing, [], `${device.key}: bits and values without an address`);
+  check(wanted.length > 0 || objects.every((object) => object.entries.every((entry) => !entry["named-type"])), `${device.key}: no address of a bit was looked for`);
+  await page.close();
+}
+
 // ---------------------------------------------------------------- the search that the project promises
 if (dump.devices.some((device) => device.key === "pmc")) {
   const page = await open("pmc.html");
@@ -413,24 +469,44 @@ const names = ["index.html", ...dump.devices.map((device) => `${device.key}.html
 const rules = { "target-size": { enabled: true }, "scrollable-region-focusable": { enabled: true } };
 const layout = { runOnly: { type: "rule", values: Object.keys(rules) } };
 const colours = { runOnly: { type: "rule", values: ["color-contrast", "link-in-text-block"] } };
-// At one width axe looks at everything. What is small or scrolled is looked for everywhere at the others, too; for the rest those cards are enough there that have,
-// all together, each kind of element: axe takes half a minute for a page.
+// At one width axe looks at everything but colours. What is small or scrolled is looked for everywhere at the others, too; for colours and for the rest at these widths
+// those cards are enough that have, all together, each kind of element: axe takes half a minute for a page.
 const looks = {
-  page: [[1400, "light", { rules }], [1400, "dark", colours], [390, "light", layout], [800, "light", layout]],
-  kinds: [[390, "light", { rules }], [390, "dark", colours], [800, "light", { rules }], [800, "dark", colours]],
+  page: [[1400, "light", { rules: { ...rules, "color-contrast": { enabled: false } } }], [390, "light", layout], [800, "light", layout]],
+  kinds: [[800, "light", { rules }], [800, "dark", colours], [390, "light", { rules }], [390, "dark", colours], [1400, "light", colours], [1400, "dark", colours]],
 };
+// The colours of an element follow from what it and all around it are.
 const keepKinds = () => {
   const kinds = new Set();
+  const ways = new Map([[null, ""]]);
+  const wayOf = (one) => {
+    if (!ways.has(one)) ways.set(one, `${one.matches(".object, .part") ? "" : wayOf(one.parentElement)} ${one.localName}.${one.getAttribute("class") ?? ""}`);
+    return ways.get(one);
+  };
   for (const card of document.querySelectorAll(".object, .part")) {
     const before = kinds.size;
-    for (const one of card.querySelectorAll("*")) kinds.add([one.parentElement, one].map(({ localName, classList }) => `${localName}.${classList}`).join(" "));
+    for (const one of card.querySelectorAll("*")) {
+      if (one.closest("tbody tr, li")) continue;
+      kinds.add(wayOf(one));
+    }
+    // Of rows and items those stay that have something new, and one of each list.
+    for (const one of [...card.querySelectorAll("tbody tr, li")]) {
+      const some = kinds.size;
+      for (const part of [one, ...one.querySelectorAll("*")]) kinds.add(wayOf(part));
+      if (kinds.size === some && one.previousElementSibling) one.remove();
+    }
     // The heading stays: the next one has its level below it.
     if (kinds.size === before) card.replaceChildren(card.querySelector("h1, h2, h3, h4, h5, h6"));
   }
 };
 const areStacked = () => !document.querySelector(".stack:not(.stacked)");
 let spent = 0;
+const printPage = promisify(execFile);
 for (const name of names) {
+  // The documented command, beside all else.
+  const pdf = join(out, name.replace(".html", ".pdf"));
+  const print = printPage(executablePath, ["--headless", "--no-sandbox", "--no-pdf-header-footer", `--print-to-pdf=${pdf}`, pathToFileURL(join(docs, name)).href]);
+  print.catch(() => null);
   const page = await open(name);
   await page.setViewportSize({ width: 1400, height: 900 });
   const backs = new Set();
@@ -465,17 +541,40 @@ for (const name of names) {
   await page.evaluate(() => localStorage.clear());
   await page.close();
 
-  // Below the width of a desk, what is wider than the screen can be scrolled to.
+  // At no width a table is wider than its card, or a column narrower than its longest word.
   const tablet = await open(name);
-  await tablet.setViewportSize({ width: 1000, height: 800 });
   await tablet.addStyleTag({ content: "* { content-visibility: visible !important }" });
-  const lost = await tablet.$$eval("table", (all) => all.filter((one) => {
-    const box = one.closest(".object, .part") ?? document.documentElement;
-    const out = one.getBoundingClientRect().right - box.getBoundingClientRect().left > box.scrollWidth + 1;
-    const scrolls = ["auto", "scroll"].includes(getComputedStyle(box).overflowX) || box === document.documentElement;
-    return out || (box.scrollWidth > box.clientWidth + 1 && !scrolls);
-  }).map((one) => one.closest("[id]")?.id));
-  same(lost, [], `${name}: tables out of reach at 1000 px`);
+  for (const width of [390, 600, 601, 800, 1000, 1200, 1201, 1400]) {
+    await tablet.setViewportSize({ width, height: 800 });
+    if (width <= 600) await tablet.waitForFunction(areStacked);
+    await tablet.evaluate(() => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); }));
+    const { wide, broken, unnamed } = await tablet.evaluate(() => {
+      const place = (one) => `${one.closest("[id]")?.id}: ${one.textContent.slice(0, 40)}`;
+      const wide = [], broken = [], unnamed = [], pen = document.createElement("canvas").getContext("2d");
+      const longest = new Map();
+      for (const table of document.querySelectorAll("main table")) {
+        const box = table.closest(".object, .part, .intro"), { paddingLeft, paddingRight } = getComputedStyle(box);
+        if (table.getBoundingClientRect().width > box.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) + 1) wide.push(`${place(table)} in ${box.id}`);
+        if (!table.matches(".folded") || innerWidth <= 600) continue;
+        const titles = [...table.tHead.rows[0].cells].map((cell) => cell.textContent);
+        for (const cell of table.querySelectorAll("tbody td")) {
+          const style = getComputedStyle(cell), title = getComputedStyle(cell, "::before").content.split(" / ")[0];
+          if (cell.textContent && title !== JSON.stringify(titles[cell.cellIndex])) unnamed.push(place(cell));
+          if (!cell.role || cell.matches(".tool")) continue;
+          pen.font = `${style.fontStyle} ${style.fontSize} ${style.fontFamily}`;
+          for (const word of cell.textContent.split(/[\s\u00ad/-]+/)) {
+            if (!longest.has(pen.font + word)) longest.set(pen.font + word, pen.measureText(word).width);
+            if (longest.get(pen.font + word) > cell.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) + 1) broken.push(`${place(cell)}: ${word}`);
+          }
+        }
+      }
+      for (const card of document.querySelectorAll(".object, .part")) if (card.scrollWidth > card.clientWidth + 1) wide.push(`card ${card.id}`);
+      return { wide, broken, unnamed };
+    });
+    same(wide, [], `${name} (${width} px): tables wider than their card`);
+    same(broken, [], `${name} (${width} px): words wider than their column`);
+    same(unnamed, [], `${name} (${width} px): cells without the title of their column`);
+  }
   await tablet.close();
 
   // On a phone the cells of a row stand below one another, each behind the title of its column, and only pictures are scrolled.
@@ -542,9 +641,8 @@ for (const name of names) {
   }));
   await paper.close();
 
-  // The documented command, and what a reader of PDF files finds in its file.
-  const pdf = join(out, name.replace(".html", ".pdf"));
-  execFileSync(executablePath, ["--headless", "--no-sandbox", "--no-pdf-header-footer", `--print-to-pdf=${pdf}`, pathToFileURL(join(docs, name)).href], { stdio: "ignore" });
+  // What a reader of PDF files finds in the printed one.
+  await print;
   const text = execFileSync("pdftotext", ["-raw", pdf, "-"], { maxBuffer: 1 << 28 }).toString();
   const pages = text.split("\f").slice(0, -1);
   for (const [at, one] of pages.entries()) check(one.includes(`${at + 1} / ${pages.length}`), `${name}: page ${at + 1} has no number`);

@@ -101,7 +101,7 @@ for (const name of readdirSync(join(docs, "hostile")).filter((file) => file.ends
     }
     for (const one of document.querySelectorAll("a, button, input, select, [tabindex]")) one.focus();
     for (const one of document.querySelectorAll("button")) one.click();
-    for (const link of document.querySelectorAll("a[href^='#']")) link.click();
+    for (const link of document.querySelectorAll("a[href^='#']")) link.dispatchEvent(new MouseEvent("click", { bubbles: true, cancelable: true }));
   });
   for (const { hostile } of texts.slice(0, 5)) {
     await page.fill("#ui_search", hostile);

@@ -31,10 +31,11 @@ const open = async (address, width) => {
 const gap = (page, id) => page.evaluate(async (name) => {
   const frame = () => new Promise((done) => requestAnimationFrame(done));
   let still = 0, last = NaN;
-  for (let frames = 0; still < 20 && frames < 240; frames++) {
+  // Longer than the page itself follows what it went to.
+  for (let frames = 0; still < 14 && frames < 240; frames++) {
     await frame();
     const bar = document.querySelector(".bar"), covered = getComputedStyle(bar).position === "sticky" ? bar.getBoundingClientRect().bottom : 0;
-    const target = document.getElementById(name);
+    const named = document.getElementById(name), target = named?.matches("td > i") ? named.closest("tr") : named;
     const here = target?.checkVisibility() ? target.getBoundingClientRect().top - Math.max(covered, 0) : NaN;
     still = here === last ? still + 1 : 0;
     last = here;
@@ -55,7 +56,8 @@ const firstOf = (page) => page.evaluate(() => {
 let asked = 0, followed = 0;
 for (const [name, { questions, links }] of Object.entries(table)) {
   const address = pathToFileURL(join(docs, name)).href;
-  for (const width of WIDTHS) {
+  // The widths beside one another: most of the time a page stands still, and that is waited for.
+  await Promise.all(WIDTHS.map(async (width) => {
     const page = await open(address, width);
     for (const [at, [question, expected]] of questions.entries()) {
       const place = `${name} at ${width} px: ${question}`;
@@ -105,7 +107,7 @@ for (const [name, { questions, links }] of Object.entries(table)) {
       await opened.close();
       followed += 5;
     }
-  }
+  }));
 }
 
 // The question stays: in the address, when the page is loaded again, and on the way back.

@@ -17,12 +17,15 @@ import os
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
 SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs"]
+# Two cores are what a machine has at least.
+AT_ONCE = 2
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
 
 
@@ -56,6 +59,16 @@ def install() -> Path:
     return folder
 
 
+def run(command: list[str]) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def size(command: list[str]) -> int:
+    """How much the command has to read, in bytes of HTML."""
+    folders = [Path(argument) for argument in command[2:] if Path(argument).is_dir()]
+    return sum(file.stat().st_size for folder in folders for file in folder.rglob("*.html"))
+
+
 def main() -> int:
     try:
         node, browser = program(["node"], "nodejs"), os.environ.get("CHROMIUM") or program(BROWSERS, "chromium")
@@ -66,29 +79,29 @@ def main() -> int:
         return 3
     directories = [Path(argument).resolve() for argument in sys.argv[1:]]
     pages = [str(docs) for docs in directories if any(docs.rglob("*.html"))]
-    # Beside the browser, which waits a lot.
-    validator = subprocess.Popen([node, str(folder / "validate.mjs"), *pages], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) if pages else None
-    failed = 0
     asked = json.loads((HERE / "questions.json").read_text(encoding="utf-8"))
+    work: list[tuple[str, list[str]]] = []
     for docs in directories:
-        print(f"== {docs.name}", flush=True)
-        commands = []
         if (docs / "manual.adoc").exists():
-            commands.append([node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")])
+            work.append((docs.name, [node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")]))
         elif (docs / "hostile.json").exists():
-            commands.append([node, str(folder / "hostile.mjs"), str(docs), browser])
+            work.append((docs.name, [node, str(folder / "hostile.mjs"), str(docs), browser]))
         else:
             if docs.name in asked:
-                commands.append([node, str(folder / "questions.mjs"), str(docs), browser])
+                work.append((f"{docs.name}: questions", [node, str(folder / "questions.mjs"), str(docs), browser]))
             if (docs / "dump.json").exists():
                 files = [docs, docs / "dump.json", docs / "context.json", CACHE / "seen" / docs.name]
-                commands.append([node, str(folder / "check.mjs"), *map(str, files), browser])
-        for command in commands:
-            failed += subprocess.run(command, check=False).returncode != 0
-    if validator:
-        print("== all pages", flush=True)
-        print(validator.communicate()[0], end="", flush=True)
-        failed += validator.returncode != 0
+                work.append((docs.name, [node, str(folder / "check.mjs"), *map(str, files), browser]))
+    if pages:
+        work.append(("all pages", [node, str(folder / "validate.mjs"), *pages]))
+    failed = 0
+    # A browser waits a lot: what is large begins first, beside it the next; it is told in the given order.
+    with ThreadPoolExecutor(max_workers=AT_ONCE) as pool:
+        started = {name: pool.submit(run, command) for name, command in sorted(work, key=lambda one: -size(one[1]))}
+        for name, _ in work:
+            done = started[name].result()
+            print(f"== {name}", done.stdout.rstrip(), sep="\n", flush=True)
+            failed += done.returncode != 0
     return 1 if failed else 0
 
 

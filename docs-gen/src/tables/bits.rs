@@ -1,8 +1,8 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
 use od_spec::model::{
-    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EntryId, EnumValue,
-    ModeMeaning, NamedType, Object, SubIndex,
+    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EnumValue, ModeMeaning,
+    NamedType, Object,
 };
 
 use super::Columns;
@@ -190,14 +190,6 @@ impl Source<'_> {
             .center(self, "supported", Word::Supported)
             .grid(rows, &["value", "name"])
     }
-}
-
-/// Below what anchor the rows of an entry's type stand on the page of its device: that of the object's first entry of the type.
-pub(crate) fn type_anchor(object: &Object, sub: SubIndex) -> Option<String> {
-    let name = |entry: &Entry| entry.named_type.as_ref().map(|named| named.name.clone());
-    let named = object.entry(sub).and_then(name)?;
-    let first = object.entries.iter().find(|entry| name(entry).as_ref() == Some(&named))?;
-    Some(entry_anchor(EntryId { index: object.index, sub: first.sub }))
 }
 
 /// The named types of an object's entries, each once.

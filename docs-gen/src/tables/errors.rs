@@ -4,9 +4,9 @@ use od_spec::model::{Dictionary, ErrorCode};
 
 use super::Columns;
 use super::variants::device_keys;
+use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
-use crate::tables::bits::type_anchor;
 use crate::view::{Align, Cell, Grid, Row};
 
 /// Where links to an error code lead.
@@ -145,12 +145,7 @@ impl Source<'_> {
                         id.to_string()
                     };
                     let text = format!("{place} {} {bit}", self.word(Word::Bit));
-                    let object = device.objects.get(&id.index);
-                    cell = cell.line();
-                    cell = match object.and_then(|object| type_anchor(object, id.sub)) {
-                        Some(row) => cell.link(text, format!("{row}.b{bit}"), &*device.key),
-                        None => cell.text(text),
-                    };
+                    cell = cell.line().link(text, format!("{}.b{bit}", entry_anchor(id)), &*device.key);
                 }
             }
         }

@@ -86,6 +86,8 @@ impl Source<'_> {
             points,
             on_value: self.quantity(unit, points.on),
             off_value: self.quantity(unit, points.off),
+            on_target: self.entry_target(device, switch.threshold),
+            off_target: self.entry_target(device, switch.back.entry()),
             on: self.word(Word::SwitchedOn),
             off: self.word(Word::SwitchedOff),
         })

@@ -6,7 +6,7 @@
 use od_spec::model::{Ratio, SwitchPoints, SwitchSide};
 
 use super::timing_picture::room;
-use crate::view::{Align, HysteresisPicture, PictureText, SwitchPicture};
+use crate::view::{Align, HysteresisPicture, PictureText, SwitchPicture, Target};
 
 /// Width between the lowest and the highest value.
 const SPAN: u32 = 360;
@@ -27,6 +27,10 @@ pub(super) struct DrawnSwitch {
     pub on_value: String,
     /// The value at which it goes off again, with its unit.
     pub off_value: String,
+    /// Where the entry stands that says the first value.
+    pub on_target: Option<Target>,
+    /// Where the entry stands that says the second one.
+    pub off_target: Option<Target>,
     /// That it is on, in a word.
     pub on: &'static str,
     /// That it is off, in a word.
@@ -95,11 +99,15 @@ fn switch(row: u32, one: &DrawnSwitch, scale: &Scale) -> Option<SwitchPicture> {
         SwitchSide::Above => ((off, one.off), (on, one.on)),
     };
     // Where the state changes while the value falls, and while it rises.
-    let ((falling, falling_text), (rising, rising_text)) = {
+    let ((falling, falling_text, falls_to), (rising, rising_text, rises_to)) = {
         let (goes_on, goes_off) = (scale.x(one.points.on)?, scale.x(one.points.off)?);
         match one.side {
-            SwitchSide::Below => ((goes_on, &one.on_value), (goes_off, &one.off_value)),
-            SwitchSide::Above => ((goes_off, &one.off_value), (goes_on, &one.on_value)),
+            SwitchSide::Below => {
+                ((goes_on, &one.on_value, &one.on_target), (goes_off, &one.off_value, &one.off_target))
+            }
+            SwitchSide::Above => {
+                ((goes_off, &one.off_value, &one.off_target), (goes_on, &one.on_value, &one.on_target))
+            }
         }
     };
     let (from, to, middle) = (scale.from, scale.to, u32::midpoint(on, off));
@@ -110,7 +118,13 @@ fn switch(row: u32, one: &DrawnSwitch, scale: &Scale) -> Option<SwitchPicture> {
             format!("M{x} {}l-4 8h8z", middle - 4)
         }
     };
-    let text = |text: &str, x: u32, y: u32, align: Align| PictureText { text: text.to_owned(), x, y, align };
+    let text = |text: &str, x: u32, y: u32, align: Align| PictureText {
+        text: text.to_owned(),
+        x,
+        y,
+        align,
+        target: None,
+    };
     Some(SwitchPicture {
         name: one.what.clone(),
         y: middle + 4,
@@ -120,8 +134,11 @@ fn switch(row: u32, one: &DrawnSwitch, scale: &Scale) -> Option<SwitchPicture> {
         texts: vec![
             text(low_word, from + 2, low - 4, Align::Left),
             text(high_word, to - 2, high - 4, Align::Right),
-            text(falling_text, falling - 3, off + 14, Align::Right),
-            text(rising_text, rising + 3, off + 14, Align::Left),
+            PictureText {
+                target: falls_to.clone(),
+                ..text(falling_text, falling - 3, off + 14, Align::Right)
+            },
+            PictureText { target: rises_to.clone(), ..text(rising_text, rising + 3, off + 14, Align::Left) },
         ],
     })
 }

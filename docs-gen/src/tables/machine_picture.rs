@@ -6,7 +6,7 @@
 
 use od_spec::model::{StateMachine, Transition};
 
-use crate::view::{MachineLine, MachinePicture, MachineState};
+use crate::view::{MachineLine, MachinePicture, MachineState, Target};
 
 /// Width of a state, and of a character in it at most.
 const STATE: (u32, u32) = (120, 7);
@@ -61,6 +61,7 @@ impl Way<'_> {
 pub(super) fn picture(
     machine: &StateMachine,
     patterns: &[String],
+    status: Option<Target>,
     code_of: impl Fn(u8) -> String,
 ) -> MachinePicture {
     let ways = ways(machine);
@@ -96,6 +97,7 @@ pub(super) fn picture(
     MachinePicture {
         width: left + width + lanes(Side::Right) * LANE + 12,
         height: y - GAP + 2,
+        status,
         states,
         lines,
     }

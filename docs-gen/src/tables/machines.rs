@@ -4,6 +4,7 @@ use od_spec::model::{BitPattern, Command, Dictionary, Entry, EntryId, PatternBit
 
 use super::Columns;
 use super::machine_picture::picture;
+use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::{Align, Cell, Grid, Row};
@@ -76,7 +77,9 @@ impl Source<'_> {
             .left(self, "meaning", Word::Meaning)
             .grid(rows, &["pattern", "state"]);
         let patterns: Vec<String> = machine.states.iter().map(|state| pattern(&state.pattern)).collect();
-        Grid { machine: Some(picture(machine, &patterns, |number| self.code_of(machine, number))), ..grid }
+        let status = self.target(&machine.devices, machine.status.index, entry_anchor(machine.status));
+        let drawn = picture(machine, &patterns, status, |number| self.code_of(machine, number));
+        Grid { machine: Some(drawn), ..grid }
     }
 
     /// The code that takes a transition: that of the command which means it most of all, as it takes the fewest others.

@@ -115,6 +115,7 @@ impl Source<'_> {
                 let range = self.wording.range(object.index, entry).unwrap_or_default();
                 Row {
                     anchor,
+                    also: Vec::new(),
                     cells: vec![
                         Cell::plain(place),
                         cell(entry.name.clone(), &[Fact::Name]),

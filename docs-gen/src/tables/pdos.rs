@@ -67,6 +67,7 @@ impl Source<'_> {
                     entry: id.to_string(),
                     anchor: entry_anchor(id),
                     name: device.entry_name(id).unwrap_or_default(),
+                    target: self.entry_target(device, id),
                 },
                 PdoTarget::Dummy(data_type) => PdoField {
                     start,
@@ -74,6 +75,7 @@ impl Source<'_> {
                     entry: String::new(),
                     anchor: String::new(),
                     name: dummy(data_type),
+                    target: None,
                 },
             }
         });

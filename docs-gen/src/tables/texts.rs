@@ -174,6 +174,7 @@ impl Source<'_> {
                 entry: entry.id.to_string(),
                 anchor: entry_anchor(entry.id),
                 name: device.entry_name(entry.id)?,
+                target: self.entry_target(device, entry.id),
             });
         }
         let (low, high) = (*values.first()?, *values.last()?);

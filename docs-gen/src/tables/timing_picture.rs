@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 use od_spec::model::{Signal, Timing};
 
-use crate::view::{TimingArrow, TimingLevel, TimingMark, TimingPicture, TimingSignal};
+use crate::view::{Target, TimingArrow, TimingLevel, TimingMark, TimingPicture, TimingSignal};
 
 /// Width of a character at most.
 const CHARACTER: u32 = 7;
@@ -52,6 +52,8 @@ pub(super) struct DrawnSignal {
     pub name: String,
     /// Where it stands: `controlword, Bit 4` or `607Ah`.
     pub place: String,
+    /// Where that is told about.
+    pub target: Option<Target>,
     /// Its levels: before the first step, then behind each.
     pub levels: Vec<DrawnLevel>,
 }
@@ -164,7 +166,15 @@ fn wave(row: usize, signal: DrawnSignal, scale: &Scale) -> TimingSignal {
             y: middle + 4,
         }));
     }
-    TimingSignal { name: signal.name, place: signal.place, y: middle, line: line.concat(), bands, levels }
+    TimingSignal {
+        name: signal.name,
+        place: signal.place,
+        target: signal.target,
+        y: middle,
+        line: line.concat(),
+        bands,
+        levels,
+    }
 }
 
 /// An arrow for each pair of signals that change at a step and at its cause.

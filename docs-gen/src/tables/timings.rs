@@ -4,9 +4,10 @@ use od_spec::model::{BitField, Dictionary, EntryId, Level, Signal, SignalCarrier
 
 use super::Columns;
 use super::timing_picture::{DrawnLevel, DrawnSignal, picture};
+use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
-use crate::view::{Align, Cell, Grid, Row};
+use crate::view::{Align, Cell, Grid, Row, Target};
 
 impl Source<'_> {
     /// The sequence as a table with its picture; nothing where the devices shown have none of its signals.
@@ -71,7 +72,28 @@ impl Source<'_> {
         DrawnSignal {
             name,
             place,
+            target: self.carrier_target(&signal.carrier),
             levels: signal.levels.iter().map(|level| self.level(signal, level)).collect(),
+        }
+    }
+
+    /// Where the entry or the bit of a signal stands; of a type that several entries have, none is meant more than another.
+    fn carrier_target(&self, carrier: &SignalCarrier) -> Option<Target> {
+        match carrier {
+            SignalCarrier::Entry(id) => self.entry_target(self.having_entry(*id)?, *id),
+            SignalCarrier::Bits { named_type, first, .. } => {
+                let of_type = |device: &Dictionary| -> Vec<EntryId> {
+                    let entries = device.entries();
+                    let having = entries.filter(|(.., entry)| {
+                        entry.named_type.as_ref().is_some_and(|named| named.name == *named_type)
+                    });
+                    having.map(|(id, ..)| id).collect()
+                };
+                let device = self.devices.iter().copied().find(|device| !of_type(device).is_empty())?;
+                let &[id] = of_type(device).as_slice() else { return None };
+                // Rows of bits stand on the page of their device.
+                Some(Target { anchor: format!("{}.b{first}", entry_anchor(id)), page: device.key.clone() })
+            }
         }
     }
 

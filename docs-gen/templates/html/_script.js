@@ -189,9 +189,12 @@
     return isRead;
   };
   const whenIdle = (work) => (window.requestIdleCallback ? requestIdleCallback((idle) => work(Math.max(idle.timeRemaining(), 4))) : setTimeout(() => work(8), 16));
+  const atOnce = (work) => {
+    for (;;) { const { done, value } = work.next(); if (done) return value; }
+  };
   // A first question that nobody asks makes the next ones quick.
   const warmUp = () => {
-    for (const text of ["er", "in", "st ac", "re"]) index.search(text, null);
+    for (const text of ["er", "in", "st ac", "re"]) atOnce(index.search(text, null));
     performance.mark("search-ready");
   };
   const readOn = (time) => whenIdle(read(time) ? warmUp : readOn);
@@ -293,8 +296,9 @@
     const begun = round;
     let at = 0;
     const go = () => {
-      const end = performance.now() + 2;
+      const start = performance.now(), end = start + 2;
       while (begun === round && at < list.length && performance.now() < end) work(list[at++]);
+      performance.measure("search-piece", { start });
       if (begun === round && at < list.length) requestAnimationFrame(go); else working -= 1;
     };
     working += 1;
@@ -315,7 +319,7 @@
   const dressGroups = (list) => inPieces(list.flatMap(cardsOf), dress);
   const watcher = new IntersectionObserver((changes) => {
     for (const { target, isIntersecting } of changes) if (isIntersecting) near.add(target); else near.delete(target);
-    if (root.classList.contains("searching")) dressGroups([...near]);
+    if (root.classList.contains("searching") && !asking) dressGroups([...near]);
   }, { rootMargin: "300px" });
   for (const [group, [{ one, item }]] of groups) if (one === item.card) watcher.observe(group);
 
@@ -360,18 +364,56 @@
   };
   more.addEventListener("click", () => list(Infinity));
 
-  const apply = () => {
-    performance.clearMeasures("search");
+  // Where many places are asked, an answer is found in slices, so that the next letter need not wait: the last answer stands until the next one is whole.
+  const SLICE = 3;
+  let asking = null;
+  const answer = ({ finish }, value) => {
+    asking = null;
+    finish(value);
+  };
+  const later = new MessageChannel();
+  const goOn = () => {
+    if (!asking) return;
+    const start = performance.now();
+    let step;
+    do step = asking.work.next(); while (!step.done && performance.now() < start + SLICE);
+    if (!step.done) later.port2.postMessage(null);
+    else if (performance.now() < start + SLICE / 2) answer(asking, step.value);
+    else {
+      // What is shown then is a slice of its own.
+      asking.work = answered(step.value);
+      later.port2.postMessage(null);
+    }
+    performance.measure("search-piece", { start });
+  };
+  later.port1.onmessage = goOn;
+  const answered = function* (value) { return value; };
+  // Who wants to go to the first result does not wait for a slice.
+  const finishAsking = () => { if (asking) answer(asking, atOnce(asking.work)); };
+
+  const ask = () => {
+    performance.clearMeasures();
+    const start = performance.now();
+    apply(index.places.length > MANY_PLACES);
+    performance.measure("search-piece", { start });
+  };
+  const apply = (isSliced = false) => {
     performance.mark("search");
     const asked = wanted(), text = search.value.trim(), isAsked = text !== "";
-    if (isAsked && !read(100)) { whenIdle(apply); return; }
+    if (isAsked && !read(100)) { whenIdle(() => apply()); return; }
     round += 1;
-    for (const item of dressed) undress(item);
-    dressed = new Set();
     if (asked.length > 0) for (const item of items) item.fits = rowsOf(item).some((facts) => fitsEntry(asked, facts));
     const named = entry(text), allowed = asked.length === 0 ? null
       : ({ item, facts }) => !item || (item.fits && (!facts || fitsEntry(asked, facts)));
-    found = isAsked ? index.search(named ? named.slice(0, 4) : text, allowed) : null;
+    const work = isAsked ? index.search(named ? named.slice(0, 4) : text, allowed) : answered(null);
+    asking = { work, finish: (value) => display(value, asked, isAsked, named) };
+    if (isSliced) goOn(); else finishAsking();
+  };
+
+  const display = (value, asked, isAsked, named) => {
+    const stale = dressed;
+    dressed = new Set();
+    found = value;
     if (found && named) {
       // An entry by its address comes first, before anything else of its card.
       const target = targetOf(named), at = index.places.findIndex(({ row }) => row === target);
@@ -403,8 +445,12 @@
     count.textContent = searching ? counts(shown, shownObjects) : "";
     show(byId("ui_nothing"), searching && shown === 0);
     landing += 1;
-    // On a large page the list of results comes first, and the cards follow.
-    if (groups.size > FEW_GROUPS) requestAnimationFrame(() => inPieces([...groups], place)); else inPieces([...groups], place);
+    // On a large page the list of results comes first, and the cards follow. What was marked for the last question is put right with them.
+    const follow = () => {
+      inPieces([...groups], place);
+      inPieces([...stale], (item) => { if (!dressed.has(item)) undress(item); });
+    };
+    if (groups.size > FEW_GROUPS) requestAnimationFrame(follow); else follow();
     keep();
     performance.measure("search", "search");
     markSoon();
@@ -456,16 +502,18 @@
     for (const filter of filters) filter.value = "";
     apply();
   };
-  search.addEventListener("input", apply);
-  for (const filter of filters) filter.addEventListener("change", apply);
+  search.addEventListener("input", ask);
+  for (const filter of filters) filter.addEventListener("change", ask);
 
   // ---- Keys.
   search.addEventListener("keydown", (event) => {
     if (event.key === "Enter") {
+      finishAsking();
       keep(true);
       (listOfPage.querySelector("a") ?? listElsewhere.querySelector("a"))?.click();
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
+      finishAsking();
       (results.querySelector("a") ?? [...contents.querySelectorAll("a")].find((link) => link.checkVisibility()))?.focus();
     }
   });
@@ -556,7 +604,7 @@
   const reveal = () => {
     let name = location.hash.slice(1);
     try { name = decodeURIComponent(name); } catch { /* a `%` of its own */ }
-    const target = targetOf(name);
+    const named = targetOf(name), target = named?.matches("td > i") ? named.closest("tr") : named;
     if (!name || !target) return;
     const item = itemOf.get(target.closest("article.object, .intro, .part"));
     // What the search has put away is shown again: the row, or the card with everything.
@@ -575,11 +623,13 @@
     // A link to where one is already changes no address.
     if (!elsewhere && link) setTimeout(reveal);
   });
-  // ---- On a phone the cells of a row stand below one another, each behind the title of its column. What is no table to a browser's layout any more is
-  // none to some screen readers, so that it says what it is. At other widths nobody needs that, and it would make a page half as large again.
-  const phone = matchMedia("(max-width: 37.5rem)"), PIECE = 50;
+  // ---- On a phone the cells of a row stand below one another, each behind the title of its column; elsewhere, beside one another as far as there is room
+  // where a table is wider than its card. What is no table to a browser's layout any more is none to some screen readers, so that it says what it is. At other
+  // widths nobody needs that, and it would make a page half as large again.
+  const phone = matchMedia("(max-width: 37.5rem)"), PIECE = 50, LONG_TEXT = 60;
   const notStacked = [...document.querySelectorAll(".stack")].reverse();
   const stack = (table) => {
+    if (table.matches(".stacked")) return;
     table.setAttribute("role", "table");
     const titles = [...table.tHead.rows[0].cells].map((title) => title.textContent);
     for (const part of [table.tHead, ...table.tBodies]) part.setAttribute("role", "rowgroup");
@@ -587,7 +637,9 @@
       row.setAttribute("role", "row");
       for (const [at, cell] of [...row.cells].entries()) {
         cell.setAttribute("role", cell.localName === "th" ? "columnheader" : "cell");
-        if (cell.parentNode.parentNode !== table.tHead) cell.dataset.label = titles[at];
+        if (cell.parentNode.parentNode === table.tHead) continue;
+        cell.dataset.label = titles[at];
+        if (cell.textContent.length > LONG_TEXT) cell.dataset.long = "";
       }
     }
     table.classList.add("stacked");
@@ -603,6 +655,35 @@
   };
   phone.addEventListener("change", () => { if (!isStacking) stackTables(); });
   stackTables();
+
+  // How wide a table has to be is known once it did not fit, or left too little for a column of long texts. Only what is laid out is measured.
+  const needed = new Map(), LEAST = 210;
+  const lacking = (table) => {
+    const [head, ...rows] = table.rows;
+    return [...head.cells].reduce((lack, title, at) => {
+      const isLong = title.offsetWidth < LEAST && rows.some((row) => row.cells[at]?.textContent.length > LONG_TEXT);
+      return isLong ? lack + LEAST - title.offsetWidth : lack;
+    }, 0);
+  };
+  const fit = (cards) => {
+    if (phone.matches) return;
+    const tables = cards.flatMap((card) => {
+      const { paddingLeft, paddingRight } = getComputedStyle(card), room = card.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) + 1;
+      return [...card.querySelectorAll(".stack")].map((table) => ({ table, room }));
+    });
+    for (const { table, room } of tables) if (needed.get(table) <= room) table.classList.remove("folded");
+    const measured = tables.filter(({ table }) => !table.matches(".folded")).map(({ table, room }) => ({ table, room, width: table.offsetWidth + lacking(table) }));
+    for (const { table, room, width } of measured) {
+      if (width <= room) continue;
+      needed.set(table, width);
+      stack(table);
+      table.classList.add("folded");
+    }
+  };
+  const isLaidOut = ({ card }) => card.firstElementChild?.checkVisibility?.({ contentVisibilityAuto: true }) ?? false;
+  const fitAll = () => fit(items.filter(isLaidOut).map(({ card }) => card));
+  document.addEventListener("contentvisibilityautostatechange", (event) => { if (!event.skipped && itemOf.has(event.target)) fit([event.target]); });
+  addEventListener("resize", fitAll);
 
   if (location.search) fromAddress();
   reveal();

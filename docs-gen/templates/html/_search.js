@@ -4,6 +4,8 @@
   const NAME = 0, FACT = 1, TEXT = 2, ERRATUM = 3;
   const COST = [0, 2, 5, 8], GRADE = [0, 1, 16], NEVER = 255;
   const SYNONYM = 1, SIMILAR = 4, SCATTERED = 24, READ_AT_ONCE = 200, MANY_PLACES = 20000;
+  // After so many words, hits, places and cards a search may be interrupted: none of these takes a millisecond.
+  const SOME = 512, SOME_CARDS = 64;
 
   // A word; a number of any notation; `r(w)` and `(w)`, which are words of their own.
   const WORD = /r?\(w\)|0x[0-9a-f]+|\d+(?:[.,]\d+)+|[\p{L}\p{M}\p{N}°%]+/giu;
@@ -105,35 +107,45 @@
       this.#lettered = this.#sorted.filter((number) => /^\p{L}/u.test(this.words[number]));
     }
 
+    // A search is made of pieces, between which it may be interrupted: each part of it is a generator that says only when, and returns what it found.
+
     // The numbers of words that begin so, and if wanted those that hold it, with how well they fit.
-    #like(text, middle) {
+    *#like(text, middle) {
       const found = [];
       let from = 0, to = this.#sorted.length;
       while (from < to) {
         const half = (from + to) >> 1;
         if (this.words[this.#sorted[half]] < text) from = half + 1; else to = half;
       }
-      for (; from < this.#sorted.length && this.words[this.#sorted[from]].startsWith(text); from++) {
+      for (let count = 1; from < this.#sorted.length && this.words[this.#sorted[from]].startsWith(text); from++, count++) {
         const number = this.#sorted[from];
+        if (count % SOME === 0) yield;
         const isWhole = this.words[number].length === text.length;
         // On a large page nearly everything has a word that begins with a given letter.
         if (isWhole || text.length > 1 || this.places.length < MANY_PLACES) found.push([number, isWhole ? 0 : 1]);
       }
       if (middle && text.length > 2 && !/\d/.test(text)) {
-        for (const number of this.#lettered) if (this.words[number].indexOf(text, 1) > 0 && !this.words[number].startsWith(text)) found.push([number, 2]);
+        for (let at = 0; at < this.#lettered.length; at++) {
+          const number = this.#lettered[at], word = this.words[number];
+          if (word.indexOf(text, 1) > 0 && !word.startsWith(text)) found.push([number, 2]);
+          if (at % SOME === 0) yield;
+        }
       }
       return found;
     }
 
     // Where words follow each other; a longer word may stand for one of four letters or more (`rates` for `rate`).
-    #phrase(words) {
-      const sets = words.map((word) => new Map(word.length > 3 ? this.#like(word, false) : [[this.#numbers.get(word), 0]]));
+    *#phrase(words) {
+      const sets = [];
+      for (const word of words) sets.push(new Map(word.length > 3 ? yield* this.#like(word, false) : [[this.#numbers.get(word), 0]]));
       if (sets.some((set) => set.size === 0 || set.has(undefined))) return { sets, hits: [] };
       const count = (set) => [...set.keys()].reduce((sum, word) => sum + this.#hits[word].length, 0);
       const rarest = sets.reduce((one, other) => (count(other) < count(one) ? other : one));
       const hits = new Set();
+      let looked = 0;
       for (const word of rarest.keys()) {
         for (const hit of this.#hits[word]) {
+          if (++looked % SOME_CARDS === 0) yield;
           const texts = this.places[hit >> 2].fields[hit & 3];
           if (texts.some((list) => list.some((_, at) => sets.every((set, step) => set.has(list[at + step]))))) hits.add(hit);
         }
@@ -142,72 +154,82 @@
     }
 
     // Everything that a word of the question may stand for: itself, one word with its neighbour, two words, synonyms.
-    #meanings(words, at) {
-      const meanings = [];
-      const single = (text, extra, middle) => {
-        const like = this.#like(text, middle);
+    *#meanings(words, at) {
+      const meanings = [], index = this;
+      const single = function* (text, extra, middle) {
+        const like = yield* index.#like(text, middle);
         if (like.length > 0) meanings.push({ like, extra });
       };
-      const phrase = (list, extra) => {
-        if (list.length === 1) return single(list[0], extra, false);
-        const { sets, hits } = this.#phrase(list);
+      const phrase = function* (list, extra) {
+        if (list.length === 1) return yield* single(list[0], extra, false);
+        const { sets, hits } = yield* index.#phrase(list);
         if (hits.length > 0) meanings.push({ sets, hits, extra });
       };
       const word = words[at];
-      single(word, 0, true);
-      if (at > 0) single(words[at - 1] + word, 0, false);
-      if (at + 1 < words.length) single(word + words[at + 1], 0, false);
+      yield* single(word, 0, true);
+      if (at > 0) yield* single(words[at - 1] + word, 0, false);
+      if (at + 1 < words.length) yield* single(word + words[at + 1], 0, false);
       for (let cut = 2; cut < word.length; cut++) {
         const parts = [word.slice(0, cut), word.slice(cut)];
-        if ((parts[1].length > 1 || /\d/.test(parts[1])) && parts.every((part) => this.#numbers.has(part))) phrase(parts, 0);
+        if ((parts[1].length > 1 || /\d/.test(parts[1])) && parts.every((part) => this.#numbers.has(part))) yield* phrase(parts, 0);
       }
       for (const { words: known, others } of this.#synonyms) {
         for (let from = Math.max(0, at - known.length + 1); from <= at; from++) {
-          if (known.every((one, step) => words[from + step] === one)) for (const other of others) phrase(other, SYNONYM);
+          if (known.every((one, step) => words[from + step] === one)) for (const other of others) yield* phrase(other, SYNONYM);
         }
       }
       return meanings;
     }
 
     // The same for a word that is written wrongly; numbers are not guessed.
-    #similar(word) {
+    *#similar(word) {
       if (word.length < 4 || /\d/.test(word)) return [];
       const most = word.length > 7 ? 2 : 1;
       let least = most, near = [];
       const known = this.#synonyms.flatMap(({ words }) => (words.length === 1 ? words : []));
+      let looked = 0;
       for (const other of new Set([...this.#lettered.map((number) => this.words[number]), ...known])) {
+        if (++looked % SOME_CARDS === 0) yield;
         if (other.length < 3 || Math.abs(other.length - word.length) > least || /\d/.test(other)) continue;
         const steps = distance(word, other, least);
         if (steps < least) [least, near] = [steps, [other]];
         else if (steps === least) near.push(other);
       }
-      return near.flatMap((other) => this.#meanings([other], 0)).map((meaning) => ({
+      const meanings = [];
+      for (const other of near) meanings.push(...yield* this.#meanings([other], 0));
+      return meanings.map((meaning) => ({
         ...meaning, like: meaning.like?.filter(([, grade]) => grade === 0), extra: meaning.extra + SIMILAR,
       }));
     }
 
     // What each place costs for one word of the question.
-    #costs(meanings) {
+    *#costs(meanings) {
       const costs = new Uint8Array(this.places.length).fill(NEVER);
-      const count = (hit, cost) => { if (cost < costs[hit >> 2]) costs[hit >> 2] = cost; };
+      let looked = 0;
       for (const { like, hits, extra } of meanings) {
-        for (const hit of hits ?? []) count(hit, COST[hit & 3] + extra);
-        for (const [word, grade] of like ?? []) for (const hit of this.#hits[word]) count(hit, COST[hit & 3] + GRADE[grade] + extra);
+        for (const [list, grade] of hits ? [[hits, 0]] : like.map(([word, fit]) => [this.#hits[word], GRADE[fit]])) {
+          for (const hit of list) {
+            const cost = COST[hit & 3] + grade + extra;
+            if (cost < costs[hit >> 2]) costs[hit >> 2] = cost;
+            if (++looked % SOME === 0) yield;
+          }
+        }
       }
       return costs;
     }
 
     // All cards that have every word: the best first. `allowed` says which places count.
-    search(text, allowed) {
+    *search(text, allowed) {
       const words = wordsOf(text);
       if (words.length === 0) return null;
       this.#sort();
-      const meanings = words.map((_, at) => this.#meanings(words, at));
-      let found = this.#rank(words, meanings, allowed);
+      const meanings = [];
+      for (const at of words.keys()) meanings.push(yield* this.#meanings(words, at));
+      let found = yield* this.#rank(words, meanings, allowed);
       const similar = found.cards.length === 0;
       if (similar) {
-        for (const [at, word] of words.entries()) meanings[at].push(...this.#similar(word));
-        found = this.#rank(words, meanings, allowed);
+        for (const [at, word] of words.entries()) meanings[at].push(...yield* this.#similar(word));
+        found = yield* this.#rank(words, meanings, allowed);
       }
       return { ...found, similar: similar && found.cards.length > 0, meanings: meanings.flat() };
     }
@@ -229,11 +251,16 @@
       return this.cards[card + 1]?.first ?? this.places.length;
     }
 
-    #rank(words, meanings, allowed) {
-      const costs = meanings.map((list) => this.#costs(list)), whole = words.join("");
-      if (allowed) for (const [at, place] of this.places.entries()) if (!allowed(place)) for (const cost of costs) cost[at] = NEVER;
+    *#rank(words, meanings, allowed) {
+      const costs = [], whole = words.join("");
+      for (const list of meanings) costs.push(yield* this.#costs(list));
+      for (let at = 0; allowed && at < this.places.length; at++) {
+        if (!allowed(this.places[at])) for (const cost of costs) cost[at] = NEVER;
+        if (at % SOME === 0) yield;
+      }
       const cards = [], kinds = new Map();
       for (let number = 0; number < this.cards.length; number++) {
+        if (number % SOME_CARDS === 0) yield;
         const { first } = this.cards[number], end = this.#end(number);
         let best = -1, least = Infinity, rank = Infinity;
         for (let at = first; at < end; at++) {
@@ -248,7 +275,10 @@
         if (best < 0 && costs.length > 1) [best, rank] = this.#scattered(costs, first, end);
         if (best >= 0) cards.push({ number, at: best, rank });
       }
-      return { costs, kinds, cards: this.#ordered(cards) };
+      yield;
+      const ordered = this.#ordered(cards);
+      yield;
+      return { costs, kinds, cards: ordered };
     }
 
     // A card that has all words, but no place of it: behind the others, and shown where most of them are.

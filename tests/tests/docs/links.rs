@@ -97,10 +97,11 @@ fn an_error_leads_to_the_bit_that_shows_it_and_back() {
         &text[start..start + text[start..].find("</tr>").unwrap()]
     };
     let error = row("error-3210");
-    assert_has(error, "<a href=\"#6510.7.b2\">6510h.8 Bit 2</a>");
+    assert_has(error, "<a href=\"#6510.8.b2\">6510h.8 Bit 2</a>");
     // The mask 6510h.7 has the same layout and shows nothing.
     assert!(!error.contains("6510h.7"), "{error}");
     let bit = row("6510.7.b2");
-    assert_has(bit, ">2</td>");
+    // Both have their own address at the one row.
+    assert_has(bit, "<i id=\"6510.8.b2\"></i>2</td>");
     assert_has(bit, "<a href=\"#error-3210\">3210h</a>");
 }
