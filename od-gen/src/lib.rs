@@ -8,6 +8,8 @@ mod artifact;
 mod artifacts;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "eds")]
+pub mod concise;
 #[cfg(feature = "diff")]
 pub mod diff;
 #[cfg(feature = "docs")]

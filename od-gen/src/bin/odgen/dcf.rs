@@ -1,15 +1,17 @@
 //! `odgen dcf`.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
+use od_gen::concise;
 use od_gen::condense;
 use od_gen::eds::write_dcf;
 use od_gen::files::Existing;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::Dictionary;
+use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::{Commissioning, assign, eds_text_problem, rule_codes};
 
@@ -66,16 +68,48 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     };
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
-    let artifact = Artifact { path: name, bytes, purpose: String::new() };
-    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::Generated))
-        .map_err(refuse)?;
+    let mut set = vec![Artifact { path: name, bytes, purpose: String::new() }];
+    let mut further = String::new();
+    if args.concise {
+        let (artifact, line) = concise(&system, device, &commissioning, &path, &read).map_err(refuse)?;
+        set.push(artifact);
+        further = line;
+    }
+    save(directory, &set, forced(args.force, Existing::Generated)).map_err(refuse)?;
     let plural = if count == 1 { "" } else { "s" };
-    let size = artifact.bytes.len().div_ceil(1024);
+    let size = set.first().map_or(0, |dcf| dcf.bytes.len().div_ceil(1024));
     Ok(format!(
-        "  {}  {size} kB  {} node {node}, {count} value{plural} set{kept}\n",
+        "  {}  {size} kB  {} node {node}, {count} value{plural} set{kept}\n{further}",
         shown(&path),
         device.key
     ))
+}
+
+/// The concise DCF beside the DCF, and the line that tells of it.
+fn concise(
+    system: &System,
+    device: &Dictionary,
+    node: &Commissioning,
+    dcf: &Path,
+    read: &[PathBuf],
+) -> Result<(Artifact, String), Diagnostic> {
+    let path = dcf.with_extension("bin");
+    let name = file_name(&path, read)?;
+    let writes = node.download(system, device).map_err(|no_value| {
+        let message = format!("the concise DCF cannot be made: {no_value}");
+        Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message).help("correct the value")
+    })?;
+    let bytes = concise::write(&writes);
+    let plural = if writes.len() == 1 { "" } else { "s" };
+    let mut line = format!("  {}  {} bytes  {} record{plural}\n", shown(&path), bytes.len(), writes.len());
+    let domains = node.files.values().filter(|files| files.download.is_some()).count();
+    if domains > 0 {
+        let _ = writeln!(
+            line,
+            "  not in it: the files of {domains} DOMAINs (`DownloadFile`), which the master writes by itself"
+        );
+    }
+    Ok((Artifact { path: name, bytes, purpose: String::new() }, line))
 }
 
 /// What the command line says about the node, and else the DCF that it is made from, without the settings. The node-ID is the
