@@ -10,6 +10,8 @@ mod artifacts;
 pub mod boot;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "eds")]
+pub mod concise;
 #[cfg(feature = "diff")]
 pub mod diff;
 #[cfg(feature = "docs")]

@@ -142,6 +142,14 @@ pub fn open(path: &Path, help: &str, sources: &mut SourceMap) -> Result<FileId, 
     add_source(sources, &name, bytes)
 }
 
+/// The bytes of a file that is no text.
+///
+/// # Errors
+/// Why it cannot be read, in a few words.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+    read_bytes(path)
+}
+
 fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
     let describe = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => "no such file".to_owned(),

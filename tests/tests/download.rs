@@ -3,9 +3,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use od_gen::concise;
 use od_generated::pmc::Pmc;
 use od_spec::diag::Diagnostics;
-use od_spec::model::{Dictionary, EntryId, Write};
+use od_spec::model::{Dictionary, EntryId, Value, Write};
 use od_spec::source::{SourceMap, Spanned};
 use od_spec::{Commissioning, assign};
 use od_tests::compile_clean;
@@ -103,11 +104,24 @@ fn download<D: firmware_glue::Dictionary<'static>>(
     writes.iter().try_for_each(|step| write(server, step.id, &step.bytes).map_err(|code| (step.id, code)))
 }
 
+/// Sends the records of a concise DCF one after the other, as a master does.
+fn download_concise<D: firmware_glue::Dictionary<'static>>(
+    server: &mut Server<D, (), BUFFER>,
+    bytes: &[u8],
+) -> Result<(), (EntryId, Abort)> {
+    let concise = concise::read(bytes);
+    assert_eq!(concise.fault, None);
+    let mut records = concise.records.iter();
+    records.try_for_each(|record| write(server, record.id, record.bytes).map_err(|code| (record.id, code)))
+}
+
 /// Downloads twice, as a master may find a node that has been configured before, and compares what the node holds then.
 fn is_taken<D: firmware_glue::Dictionary<'static>>(dictionary: D, configured: &Configured) {
     let mut server = Server::<_, _, BUFFER>::new(dictionary, ());
+    let bytes = concise::write(&configured.writes);
     for _ in 0..2 {
         assert_eq!(download(&mut server, &configured.writes), Ok(()));
+        assert_eq!(download_concise(&mut server, &bytes), Ok(()));
     }
     for (id, value) in &configured.node.values {
         let data_type = configured.device.entry(*id).unwrap().data_type;
@@ -128,6 +142,31 @@ fn is_refused_ascending<D: firmware_glue::Dictionary<'static>>(dictionary: D, co
     assert!(outcome.is_err(), "{:?} are taken in any order", configured.node.values);
 }
 
+/// Makes values of the concise DCF again, and a concise DCF of those: the first values are among them, and the second file is
+/// the first.
+fn comes_back(specification: &str, configured: &Configured) {
+    let system = compile_clean(specification).unwrap();
+    let bytes = concise::write(&configured.writes);
+    let concise = concise::read(&bytes);
+    let found = concise::values(&configured.device, &concise);
+    assert_eq!(found.left, []);
+    let mut again = configured.node.clone();
+    again.values = found.values;
+    for (id, value) in &configured.node.values {
+        let data_type = configured.device.entry(*id).unwrap().data_type;
+        let bytes = |value: &Value| value.bytes_for(data_type, NODE);
+        assert_eq!(again.values.get(id).and_then(bytes), bytes(value), "{id}");
+    }
+    let again = again.download(&system, &configured.device).unwrap();
+    assert_eq!(again, configured.writes);
+    let remarks: Vec<_> = concise
+        .records
+        .iter()
+        .flat_map(|record| concise::reading(&configured.device, Some(NODE), record).remarks)
+        .collect();
+    assert_eq!(remarks, [], "the device refuses what was made for it");
+}
+
 const PITCH: &str = "od-spec/devices/pitch-control-system.od.yaml";
 const EVERYTHING: &str = "tests/readers/everything.od.yaml";
 
@@ -146,6 +185,7 @@ fn a_controller_takes_its_configuration() {
     ];
     let configured = configured(PITCH, "pmc", &settings);
     is_taken(Pmc::new(NODE), &configured);
+    comes_back(PITCH, &configured);
     is_refused_ascending(Pmc::new(NODE), &configured);
 }
 
@@ -173,11 +213,42 @@ fn a_device_with_everything_takes_its_configuration() {
     ];
     let first = configured(EVERYTHING, "everything", &settings);
     is_taken(Everything::new(NODE), &first);
+    comes_back(EVERYTHING, &first);
     // Nodes to be watched change places.
     let second = configured(EVERYTHING, "everything", &["1016.1=0x000703E8", "1016.2=0x000603E8"]);
     let mut server = Server::<_, _, BUFFER>::new(Everything::new(NODE), ());
     assert_eq!(download(&mut server, &first.writes), Ok(()));
     assert_eq!(download(&mut server, &second.writes), Ok(()));
+}
+
+#[test]
+fn values_of_every_type_come_back() {
+    let settings = [
+        "2000=1",
+        "2001=-127",
+        "2003=-8388608",
+        "2005=-549755813888",
+        "2006=140737488355327",
+        "2007=-36028797018963968",
+        "2008=9223372036854775807",
+        "200B=0xFFFFFE",
+        "200D=1099511627775",
+        "200E=281474976710655",
+        "200F=72057594037927935",
+        "2010=18446744073709551614",
+        "2011=0.1",
+        "2012=-2.5e300",
+        "2013=Good bye",
+        "2014=ff 00 A5",
+        "2015=another text",
+        "2019=1",
+        "201A=0x0007",
+        "201B=21.5 °C",
+        "201C.12=3",
+    ];
+    let configured = configured(EVERYTHING, "everything", &settings);
+    is_taken(Everything::new(NODE), &configured);
+    comes_back(EVERYTHING, &configured);
 }
 
 #[test]

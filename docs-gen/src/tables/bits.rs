@@ -143,31 +143,14 @@ impl Source<'_> {
 
     /// What a raw value of a bit field sets: its bits and runs by name; nothing for 0.
     pub(crate) fn set_bits(&self, fields: &[BitField], raw: i128) -> Option<String> {
-        let value = |field: &BitField| (raw >> field.first) & !(!0 << (field.last - field.first + 1));
-        let set: Vec<&BitField> = fields.iter().filter(|field| value(field) != 0).collect();
+        let set = self.wording.set_bits(fields, raw);
         if set.is_empty() {
             return None;
         }
         if set.len() == fields.len() && fields.iter().all(|field| field.first == field.last) {
             return Some(self.word(Word::AllBits).to_owned());
         }
-        let named = set.into_iter().map(|field| {
-            let mut text = match (field.name.as_str(), field.first == field.last) {
-                ("", true) => format!("{} {}", self.word(Word::Bit), field.first),
-                ("", false) => format!("{} {}..{}", self.word(Word::Bits), field.first, field.last),
-                (name, _) => name.to_owned(),
-            };
-            if field.first != field.last {
-                let value = value(field);
-                let known = field.values.iter().find(|known| known.value == value);
-                text = match known {
-                    Some(known) => format!("{text} = {value} {}", known.name),
-                    None => format!("{text} = {value}"),
-                };
-            }
-            text
-        });
-        Some(named.collect::<Vec<_>>().join(", "))
+        Some(set.join(", "))
     }
 
     /// The values of an enum.

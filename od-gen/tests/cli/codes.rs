@@ -5,8 +5,8 @@ use std::fs;
 use crate::provoked::PROVOKED;
 use crate::{Scratch, odgen, stderr};
 
-/// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, and a file that each of five readers
-/// refuses for something.
+/// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
+/// refuses for something, and two files that are no concise DCF.
 const FILES: &[(&str, &str)] = &[
     (
         "lamp.od.yaml",
@@ -15,6 +15,8 @@ const FILES: &[(&str, &str)] = &[
     ),
     ("templates/device.txt", "{{ device.nmae }}\n"),
     ("readers.eds", include_str!("eds/readers.eds")),
+    ("cut.bin", "\u{1}"),
+    ("long.bin", "\0\0\0\0\u{1}"),
 ];
 
 #[test]

@@ -8,6 +8,7 @@ mod check_inputs;
 mod check_policy;
 mod check_readers;
 mod codes;
+mod concise;
 mod dcf;
 mod diff;
 mod docs;

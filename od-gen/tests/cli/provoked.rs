@@ -26,5 +26,7 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     },
     Provocation { code: "OD0709", arguments: &["build", "lamp.od.yaml", "--out", "lamp.od.yaml"] },
     Provocation { code: "OD0711", arguments: &["docs", "lamp.od.yaml", "--templates", "templates"] },
+    Provocation { code: "OD0712", arguments: &["concise", "show", "cut.bin", "lamp.od.yaml"] },
+    Provocation { code: "OD0713", arguments: &["concise", "show", "long.bin", "lamp.od.yaml"] },
     Provocation { code: "OD0811", arguments: &["check", "lamp.od.yaml", "--notes"] },
 ];

@@ -162,6 +162,10 @@ codes! {
         "A file could not be created, written or renamed. Nothing was changed: the old files are all still there."
     BAD_TEMPLATE Error "OD0711" "a template that cannot be printed":
         "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
+    CONCISE_CUT_OFF Error "OD0712" "a concise DCF that ends too early":
+        "A concise DCF (CiA 302-3, object 1F22h) is the number of its records, 4 bytes, and then the records: index, sub-index, number of bytes, the bytes. The file ends within its number, within the head of a record or within a value; or it has fewer records than it says. A master stops at such a place, after it has written what stands before. Make the file again; a frequent cause are generators that write values of 24, 40, 48 or 56 bits with more bytes than they count."
+    CONCISE_TOO_LONG Error "OD0713" "a concise DCF with more than its records":
+        "Behind as many records as a concise DCF says it has, the file goes on. A master never sees that part. Either the number at the beginning is too small, or the file is none of this kind."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
         "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
     DEPARTURE Note "OD0811" "a departure from a standard":

@@ -48,6 +48,36 @@ impl Value {
         }
     }
 
+    /// The value that bytes on the bus stand for; `None` where the type has no value of these bytes: another number of them, a
+    /// BOOLEAN that is neither 0 nor 1, a REAL that is no number, a text that is none. What has no values of its own, a time or a
+    /// DOMAIN, has none either.
+    pub fn from_bytes(data_type: DataType, bytes: &[u8]) -> Option<Self> {
+        match data_type.family() {
+            Family::Boolean | Family::Signed | Family::Unsigned => {
+                if bytes.len() != usize::from(data_type.bits()?.div_ceil(8)) {
+                    return None;
+                }
+                let is_negative = data_type.is_signed() && bytes.last().is_some_and(|byte| *byte >= 0x80);
+                let mut whole = [if is_negative { 0xFF } else { 0 }; 16];
+                whole.get_mut(..bytes.len())?.copy_from_slice(bytes);
+                let raw = i128::from_le_bytes(whole);
+                let (low, high) = data_type.range()?;
+                (low..=high).contains(&raw).then_some(Value::Integer(raw))
+            }
+            Family::Real => real_of(data_type, bytes).map(Value::Real),
+            // `bytes_for` writes them in UTF-8.
+            Family::VisibleString => std::str::from_utf8(bytes).ok().map(|text| Value::Text(text.to_owned())),
+            Family::UnicodeString => {
+                let (units, rest) = bytes.as_chunks::<2>();
+                let text = char::decode_utf16(units.iter().map(|unit| u16::from_le_bytes(*unit)));
+                let text = text.collect::<Result<String, _>>().ok()?;
+                rest.is_empty().then_some(Value::Text(text))
+            }
+            Family::OctetString => Some(Value::Bytes(bytes.to_vec())),
+            Family::Time | Family::Domain => None,
+        }
+    }
+
     /// The integer, if the value is one and no formula.
     pub const fn integer(&self) -> Option<i128> {
         match self {
@@ -87,6 +117,16 @@ fn real_bytes(number: f64, data_type: DataType) -> Vec<u8> {
     } else {
         number.to_le_bytes().to_vec()
     }
+}
+
+/// The number of bytes in IEEE 754, as its shortest text says it.
+fn real_of(data_type: DataType, bytes: &[u8]) -> Option<Real> {
+    let text = if data_type == DataType::Real32 {
+        f32::from_le_bytes(bytes.try_into().ok()?).to_string()
+    } else {
+        f64::from_le_bytes(bytes.try_into().ok()?).to_string()
+    };
+    Real::read(&text, data_type)
 }
 
 /// The raw value that an alias shows for a raw value of its target; `None` stands for an SDO abort.
@@ -150,6 +190,41 @@ mod tests {
         ] {
             assert_eq!(bytes(value.clone(), data_type), expected, "{value:?} as {data_type}");
         }
+    }
+
+    #[test]
+    fn bytes_are_read_back() {
+        for data_type in DataType::ALL {
+            let Some((low, high)) = data_type.range() else { continue };
+            for raw in [low, low + 1, 0, high - 1, high] {
+                let value = Value::Integer(raw);
+                let bytes = value.bytes_for(data_type, 5).unwrap();
+                assert_eq!(Value::from_bytes(data_type, &bytes), Some(value), "{raw} as {data_type}");
+                let longer = [&bytes[..], &[0]].concat();
+                assert_eq!(Value::from_bytes(data_type, &longer), None, "{raw} as {data_type} and a byte");
+                assert_eq!(Value::from_bytes(data_type, &bytes[1..]), None, "{raw} as {data_type}, cut off");
+            }
+        }
+        let read = Value::from_bytes;
+        assert_eq!(read(DataType::Boolean, &[2]), None);
+        let tenth = Value::Real(Real::read("0.1", DataType::Real32).unwrap());
+        assert_eq!(
+            read(DataType::Real32, &tenth.bytes_for(DataType::Real32, 1).unwrap()),
+            Some(tenth.clone())
+        );
+        assert_eq!(read(DataType::Real64, &tenth.bytes_for(DataType::Real64, 1).unwrap()), Some(tenth));
+        assert_eq!(read(DataType::Real32, &f32::NAN.to_le_bytes()), None);
+        assert_eq!(read(DataType::Real64, &f64::INFINITY.to_le_bytes()), None);
+        assert_eq!(read(DataType::Real64, &[0; 4]), None);
+        let text = Value::Text("aé".to_owned());
+        assert_eq!(read(DataType::VisibleString, "aé".as_bytes()), Some(text.clone()));
+        assert_eq!(read(DataType::VisibleString, &[0xE9]), None);
+        assert_eq!(read(DataType::UnicodeString, &[0x61, 0, 0xE9, 0]), Some(text));
+        assert_eq!(read(DataType::UnicodeString, &[0x61]), None);
+        assert_eq!(read(DataType::UnicodeString, &[0, 0xD8]), None);
+        assert_eq!(read(DataType::OctetString, &[1, 0xFF]), Some(Value::Bytes(vec![1, 0xFF])));
+        assert_eq!(read(DataType::Domain, &[1]), None);
+        assert_eq!(read(DataType::TimeOfDay, &[0; 6]), None);
     }
 
     #[test]

@@ -69,6 +69,10 @@ words! {
     From "counted_from": "from", "ab";
     /// The node-ID in a formula.
     NodeId "node_id": "node-ID", "Node-ID";
+    /// A bit without a name.
+    NamelessBit "nameless_bit": "bit", "Bit";
+    /// Bits without a name.
+    NamelessBits "nameless_bits": "bits", "Bits";
     /// Kept with the communication parameters, in a table.
     Communication "communication": "communication", "Kommunikation";
     /// Kept with the application parameters, in a table.

@@ -16,6 +16,8 @@
 //! - **Value of an enum.** `number: name` for those who send numbers over the bus, the readers of an EDS and of the manual;
 //!   the name alone for those who write the name: in Rust, in a specification (messages), and in JSON, where the number
 //!   stands beside it. The number is decimal; the manual adds its pattern, `-113 (8Fh)`, where that reads otherwise.
+//! - **Value of a bit field.** The pattern; what is set in it, one field after the other ([`Wording::set_bits`]), follows where a
+//!   person reads single values: the name, or `name = value` for a run of bits.
 //! - **Physical value.** With its unit: `50.0 °C`. The raw value follows in brackets where it is another number and the
 //!   reader has to send it: in an EDS and in the manual, `50.0 °C (500)`. Rust converts, JSON has the raw value beside it,
 //!   and a specification takes either.
@@ -49,6 +51,7 @@
 //! assert_eq!((eds.mapping(PdoMapping::Receive), manual.mapping(PdoMapping::Receive)), ("RPDO", "Y (R)"));
 //! ```
 
+mod bits;
 mod facts;
 mod language;
 mod number;

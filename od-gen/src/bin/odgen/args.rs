@@ -148,6 +148,8 @@ pub(crate) enum Command {
     Build(BuildArgs),
     /// Check specifications, EDS and DCF files without writing anything
     Check(CheckArgs),
+    /// Look into a concise DCF, the binary that a CANopen master downloads to a node (object 1F22h)
+    Concise(ConciseArgs),
     /// Make the DCF of one node, with parameter values of your own
     Dcf(DcfArgs),
     /// Tell what differs between two dictionaries, and what each change breaks
@@ -301,6 +303,50 @@ pub(crate) struct CheckArgs {
     /// How findings are written [default: human]
     #[arg(long, value_enum)]
     pub format: Option<CheckFormat>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ConciseArgs {
+    #[command(subcommand)]
+    pub command: ConciseCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum ConciseCommand {
+    /// List the records in their order: entry, name, bytes, value in its unit or by its name, and what the device refuses
+    Show(ConciseShowArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ConciseShowArgs {
+    /// The concise DCF
+    pub file: PathBuf,
+
+    /// The specification, EDS or DCF of the node's device [default: the only `*.od.yaml` of the current directory]
+    pub spec: Option<PathBuf>,
+
+    /// Key of the device [default: the only one]
+    #[arg(long, value_name = "KEY")]
+    pub device: Option<String>,
+
+    /// Node-ID, 1 to 127, to recognise defaults that depend on it [default: of a DCF its own]
+    #[arg(long, value_name = "ID")]
+    pub node: Option<String>,
+
+    /// How the records are written
+    #[arg(long, value_enum, default_value_t)]
+    pub format: ConciseFormat,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ConciseFormat {
+    /// For people, a line for each record
+    #[default]
+    Human,
+    /// One JSON object
+    Json,
+    /// The values that they leave in the node, as `odgen dcf --set-file` takes them
+    Settings,
 }
 
 #[derive(Debug, Args)]

@@ -6,14 +6,15 @@ use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
 use od_gen::boot::explain;
+use od_gen::concise;
 use od_gen::condense;
 use od_gen::eds::write_dcf;
 use od_gen::files::Existing;
 use od_gen::source::FileLoader;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::Dictionary;
+use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
-use od_spec::{Commissioning, TextOfNode, assign_layers, bit_rate};
+use od_spec::{Commissioning, TextOfNode, assign_layers, bit_rate, rule_codes};
 
 use super::ERRORS;
 use super::args::DcfArgs;
@@ -77,16 +78,21 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     }
     let bytes = write_dcf(&system, device, &commissioning, &name);
     let directory = path.parent().unwrap_or(Path::new(""));
-    let artifact = Artifact { path: name, bytes, purpose: String::new() };
-    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::Generated))
-        .map_err(refuse)?;
+    let size = bytes.len().div_ceil(1024);
+    let mut set = vec![Artifact { path: name, bytes, purpose: String::new() }];
+    let mut further = String::new();
+    if args.concise {
+        let (artifact, line) = concise(&system, device, &commissioning, &path, &read).map_err(refuse)?;
+        set.push(artifact);
+        further = line;
+    }
+    save(directory, &set, forced(args.force, Existing::Generated)).map_err(refuse)?;
     let mut line = count_of(count, "set");
     for (number, what) in [(kept, "kept"), (as_default, "as the default left out")] {
         if number > 0 {
             let _ = write!(line, ", {number} {what}");
         }
     }
-    let size = artifact.bytes.len().div_ceil(1024);
     let mut said = format!("  {}  {size} kB  {} node {node}, {line}\n", shown(&path), device.key);
     for id in &commissioning.unlocked {
         let name = device.entry_name(*id).unwrap_or_default();
@@ -95,12 +101,40 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
             "  LOCKED  {id} {name}: the device takes it only while it is unlocked for service"
         );
     }
+    said.push_str(&further);
     Ok(said)
 }
 
 /// `1 value set`, `2 values set`.
 fn count_of(count: usize, what: &str) -> String {
     format!("{count} value{} {what}", if count == 1 { "" } else { "s" })
+}
+
+/// The concise DCF beside the DCF, and the line that tells of it.
+fn concise(
+    system: &System,
+    device: &Dictionary,
+    node: &Commissioning,
+    dcf: &Path,
+    read: &[PathBuf],
+) -> Result<(Artifact, String), Diagnostic> {
+    let path = dcf.with_extension("bin");
+    let name = file_name(&path, read)?;
+    let writes = node.download(system, device).map_err(|no_value| {
+        let message = format!("the concise DCF cannot be made: {no_value}");
+        Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message).help("correct the value")
+    })?;
+    let bytes = concise::write(&writes);
+    let plural = if writes.len() == 1 { "" } else { "s" };
+    let mut line = format!("  {}  {} bytes  {} record{plural}\n", shown(&path), bytes.len(), writes.len());
+    let domains = node.files.values().filter(|files| files.download.is_some()).count();
+    if domains > 0 {
+        let _ = writeln!(
+            line,
+            "  not in it: the files of {domains} DOMAINs (`DownloadFile`), which the master writes by itself"
+        );
+    }
+    Ok((Artifact { path: name, bytes, purpose: String::new() }, line))
 }
 
 /// A node of the device, or that of the DCF it is made from, without the settings. The node-ID is the one that the command line,

@@ -3,6 +3,7 @@
 mod args;
 mod build;
 mod check;
+mod concise;
 mod dcf;
 mod diff;
 mod docs;
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
             let format = args.format.or(format.map(CheckFormat::from)).unwrap_or(CheckFormat::Human);
             check::run(&args, format, directory, &report)
         }
+        Command::Concise(args) => concise::run(&args, directory, &report),
         Command::Dcf(args) => dcf::run(&args, directory, &report),
         Command::Diff(args) => diff::run(&args, cli.color, &report),
         Command::Docs(args) => docs::run(&args, directory, &report),

@@ -27,6 +27,8 @@ pub(crate) enum Part {
     Foretold,
     /// What a tool of others makes of the shipped EDS for firmware in C.
     FirmwareInC,
+    /// Concise DCF files beside those of a tool of others.
+    ConciseDcf,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -57,7 +59,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 14] = [
+    pub(crate) const ALL: [Part; 15] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -67,6 +69,7 @@ impl Part {
         Part::Drives,
         Part::Foretold,
         Part::FirmwareInC,
+        Part::ConciseDcf,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -85,6 +88,7 @@ impl Part {
             Part::Drives => "EDS readers: drives of odgen new",
             Part::Foretold => "EDS readers: what is foretold",
             Part::FirmwareInC => "EDS readers: firmware in C",
+            Part::ConciseDcf => "EDS readers: concise DCF",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -103,6 +107,7 @@ impl Part {
             | Part::Drives
             | Part::Foretold
             | Part::FirmwareInC
+            | Part::ConciseDcf
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -120,6 +125,7 @@ impl Part {
             | Part::Drives
             | Part::Foretold
             | Part::FirmwareInC
+            | Part::ConciseDcf
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -140,6 +146,7 @@ impl Part {
             Part::Rust
             | Part::Mutants
             | Part::FirmwareInC
+            | Part::ConciseDcf
             | Part::SdoClient
             | Part::Browser
             | Part::Manuals
@@ -174,6 +181,7 @@ impl Part {
             Part::Drives => readers::drives(runner),
             Part::Foretold => readers::foretold(runner),
             Part::FirmwareInC => readers::firmware_in_c(runner),
+            Part::ConciseDcf => readers::concise_dcf(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),

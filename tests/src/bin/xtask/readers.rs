@@ -87,6 +87,13 @@ pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(arguments).args(dumps))
 }
 
+/// What dcfgen makes of the same values, beside the concise DCF files of odgen.
+pub(crate) fn concise_dcf(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    runner.run(Command::new(&python).args(["tests/readers/lely_dcfgen.py", "--odgen"]).arg(odgen))
+}
+
 /// The Python that the readers are installed for, if that could be done.
 fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     let environment = root().join(VENV);

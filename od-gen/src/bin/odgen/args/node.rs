@@ -63,7 +63,11 @@ pub(crate) struct DcfArgs {
     #[arg(long, short, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// Replace a file of this name that odgen did not make
+    /// Also the concise DCF for the master's object 1F22h, beside the DCF with the ending `.bin`
+    #[arg(long)]
+    pub concise: bool,
+
+    /// Replace files of these names that odgen did not make
     #[arg(long)]
     pub force: bool,
 
