@@ -28,6 +28,8 @@ pub mod json;
 mod plan;
 pub mod rust;
 pub mod source;
+#[cfg(feature = "xdd")]
+pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
 

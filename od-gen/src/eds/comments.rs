@@ -12,8 +12,11 @@ const MOST_MEMBERS: usize = 40;
 
 const WORDING: Wording = Wording::english(Notation::Eds);
 
+/// Behind the name of a value that the device does not support.
+pub(crate) const NOT_SUPPORTED: &str = " (not supported)";
+
 /// Comments above an object's section.
-pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
+pub(crate) fn object(object: &Object, language: &str) -> Vec<String> {
     warning(&object.warning, language)
         .into_iter()
         .chain(object.about.get(language).map(ToOwned::to_owned))
@@ -22,14 +25,13 @@ pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
 
 /// Comments above an entry's section.
 pub(super) fn entry(device: &Dictionary, index: Index, entry: &Entry, language: &str) -> Vec<String> {
-    let mut lines: Vec<String> = warning(&entry.warning, language).into_iter().collect();
-    lines.extend(entry.about.get(language).map(ToOwned::to_owned));
-    lines.extend(facts(device, index, entry));
+    let mut lines: Vec<String> = texts(entry, language);
+    lines.extend(joined(facts(device, index, entry)));
     lines.extend(entry.special.iter().map(|special| WORDING.special(entry, special)));
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) if values.len() <= MOST_MEMBERS => {
             lines.extend(values.iter().map(|value| {
-                let support = if value.supported { "" } else { " (not supported)" };
+                let support = if value.supported { "" } else { NOT_SUPPORTED };
                 format!("{}: {}{support}", WORDING.enum_number(entry.data_type, value.value), value.name)
             }));
         }
@@ -41,17 +43,42 @@ pub(super) fn entry(device: &Dictionary, index: Index, entry: &Entry, language: 
     lines
 }
 
+/// What is to be said about an entry where its unit and its named values have a place of their own.
+#[cfg(feature = "xdd")]
+pub(crate) fn beyond_values(device: &Dictionary, index: Index, entry: &Entry, language: &str) -> Vec<String> {
+    let mut lines: Vec<String> = texts(entry, language);
+    let unit = unit(entry);
+    lines.extend(joined(
+        facts(device, index, entry).into_iter().filter(|fact| unit.as_ref() != Some(fact)).collect(),
+    ));
+    if let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) {
+        lines.extend(fields.iter().filter_map(bits));
+    }
+    lines
+}
+
+/// The words for people.
+fn texts(entry: &Entry, language: &str) -> Vec<String> {
+    let about = entry.about.get(language).map(ToOwned::to_owned);
+    warning(&entry.warning, language).into_iter().chain(about).collect()
+}
+
+fn unit(entry: &Entry) -> Option<String> {
+    entry.unit.as_ref().map(|unit| format!("unit {}", WORDING.step(unit)))
+}
+
+fn joined(facts: Vec<String>) -> Option<String> {
+    facts.into_iter().reduce(|line, fact| line + "; " + &fact)
+}
+
 /// The danger that comes from an object or entry.
 fn warning(warning: &Text, language: &str) -> Option<String> {
     warning.get(language).map(|warning| format!("Warning: {warning}"))
 }
 
-/// Unit, alias, storage and the like, in one line.
-fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
-    let mut facts = Vec::new();
-    if let Some(unit) = &entry.unit {
-        facts.push(format!("unit {}", WORDING.step(unit)));
-    }
+/// Unit, alias, storage and the like.
+fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Vec<String> {
+    let mut facts: Vec<String> = unit(entry).into_iter().collect();
     if let Some(alias) = &entry.alias {
         facts.push(format!("view of {}", target(device, alias.target)));
     }
@@ -78,7 +105,7 @@ fn facts(device: &Dictionary, index: Index, entry: &Entry) -> Option<String> {
         };
         facts.push(format!("{what} {}", WORDING.value(Some(index), entry, default)));
     }
-    facts.into_iter().reduce(|line, fact| line + "; " + &fact)
+    facts
 }
 
 /// The name of the entry that an alias shows.
@@ -87,7 +114,8 @@ fn target(device: &Dictionary, id: EntryId) -> String {
 }
 
 fn bits(field: &BitField) -> Option<String> {
-    if field.usage != BitUsage::Used {
+    // One that means something only in some modes has no name of its own.
+    if field.usage != BitUsage::Used || field.name.is_empty() {
         return None;
     }
     Some(if field.first == field.last {

@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
 use od_spec::eds::readers::Reader;
 
-/// Checks CANopen object dictionaries – specifications, EDS and DCF files – and makes EDS, DCF, JSON, Rust and documents from them.
+/// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
 #[command(
     name = "odgen",
@@ -141,7 +141,7 @@ pub(crate) enum Color {
 pub(crate) enum Command {
     /// Make the files of a specification: EDS of each device and the JSON dump; all of them or, on an error, none
     Build(BuildArgs),
-    /// Check specifications, EDS and DCF files without writing anything
+    /// Check specifications, EDS, DCF, XDD and XDC files without writing anything
     Check(CheckArgs),
     /// Look into a concise DCF, the binary that a CANopen master downloads to a node (object 1F22h)
     Concise(ConciseArgs),
@@ -155,7 +155,7 @@ pub(crate) enum Command {
     Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
-    /// Make a specification of an EDS or DCF
+    /// Make a specification of an EDS, DCF, XDD or XDC
     Import(ImportArgs),
     /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
     Fix(FixArgs),
@@ -187,7 +187,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// Specifications, EDS or DCF files [default: the `*.od.yaml` of the current directory]
+    /// Specifications, EDS, DCF, XDD or XDC files [default: the `*.od.yaml` of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the files
@@ -201,6 +201,10 @@ pub(crate) struct BuildArgs {
     /// Also a DCF of each device for this node-ID (1 to 127) [default: of a DCF its own node, with its values]
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
+
+    /// Also an XDD of each device (CiA 311), `xdd/KEY.xdd`, and an XDC beside each DCF
+    #[arg(long)]
+    pub xdd: bool,
 
     /// Also a Rust module of each device, `src/KEY.rs`
     #[arg(long)]
@@ -252,7 +256,7 @@ impl From<ReaderName> for Reader {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Specifications, EDS and DCF files, directories to look for them in, or `-` for standard input [default: the
+    /// Specifications, EDS, DCF, XDD and XDC files, directories to look for them in, or `-` for standard input [default: the
     /// `*.od.yaml` of the current directory]
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
@@ -315,7 +319,7 @@ pub(crate) struct ConciseShowArgs {
     /// The concise DCF
     pub file: PathBuf,
 
-    /// The specification, EDS or DCF of the node's device [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC of the node's device [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Key of the device [default: the only one]
@@ -344,7 +348,7 @@ pub(crate) enum ConciseFormat {
 
 #[derive(Debug, Args)]
 pub(crate) struct DcfArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Key of the device [default: the only one]
@@ -386,6 +390,10 @@ pub(crate) struct DcfArgs {
     /// Also the concise DCF for the master's object 1F22h, beside the DCF with the ending `.bin`
     #[arg(long)]
     pub concise: bool,
+
+    /// Also the same as an XDC (CiA 311), beside the DCF with the ending `.xdc`
+    #[arg(long)]
+    pub xdc: bool,
 
     /// Replace files of these names that odgen did not make
     #[arg(long)]
@@ -467,7 +475,7 @@ impl From<DiffClass> for od_gen::diff::Class {
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DocsArgs {
-    /// Specifications, EDS or DCF files [default: the `*.od.yaml` of the current directory]
+    /// Specifications, EDS, DCF, XDD or XDC files [default: the `*.od.yaml` of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the documents; those of a specification go into a directory with its name
@@ -519,7 +527,7 @@ pub(crate) enum DocsFormat {
 
 #[derive(Debug, Args)]
 pub(crate) struct DumpArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// As JSON, the only format there is
@@ -568,7 +576,7 @@ pub(crate) struct FmtArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
-    /// EDS or DCF files
+    /// EDS, DCF, XDD or XDC files
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
 
@@ -634,7 +642,7 @@ pub(crate) enum Profile {
 
 #[derive(Debug, Args)]
 pub(crate) struct ErrataArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Only this kind of fact, such as `access` or `gap`
