@@ -108,7 +108,16 @@ pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
     }
     let mut arguments = vec!["--xdd-dir", "target/xdd/xdd", "--node", "5", "--dump"];
     arguments.extend(dumps.iter().map(String::as_str));
-    runner.python("tests/readers/xdd_structure.py", &arguments)
+    runner.python("tests/readers/xdd_structure.py", &arguments)?;
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = odgen.to_string_lossy();
+    let mut files =
+        vec!["--odgen".to_owned(), odgen.into_owned(), "od-gen/tests/cli/eds/tank.xdd".to_owned()];
+    for entry in std::fs::read_dir(root().join(FOLDER).join("xdd"))? {
+        files.push(entry?.path().to_string_lossy().into_owned());
+    }
+    files[3..].sort();
+    runner.python("tests/readers/xdd_foreign.py", &files.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// The Python that the readers are installed for, if that could be done.
