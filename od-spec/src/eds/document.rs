@@ -37,16 +37,7 @@ pub struct Document<'t> {
     lines: Vec<Line<'t>>,
     /// Of a text that says in another notation what an EDS says: where its headers and keys are from. A line's start is its
     /// number in this list.
-    origins: Vec<Origin>,
-}
-
-/// Where a line of a translation is from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Origin {
-    /// What its name or key stands for.
-    key: Span,
-    /// What its value stands for.
-    value: Span,
+    origins: Vec<Span>,
 }
 
 impl<'t> Document<'t> {
@@ -65,24 +56,24 @@ impl<'t> Document<'t> {
     #[cfg(feature = "xdd")]
     pub(crate) fn push_header(&mut self, name: &str, place: Span, comments: &[String]) {
         self.lines.extend(comments.iter().map(|text| Line::new_comment(text)));
-        self.push_from(Line::new_header(name), Origin { key: place, value: place });
+        self.push_from(Line::new_header(name), place);
     }
 
     /// Adds a key and its value to the last section of a translation.
     #[cfg(feature = "xdd")]
-    pub(crate) fn push_key(&mut self, key: &str, value: &str, key_place: Span, value_place: Span) {
-        self.push_from(Line::new_key_value(key, value), Origin { key: key_place, value: value_place });
+    pub(crate) fn push_key(&mut self, key: &str, value: &str, place: Span) {
+        self.push_from(Line::new_key_value(key, value), place);
     }
 
     #[cfg(feature = "xdd")]
-    fn push_from(&mut self, line: Line<'t>, origin: Origin) {
+    fn push_from(&mut self, line: Line<'t>, origin: Span) {
         let number = u32::try_from(self.origins.len()).unwrap_or(u32::MAX);
         self.lines.push(line.numbered(number));
         self.origins.push(origin);
     }
 
     /// Where a line of a translation is from.
-    fn origin(&self, line: &Line<'_>) -> Option<Origin> {
+    fn origin(&self, line: &Line<'_>) -> Option<Span> {
         self.origins.get(usize::try_from(line.start()).ok()?).copied()
     }
 
@@ -90,13 +81,13 @@ impl<'t> Document<'t> {
     pub(crate) fn name_place(&self, header: &Line<'_>, file: FileId) -> Span {
         let part =
             || header.name_part().map_or(Span { file, start: 0, end: 0 }, |name| header.part(file, name));
-        self.origin(header).map_or_else(part, |origin| origin.key)
+        self.origin(header).unwrap_or_else(part)
     }
 
     /// Where the key and the value of a line stand.
     pub(crate) fn key_places(&self, line: &Line<'_>, file: FileId) -> Option<(Span, Span)> {
         match self.origin(line) {
-            Some(origin) => Some((origin.key, origin.value)),
+            Some(origin) => Some((origin, origin)),
             None => Some((line.part(file, line.key_part()?), line.part(file, line.value_part()?))),
         }
     }
@@ -123,7 +114,7 @@ impl<'t> Document<'t> {
         }
         // A comment of a translation is from nowhere in particular.
         let is_numbered = matches!(line.kind(), LineKind::Header | LineKind::KeyValue);
-        self.origin(line).filter(|_| is_numbered).map(|origin| origin.key)
+        self.origin(line).filter(|_| is_numbered)
     }
 
     /// The lines before the first section; keys among them belong to no section.

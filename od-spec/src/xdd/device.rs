@@ -22,7 +22,7 @@ struct Keys<'d>(&'d mut Document<'static>);
 impl Keys<'_> {
     fn add(&mut self, key: &str, value: Option<Spanned<impl AsRef<str>>>) {
         if let Some(value) = value {
-            self.0.push_key(key, value.value.as_ref(), value.span, value.span);
+            self.0.push_key(key, value.value.as_ref(), value.span);
         }
     }
 }

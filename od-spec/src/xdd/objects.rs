@@ -209,19 +209,19 @@ impl<'a, 'x> Context<'a, 'x> {
         }
         let place = self.tree.place(node);
         let name = label.unwrap_or_else(|| Spanned::new(id, place));
-        self.document.push_key("ParameterName", name.value, name.span, name.span);
+        self.document.push_key("ParameterName", name.value, name.span);
     }
 
     fn object_type(&mut self, node: Node<'x, 'x>, kind: Option<ObjectKind>) {
         let place = self.tree.attribute(node, "objectType");
         let place = place.map_or_else(|| self.tree.place(node), |text| text.span);
         let code = kind.map_or_else(|| "0".to_owned(), |kind| format!("0x{:X}", kind.code()));
-        self.document.push_key("ObjectType", &code, place, place);
+        self.document.push_key("ObjectType", &code, place);
     }
 
     fn text(&mut self, key: &str, value: Option<Spanned<&str>>) {
         if let Some(value) = value {
-            self.document.push_key(key, value.value, value.span, value.span);
+            self.document.push_key(key, value.value, value.span);
         }
     }
 
@@ -235,7 +235,7 @@ impl<'a, 'x> Context<'a, 'x> {
     ) {
         let data_type = self.data_type(node, id, is_domain, parameter);
         let code = format!("0x{:04X}", data_type.value.code());
-        self.document.push_key("DataType", &code, data_type.span, data_type.span);
+        self.document.push_key("DataType", &code, data_type.span);
         let is_domain = data_type.value == DataType::Domain;
         let taken = access::of(self.tree, node, id, is_domain, parameter, self.diagnostics);
         let of = |name: &str| self.tree.attribute(node, name);
@@ -255,7 +255,7 @@ impl<'a, 'x> Context<'a, 'x> {
                 // Bytes are apart here, and an EDS has them together.
                 Some(bytes) => {
                     let together: String = bytes.value.split_whitespace().collect();
-                    self.document.push_key(key, &together, bytes.span, bytes.span);
+                    self.document.push_key(key, &together, bytes.span);
                 }
                 None => self.text(key, value),
             }
@@ -266,7 +266,7 @@ impl<'a, 'x> Context<'a, 'x> {
         }
         if let Some(flags) = flags {
             let digits = flags.value.trim_start_matches("0x");
-            self.document.push_key("ObjFlags", &format!("0x{digits}"), flags.span, flags.span);
+            self.document.push_key("ObjFlags", &format!("0x{digits}"), flags.span);
         }
     }
 
