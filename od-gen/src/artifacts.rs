@@ -6,6 +6,8 @@ use od_spec::Commissioning;
 use od_spec::model::{Devices, Dictionary, System};
 
 use crate::artifact::Artifact;
+#[cfg(feature = "xdd")]
+use crate::xdd;
 use crate::{eds, json};
 
 /// What [`artifacts`] makes.
@@ -17,9 +19,12 @@ pub struct Selection<'a> {
     pub node: Option<u8>,
     /// The node of the DCF that the system was read from, with its values; on the node-ID above, if there is one.
     pub configured: Option<&'a Commissioning>,
+    /// Also an XDD of each device, and an XDC beside each DCF.
+    #[cfg(feature = "xdd")]
+    pub xdd: bool,
 }
 
-/// The files of one specification: an EDS per device, perhaps a DCF, and the JSON dump under the name `stem`.
+/// The files of one specification: an EDS per device, perhaps a DCF and the same in XML, and the JSON dump under the name `stem`.
 pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
     let devices = Devices::listed(selection.devices);
     let wanted = |device: &&Dictionary| devices.includes(&device.key);
@@ -32,10 +37,22 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
     std::thread::scope(|scope| {
         let files = scope.spawn(|| {
             let mut list = Vec::new();
+            #[cfg(feature = "xdd")]
+            let mut beside: Vec<Artifact> = Vec::new();
             for device in system.devices.iter().filter(wanted) {
                 let path = format!("eds/{}.eds", device.key);
                 let bytes = eds::write_eds(system, device);
                 list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
+                #[cfg(feature = "xdd")]
+                if selection.xdd {
+                    let path = format!("xdd/{}.xdd", device.key);
+                    let bytes = xdd::write_xdd(system, device);
+                    beside.push(Artifact {
+                        path,
+                        bytes,
+                        purpose: "the same for tools that read XML".to_owned(),
+                    });
+                }
                 let of_node = || selection.node.map(|node| Cow::Owned(Commissioning::of_node(device, node)));
                 let commissioning = configured.as_ref().map(Cow::Borrowed).or_else(of_node);
                 if let Some(commissioning) = commissioning {
@@ -44,8 +61,17 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
                     let bytes = eds::write_dcf(system, device, &commissioning, &file);
                     let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
                     list.push(Artifact { path: format!("eds/{file}"), bytes, purpose });
+                    #[cfg(feature = "xdd")]
+                    if selection.xdd {
+                        let file = format!("{}.xdc", device.key);
+                        let bytes = xdd::write_xdc(system, device, &commissioning, &file);
+                        let purpose = format!("the DCF for node {node} for tools that read XML");
+                        beside.push(Artifact { path: format!("xdd/{file}"), bytes, purpose });
+                    }
                 }
             }
+            #[cfg(feature = "xdd")]
+            list.append(&mut beside);
             list
         });
         let bytes = match &configured {

@@ -9,6 +9,7 @@ use od_spec::model::{Dictionary, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
+use od_spec::xdd::is_xdd;
 use od_spec::{Commissioning, Compiled, assign};
 
 use crate::yaml::{self, Options, Place, Repair};
@@ -29,7 +30,7 @@ pub struct Imported {
 
 /// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
 /// place.
-const WITHOUT_PLACE: [&str; 4] = ["EDS401", "EDS415", "EDS427", "EDS512"];
+const WITHOUT_PLACE: [&str; 5] = ["EDS401", "EDS415", "EDS427", "EDS512", "XDD207"];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -45,7 +46,8 @@ pub fn import(
     let file = sources.file(root);
     // As it was compiled: a specification may not hold what turns text.
     let text = straight(file.text());
-    let document = Document::scan(root, &text);
+    // What an XDD says beside its objects is no comment.
+    let document = if is_xdd(file.name(), &text) { Document::default() } else { Document::scan(root, &text) };
     let mut options =
         Options { head: vec![format!("Made from {}.", base_name(file.name()))], ..Options::default() };
     let remarks = document.remarks().into_iter().map(|remark| (place(device, remark.owner), remark.text));
@@ -111,7 +113,7 @@ fn usual<'t>(remarks: &[(Option<Place>, &'t str)], device: &Dictionary) -> BTree
 /// Whether a finding means that the specification says something else than the letters of the file.
 fn changes_what_is_read(finding: &Diagnostic) -> bool {
     let about_facts =
-        ["EDS40", "EDS41", "EDS5", "OD"].iter().any(|prefix| finding.code.id.starts_with(prefix));
+        ["EDS40", "EDS41", "EDS5", "OD", "XDD2"].iter().any(|prefix| finding.code.id.starts_with(prefix));
     let is_about_name = ["OD0303", "OD0318"].contains(&finding.code.id);
     about_facts && !is_about_name && finding.code.severity == Severity::Error && finding.edits.is_empty()
 }

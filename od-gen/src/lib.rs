@@ -32,6 +32,8 @@ pub mod parameters;
 mod plan;
 pub mod rust;
 pub mod source;
+#[cfg(feature = "xdd")]
+pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
 

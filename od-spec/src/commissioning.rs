@@ -6,7 +6,9 @@ use std::fmt;
 use crate::check::codes as rule_codes;
 use crate::check::texts_fit_eds::problem;
 use crate::diag::{Diagnostic, codes};
-use crate::model::{Dictionary, EntryId, Index, NoSuchValue, SubIndex, System, Value, Write, download};
+use crate::model::{
+    Dictionary, EdsPolicy, Entry, EntryId, Index, NoSuchValue, SubIndex, System, Value, Write, download,
+};
 
 /// Values of single entries, by entry.
 pub type ParameterValues = BTreeMap<EntryId, Value>;
@@ -85,6 +87,11 @@ pub struct DomainFiles {
 }
 
 impl Commissioning {
+    /// What the file of the node shows of an entry to tools: of an unlocked one, what the device has while it is unlocked.
+    pub fn shown(&self, id: EntryId, entry: &Entry) -> EdsPolicy {
+        if self.unlocked.contains(&id) { entry.eds_while_unlocked() } else { entry.eds }
+    }
+
     /// A node with the device's defaults, at 250 kbit/s or, where the device cannot do that, at its highest bit rate.
     pub fn of_node(device: &Dictionary, node: u8) -> Self {
         let rates = &device.info.bit_rates;

@@ -21,6 +21,7 @@ use crate::shipped::LIBRARIES;
 use crate::source::{FileId, SourceMap, Spanned};
 use crate::standard;
 use crate::visible::straight;
+use crate::xdd;
 use crate::yaml;
 
 /// What [`compile`] gives.
@@ -58,7 +59,7 @@ pub enum Strictness {
     Standard,
 }
 
-/// Compiles the specification, EDS or DCF `root` of `sources`; libraries are added to `sources`.
+/// Compiles the specification, EDS, DCF, XDD or XDC `root` of `sources`; libraries are added to `sources`.
 pub fn compile(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader) -> Compiled {
     compile_as(Strictness::Foreign, sources, root, loader)
 }
@@ -72,7 +73,9 @@ pub fn compile_as(
 ) -> Compiled {
     let list = check::RULES.iter().collect::<Vec<_>>();
     let file = sources.file(root);
-    if eds::is_eds(file.name(), file.text()) {
+    if xdd::is_xdd(file.name(), file.text()) {
+        compile_xdd(standard::rules(&list), sources, root, strictness)
+    } else if eds::is_eds(file.name(), file.text()) {
         compile_eds(standard::rules(&list), sources, root, strictness)
     } else {
         compile_with(standard::rules(&list), sources, root, loader)
@@ -105,7 +108,56 @@ fn compile_eds(
     let facts = FileFacts { name, encoding: file.encoding() };
     let view = View::new(&document, root, eds::is_dcf(name), facts);
     eds::check::document(&view, &mut diagnostics);
-    let Read { spec, node } = read(&view, file.name(), &mut diagnostics);
+    let read = read(&view, file.name(), &mut diagnostics);
+    resolved(rules, read, strictness, diagnostics)
+}
+
+/// An XDD or XDC is translated into the sections of an EDS, and read as one.
+#[cfg(feature = "xdd")]
+fn compile_xdd(
+    rules: check::Rules<'_>,
+    sources: &SourceMap,
+    root: FileId,
+    strictness: Strictness,
+) -> Compiled {
+    let mut diagnostics = Diagnostics::new();
+    let file = sources.file(root);
+    let text = straight(file.text());
+    let Some(xdd::Translated { document, texts }) = xdd::translate(root, &text, &mut diagnostics) else {
+        return Compiled::refused(diagnostics);
+    };
+    let name = eds::file_name(file.name());
+    let facts = FileFacts { name, encoding: file.encoding() };
+    let view = View::new(&document, root, xdd::is_xdc(name), facts);
+    let mut read = read(&view, file.name(), &mut diagnostics);
+    texts.add_to(&mut read.spec);
+    let mut compiled = resolved(rules, read, strictness, diagnostics);
+    compiled.diagnostics.reword(xdd::in_words_of_xdd);
+    compiled
+}
+
+/// Without the feature, what an XDD is can be told, and no more.
+#[cfg(not(feature = "xdd"))]
+fn compile_xdd(_: check::Rules<'_>, sources: &SourceMap, root: FileId, _: Strictness) -> Compiled {
+    let mut diagnostics = Diagnostics::new();
+    let message = format!(
+        "`{}` is an XDD, which this program was built without a reader for",
+        sources.file(root).name()
+    );
+    diagnostics.push(
+        Diagnostic::new(codes::UNREADABLE, sources.whole(root), message)
+            .help("make a specification or an EDS of it: `odgen import`, `odgen build`"),
+    );
+    Compiled::refused(diagnostics)
+}
+
+/// What was read from a file of others, as a model.
+fn resolved(
+    rules: check::Rules<'_>,
+    Read { spec, node }: Read,
+    strictness: Strictness,
+    mut diagnostics: Diagnostics,
+) -> Compiled {
     let Resolved { system, .. } = resolve::resolve(&spec, &[], &mut diagnostics);
     let id = node.as_ref().and_then(|node| node.node);
     check::foreign(rules, &system, id, &mut diagnostics);

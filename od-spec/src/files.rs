@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Label, codes, shorten};
 use crate::source::{FileId, SourceMap, Span, Spanned};
-use crate::{eds, encoding};
+use crate::{eds, encoding, xdd};
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: usize = 64 << 20;
@@ -63,14 +63,14 @@ pub(crate) fn twice(what: &str, first: Span, again: &Spanned<String>) -> Diagnos
 /// As [`read_text`], but for the encoding of an EDS.
 pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
     if bytes.len() <= LARGEST_FILE {
-        if eds::has_eds_name(name) {
+        if eds::has_eds_name(name) || xdd::has_xdd_name(name) {
             let (text, encoding) = encoding::decode(bytes);
             return Ok(sources.add_decoded(name, text, encoding));
         }
         // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
         if std::str::from_utf8(&bytes).is_err() {
             let (text, encoding) = encoding::decode(bytes.clone());
-            if eds::is_eds(name, &text) {
+            if eds::is_eds(name, &text) || xdd::is_xdd(name, &text) {
                 return Ok(sources.add_decoded(name, text, encoding));
             }
         }

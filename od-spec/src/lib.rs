@@ -62,6 +62,7 @@ pub mod source;
 mod standard;
 pub mod visible;
 pub mod wording;
+pub mod xdd;
 pub mod yaml;
 
 pub use check::allowed::can_be_allowed;

@@ -28,8 +28,28 @@ enum Lock {
     Lifted,
 }
 
+impl Lock {
+    /// The lock of an entry, for a device of the type or as one node is set up.
+    fn of(index: Index, entry: &Entry, node: Option<&Commissioning>) -> Self {
+        let id = EntryId { index, sub: entry.sub };
+        match node {
+            _ if !entry.locked => Self::None,
+            Some(node) if node.unlocked.contains(&id) => Self::Lifted,
+            Some(_) | None => Self::Closed,
+        }
+    }
+
+    /// What is said above an entry whose lock was lifted.
+    fn lifted(self) -> Option<String> {
+        (self == Self::Lifted).then(|| LIFTED.to_owned())
+    }
+}
+
+/// Behind the name of a value that the device does not support.
+pub(crate) const NOT_SUPPORTED: &str = " (not supported)";
+
 /// Comments above an object's section.
-pub(super) fn object(object: &Object, language: &str) -> Vec<String> {
+pub(crate) fn object(object: &Object, language: &str) -> Vec<String> {
     warning(&object.warning, language)
         .into_iter()
         .chain(object.about.get(language).map(ToOwned::to_owned))
@@ -44,24 +64,15 @@ pub(super) fn entry(
     node: Option<&Commissioning>,
     language: &str,
 ) -> Vec<String> {
-    let id = EntryId { index, sub: entry.sub };
-    let lock = match node {
-        _ if !entry.locked => Lock::None,
-        Some(node) if node.unlocked.contains(&id) => Lock::Lifted,
-        Some(_) | None => Lock::Closed,
-    };
-    let mut lines: Vec<String> = Vec::new();
-    if lock == Lock::Lifted {
-        lines.push(LIFTED.to_owned());
-    }
-    lines.extend(warning(&entry.warning, language));
-    lines.extend(entry.about.get(language).map(ToOwned::to_owned));
-    lines.extend(facts(device, index, entry, lock));
+    let lock = Lock::of(index, entry, node);
+    let mut lines: Vec<String> = lock.lifted().into_iter().collect();
+    lines.extend(texts(entry, language));
+    lines.extend(joined(facts(device, index, entry, lock)));
     lines.extend(entry.special.iter().map(|special| WORDING.special(entry, special)));
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) if values.len() <= MOST_MEMBERS => {
             lines.extend(values.iter().map(|value| {
-                let support = if value.supported { "" } else { " (not supported)" };
+                let support = if value.supported { "" } else { NOT_SUPPORTED };
                 format!("{}: {}{support}", WORDING.enum_number(entry.data_type, value.value), value.name)
             }));
         }
@@ -73,17 +84,50 @@ pub(super) fn entry(
     lines
 }
 
+/// What is to be said about an entry where its unit and its named values have a place of their own.
+#[cfg(feature = "xdd")]
+pub(crate) fn beyond_values(
+    device: &Dictionary,
+    index: Index,
+    entry: &Entry,
+    node: Option<&Commissioning>,
+    language: &str,
+) -> Vec<String> {
+    let lock = Lock::of(index, entry, node);
+    let mut lines: Vec<String> = lock.lifted().into_iter().collect();
+    lines.extend(texts(entry, language));
+    let unit = unit(entry);
+    lines.extend(joined(
+        facts(device, index, entry, lock).into_iter().filter(|fact| unit.as_ref() != Some(fact)).collect(),
+    ));
+    if let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) {
+        lines.extend(fields.iter().filter_map(bits));
+    }
+    lines
+}
+
+/// The words for people.
+fn texts(entry: &Entry, language: &str) -> Vec<String> {
+    let about = entry.about.get(language).map(ToOwned::to_owned);
+    warning(&entry.warning, language).into_iter().chain(about).collect()
+}
+
+fn unit(entry: &Entry) -> Option<String> {
+    entry.unit.as_ref().map(|unit| format!("unit {}", WORDING.step(unit)))
+}
+
+fn joined(facts: Vec<String>) -> Option<String> {
+    facts.into_iter().reduce(|line, fact| line + "; " + &fact)
+}
+
 /// The danger that comes from an object or entry.
 fn warning(warning: &Text, language: &str) -> Option<String> {
     warning.get(language).map(|warning| format!("Warning: {warning}"))
 }
 
-/// Unit, alias, storage and the like, in one line.
-fn facts(device: &Dictionary, index: Index, entry: &Entry, lock: Lock) -> Option<String> {
-    let mut facts = Vec::new();
-    if let Some(unit) = &entry.unit {
-        facts.push(format!("unit {}", WORDING.step(unit)));
-    }
+/// Unit, alias, storage and the like.
+fn facts(device: &Dictionary, index: Index, entry: &Entry, lock: Lock) -> Vec<String> {
+    let mut facts: Vec<String> = unit(entry).into_iter().collect();
     if let Some(alias) = &entry.alias {
         facts.push(format!("view of {}", target(device, alias.target)));
     }
@@ -110,7 +154,7 @@ fn facts(device: &Dictionary, index: Index, entry: &Entry, lock: Lock) -> Option
         };
         facts.push(format!("{what} {}", WORDING.value(Some(index), entry, default)));
     }
-    facts.into_iter().reduce(|line, fact| line + "; " + &fact)
+    facts
 }
 
 /// The name of the entry that an alias shows.
@@ -119,7 +163,8 @@ fn target(device: &Dictionary, id: EntryId) -> String {
 }
 
 fn bits(field: &BitField) -> Option<String> {
-    if field.usage != BitUsage::Used {
+    // One that means something only in some modes has no name of its own.
+    if field.usage != BitUsage::Used || field.name.is_empty() {
         return None;
     }
     Some(if field.first == field.last {

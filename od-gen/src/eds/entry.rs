@@ -32,8 +32,7 @@ pub(super) fn write(
         }
     }
     let id = EntryId { index: object.index, sub: entry.sub };
-    let is_unlocked = node.is_some_and(|node| node.unlocked.contains(&id));
-    let eds = if is_unlocked { entry.eds_while_unlocked() } else { entry.eds };
+    let eds = node.map_or(entry.eds, |node| node.shown(id, entry));
     section.text("AccessType", eds.access.word());
     let notation = value::Notation { object, entry, node: node.map(|commissioning| commissioning.node) };
     if let Some(default) = entry.default.as_ref().filter(|_| eds.default && !is_domain) {

@@ -4,13 +4,13 @@
 //! them, comments only directly above a section, signed values in decimal, `$NODEID` first, exact key spelling.
 
 mod about;
-mod comments;
+pub(crate) mod comments;
 mod commissioning;
 mod device_info;
 mod entry;
 mod file_info;
 mod objects;
-mod value;
+pub(crate) mod value;
 mod withheld;
 mod writer;
 

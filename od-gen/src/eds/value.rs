@@ -4,7 +4,7 @@ use od_spec::model::{DataType, Entry, Object, TypeKind, Value};
 use od_spec::wording::format_value;
 
 /// How the values of an entry are written.
-pub(super) struct Notation<'a> {
+pub(crate) struct Notation<'a> {
     pub object: &'a Object,
     pub entry: &'a Entry,
     /// The node for which formulas are resolved; `None` to write `$NODEID`.
@@ -13,7 +13,7 @@ pub(super) struct Notation<'a> {
 
 impl Notation<'_> {
     /// A value: bit fields and PDO parameters in hexadecimal, other integers in decimal.
-    pub(super) fn text(&self, value: &Value) -> String {
+    pub(crate) fn text(&self, value: &Value) -> String {
         let width = self.digits();
         match (value, self.node) {
             (Value::NodeId(0), None) => "$NODEID".to_owned(),

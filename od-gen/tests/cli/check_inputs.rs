@@ -76,7 +76,7 @@ fn a_directory_is_searched_through_and_through() {
     let output = odgen(&scratch.0, &["check", "empty", "eds/b.eds", "--format", "short"]);
     let said = stderr(&output);
     assert_eq!(code(&output), 1);
-    let nothing = "error[OD0101]: there is no `*.od.yaml`, `*.eds` or `*.dcf` in empty (name files of other names one by one)\n";
+    let nothing = "error[OD0101]: there is no `*.od.yaml`, `*.eds`, `*.dcf`, `*.xdd` or `*.xdc` in empty (name files of other names one by one)\n";
     assert!(said.starts_with(nothing) && said.contains("\neds/b.eds:"), "{said}");
     // What is named is checked, however it is called.
     let output = odgen(&scratch.0, &["check", "eds/notes.txt", "--format", "short"]);

@@ -6,7 +6,8 @@ use crate::provoked::PROVOKED;
 use crate::{Scratch, odgen, stderr};
 
 /// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
-/// refuses for something, and two files that are no concise DCF.
+/// refuses for something, two files that are no concise DCF, three that are no XDD, and an XDD with a fault of
+/// each kind.
 const FILES: &[(&str, &str)] = &[
     (
         "lamp.od.yaml",
@@ -17,6 +18,10 @@ const FILES: &[(&str, &str)] = &[
     ("readers.eds", include_str!("eds/readers.eds")),
     ("cut.bin", "\u{1}"),
     ("long.bin", "\0\0\0\0\u{1}"),
+    ("open.xdd", "<a>"),
+    ("typed.xdd", "<!DOCTYPE a><a/>"),
+    ("other.xdd", "<a/>"),
+    ("faulty.xdd", include_str!("eds/faulty.xdd")),
 ];
 
 #[test]

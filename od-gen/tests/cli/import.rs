@@ -81,7 +81,9 @@ fn what_all_entries_say_is_said_once() {
 fn only_eds_and_dcf_files_are_imported() {
     let scratch = Scratch::new("import-no");
     scratch.file("lamp.od.yaml", LAMP);
-    for (file, message) in [("lamp.od.yaml", "lamp.od.yaml is no EDS or DCF"), ("none.eds", "no such file")] {
+    for (file, message) in
+        [("lamp.od.yaml", "lamp.od.yaml is no EDS, DCF, XDD or XDC"), ("none.eds", "no such file")]
+    {
         let output = odgen(&scratch.0, &["import", file, "--out", "out"]);
         assert_eq!(code(&output), 1);
         assert!(stderr(&output).contains(message), "{}", stderr(&output));

@@ -27,6 +27,7 @@ mod readme;
 mod shipped;
 mod specs;
 mod texts;
+mod xdd;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -9,6 +9,9 @@ pub(crate) struct Provocation {
 /// What readers do not take in a file that nobody else minds.
 const READERS: &[&str] = &["check", "readers.eds", "--notes", "--all"];
 
+/// An XDD with a fault of each kind.
+const FAULTY: &[&str] = &["check", "faulty.xdd", "--notes", "--all"];
+
 pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "EDS801", arguments: READERS },
     Provocation { code: "EDS802", arguments: READERS },
@@ -29,4 +32,14 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "OD0712", arguments: &["concise", "show", "cut.bin", "lamp.od.yaml"] },
     Provocation { code: "OD0713", arguments: &["concise", "show", "long.bin", "lamp.od.yaml"] },
     Provocation { code: "OD0811", arguments: &["check", "lamp.od.yaml", "--notes"] },
+    Provocation { code: "XDD101", arguments: &["check", "open.xdd"] },
+    Provocation { code: "XDD102", arguments: &["check", "typed.xdd"] },
+    Provocation { code: "XDD103", arguments: &["check", "other.xdd"] },
+    Provocation { code: "XDD201", arguments: FAULTY },
+    Provocation { code: "XDD202", arguments: FAULTY },
+    Provocation { code: "XDD203", arguments: FAULTY },
+    Provocation { code: "XDD204", arguments: FAULTY },
+    Provocation { code: "XDD205", arguments: FAULTY },
+    Provocation { code: "XDD206", arguments: FAULTY },
+    Provocation { code: "XDD207", arguments: FAULTY },
 ];

@@ -325,6 +325,15 @@ pub(crate) struct ObjectDecl {
 }
 
 impl ObjectDecl {
+    /// The entries that are written one by one, with their sub-indices; of a VAR there is none.
+    #[cfg(feature = "xdd")]
+    pub(crate) fn entries_mut(&mut self) -> impl Iterator<Item = (SubIndex, &mut EntryDecl)> {
+        let elements = self.array.iter_mut().flat_map(|array| &mut array.elements);
+        let members = self.record.iter_mut().flat_map(|record| &mut record.members);
+        let count = self.sub0.iter_mut().map(|entry| (SubIndex(0), &mut **entry));
+        count.chain(elements.chain(members).map(|(sub, entry)| (sub.value, entry)))
+    }
+
     /// How many entries it has, sub-index 0 among them, if all of them are right.
     pub(crate) fn entries(&self) -> usize {
         let elements = self.array.as_ref().map(|array| {

@@ -182,4 +182,24 @@ codes! {
         "Generated firmware sets aside memory for every string that can change. Write `capacity:`, the most bytes that the device can hold."
     NOT_IN_FIRMWARE Error "OD0904" "something that generated code cannot do":
         "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message tells which part of the specification needs more."
+    XDD_SYNTAX Error "XDD101" "a file is not well-formed XML":
+        "The XML reader stopped at the marked place; nothing of the file was read. Frequent causes: an element that is not closed, `&` or `<` in a text where `&amp;` or `&lt;` belongs, a file that is cut off."
+    XDD_DTD Error "XDD102" "a document type in an XDD":
+        "A document type (`<!DOCTYPE …>`) can define entities that stand for any amount of text, or for files of the reader's machine. An XDD needs none, so that such a file is refused as a whole. Remove the document type."
+    XDD_NONE Error "XDD103" "XML that is no XDD":
+        "An XDD or XDC (CiA 311) lists the objects of a device in a `CANopenObjectList`. The file is XML and has none."
+    XDD_NO_PLACE Error "XDD201" "an object that cannot be placed":
+        "An object is known by its `index`, a sub-object by its `subIndex`, in hexadecimal digits and each once. One without is left out, as is the second of two: readers disagree about which of them counts."
+    XDD_ATTRIBUTE Error / Warning "XDD202" "an attribute that cannot be understood":
+        "The attribute is missing, or has another value than CiA 311 knows. The message says what is taken instead: an access is read-only and a mapping none, until somebody says otherwise; an object is what its sub-objects make of it."
+    XDD_NO_TYPE Error "XDD203" "an entry without a data type":
+        "Neither the object nor the parameter that it refers to says a data type of CiA 301. Nobody knows how many bytes the entry has; it is taken as a DOMAIN, a block of unknown length. Types of 24, 40, 48 and 56 bits have no element of their own, so that `dataType` of the object has to say them."
+    XDD_NO_ACCESS Error "XDD204" "an entry without access":
+        "Neither the object nor a parameter says who may read and write the entry. It is taken as read-only until somebody says otherwise."
+    XDD_REFERENCE Error / Warning "XDD205" "a reference to no parameter":
+        "`uniqueIDRef` names the parameter that says type, access, default and meaning of an entry. There is none of this name, so that only what the object itself says is known."
+    XDD_CONTRADICTION Error / Warning "XDD206" "a mapping against the access":
+        "A TPDO carries what can be read, an RPDO what can be written; `PDOmapping` says the opposite of the access. The access counts, and the mapping goes in its direction."
+    XDD_LEFT_OUT Note "XDD207" "something that has no place":
+        "A dictionary has no place for it, or it can be understood in more than one way: what other programs keep in `property`, modules, templates, and units whose raw values count from an `offset`."
 }

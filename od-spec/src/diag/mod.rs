@@ -250,6 +250,21 @@ impl Diagnostics {
         self
     }
 
+    /// Words what was said about a text in another notation, and takes the changes away that are in the one it was said in.
+    #[cfg(feature = "xdd")]
+    pub(crate) fn reword(&mut self, reworded: impl Fn(&str) -> Option<String>) {
+        for diagnostic in &mut self.list {
+            diagnostic.edits.clear();
+            let texts = std::iter::once(&mut diagnostic.message).chain(&mut diagnostic.help);
+            let labels = diagnostic.labels.iter_mut().map(|label| &mut label.text);
+            for text in texts.chain(&mut diagnostic.notes).chain(labels) {
+                if let Some(new) = reworded(text) {
+                    *text = new;
+                }
+            }
+        }
+    }
+
     /// Takes each message as serious as it is in an EDS that was written by others and is only read.
     pub fn soften(&mut self) {
         for diagnostic in &mut self.list {

@@ -35,12 +35,61 @@ pub struct Document<'t> {
     /// Where the text was read; `None` for a document that a program writes.
     file: Option<FileId>,
     lines: Vec<Line<'t>>,
+    /// Of a text that says in another notation what an EDS says: where its headers and keys are from. A line's start is its
+    /// number in this list.
+    origins: Vec<Span>,
 }
 
 impl<'t> Document<'t> {
     /// The lines of a text. Whatever the text is, it becomes a document.
     pub fn scan(file: FileId, text: &'t str) -> Self {
-        Self { file: Some(file), lines: scan::lines(text) }
+        Self { file: Some(file), lines: scan::lines(text), origins: Vec::new() }
+    }
+
+    /// A translation of a file, still without sections.
+    #[cfg(feature = "xdd")]
+    pub(crate) const fn translated(file: FileId) -> Self {
+        Self { file: Some(file), lines: Vec::new(), origins: Vec::new() }
+    }
+
+    /// Adds the header of a section to a translation, with comments above it.
+    #[cfg(feature = "xdd")]
+    pub(crate) fn push_header(&mut self, name: &str, place: Span, comments: &[String]) {
+        self.lines.extend(comments.iter().map(|text| Line::new_comment(text)));
+        self.push_from(Line::new_header(name), place);
+    }
+
+    /// Adds a key and its value to the last section of a translation.
+    #[cfg(feature = "xdd")]
+    pub(crate) fn push_key(&mut self, key: &str, value: &str, place: Span) {
+        self.push_from(Line::new_key_value(key, value), place);
+    }
+
+    #[cfg(feature = "xdd")]
+    fn push_from(&mut self, line: Line<'t>, origin: Span) {
+        let number = u32::try_from(self.origins.len()).unwrap_or(u32::MAX);
+        self.lines.push(line.numbered(number));
+        self.origins.push(origin);
+    }
+
+    /// Where a line of a translation is from.
+    fn origin(&self, line: &Line<'_>) -> Option<Span> {
+        self.origins.get(usize::try_from(line.start()).ok()?).copied()
+    }
+
+    /// Where the name in a header stands.
+    pub(crate) fn name_place(&self, header: &Line<'_>, file: FileId) -> Span {
+        let part =
+            || header.name_part().map_or(Span { file, start: 0, end: 0 }, |name| header.part(file, name));
+        self.origin(header).unwrap_or_else(part)
+    }
+
+    /// Where the key and the value of a line stand.
+    pub(crate) fn key_places(&self, line: &Line<'_>, file: FileId) -> Option<(Span, Span)> {
+        match self.origin(line) {
+            Some(origin) => Some((origin, origin)),
+            None => Some((line.part(file, line.key_part()?), line.part(file, line.value_part()?))),
+        }
     }
 
     /// Adds a section behind the others. A section that a program wrote is set off by one blank line.
@@ -59,7 +108,13 @@ impl<'t> Document<'t> {
 
     /// Where a line stands, without its break.
     pub fn place(&self, line: &Line<'_>) -> Option<Span> {
-        Some(line.place(self.file?))
+        let file = self.file?;
+        if self.origins.is_empty() {
+            return Some(line.place(file));
+        }
+        // A comment of a translation is from nowhere in particular.
+        let is_numbered = matches!(line.kind(), LineKind::Header | LineKind::KeyValue);
+        self.origin(line).filter(|_| is_numbered)
     }
 
     /// The lines before the first section; keys among them belong to no section.
@@ -120,6 +175,11 @@ pub struct SectionRef<'d, 't> {
 }
 
 impl<'d, 't> SectionRef<'d, 't> {
+    /// The document that it is a section of.
+    pub(crate) const fn document(&self) -> &'d Document<'t> {
+        self.document
+    }
+
     /// The name, as it is spelled.
     pub fn name(&self) -> &'d str {
         self.header().name().unwrap_or_default()

@@ -100,6 +100,12 @@ impl<'t> Line<'t> {
         Self::written(joined([key, "=", value]), Content::KeyValue { equals: length(key) })
     }
 
+    /// The line under a number, by which its document knows where it is from.
+    #[cfg(feature = "xdd")]
+    pub(super) fn numbered(self, number: u32) -> Self {
+        Self { start: number, ..self }
+    }
+
     /// Its first byte in its file.
     pub(super) const fn start(&self) -> u32 {
         self.start

@@ -43,7 +43,7 @@ pub(crate) fn is_dcf(name: &str) -> bool {
     ends_with(name, ".dcf")
 }
 
-fn ends_with(name: &str, extension: &str) -> bool {
+pub(crate) fn ends_with(name: &str, extension: &str) -> bool {
     let start = name.len().checked_sub(extension.len());
     start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
 }

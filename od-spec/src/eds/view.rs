@@ -173,7 +173,7 @@ impl<'d> Part<'d> {
     /// The name of the first section, as it is spelled.
     pub(crate) fn name(&self) -> Spanned<&'d str> {
         let header = self.sections[0].header();
-        Spanned::new(self.sections[0].name(), name_place(header, self.file))
+        Spanned::new(self.sections[0].name(), self.sections[0].document().name_place(header, self.file))
     }
 
     /// Where the first header's name stands.
@@ -191,16 +191,19 @@ impl<'d> Part<'d> {
     pub(crate) fn entries(&self) -> impl Iterator<Item = Entry<'d>> + use<'d> {
         let file = self.file;
         let sections = self.sections.clone();
-        sections.into_iter().flat_map(|section| section.keys()).filter_map(move |line| entry(line, file))
+        let keys = sections.into_iter().flat_map(|section| section.keys().map(move |line| (section, line)));
+        keys.filter_map(move |(section, line)| entry_in(section, line, file))
     }
 
     /// A key in any capitals, the last of several, as most readers take it; where it is not there, one with blanks in it.
     pub(crate) fn key(&self, name: &str) -> Option<Entry<'d>> {
-        let keys = self.sections.iter().rev().flat_map(|section| section.body().iter().rev());
+        let sections = self.sections.iter().rev();
+        let keys = sections.flat_map(|section| section.body().iter().rev().map(move |line| (*section, line)));
         let mut named =
-            keys.clone().filter(|line| line.key().is_some_and(|key| key.eq_ignore_ascii_case(name)));
-        let mut spaced = keys.filter(|line| line.key().is_some_and(|key| is_spaced(key, name)));
-        entry(named.next().or_else(|| spaced.next())?, self.file)
+            keys.clone().filter(|(_, line)| line.key().is_some_and(|key| key.eq_ignore_ascii_case(name)));
+        let mut spaced = keys.filter(|(_, line)| line.key().is_some_and(|key| is_spaced(key, name)));
+        let (section, line) = named.next().or_else(|| spaced.next())?;
+        entry_in(section, line, self.file)
     }
 
     /// The value of a key, unless it is missing or, which means the same (CiA 306 4.3), empty.
@@ -230,7 +233,13 @@ pub(crate) fn name_place(header: &Line<'_>, file: FileId) -> Span {
     header.name_part().map_or(Span { file, start: 0, end: 0 }, |name| header.part(file, name))
 }
 
-/// A line's key and value with their places; `None` for a line without.
+/// A line's key and value with their places, in whatever notation the file has; `None` for a line without.
+fn entry_in<'d>(section: SectionRef<'d, 'd>, line: &'d Line<'d>, file: FileId) -> Option<Entry<'d>> {
+    let (key, value) = section.document().key_places(line, file)?;
+    Some(Entry { key: Spanned::new(line.key()?, key), value: Spanned::new(line.value()?, value), line })
+}
+
+/// A line's key and value with their places in an EDS; `None` for a line without.
 pub(crate) fn entry<'d>(line: &'d Line<'d>, file: FileId) -> Option<Entry<'d>> {
     let (key, value) = (line.key_part()?, line.value_part()?);
     Some(Entry {

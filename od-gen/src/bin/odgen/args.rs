@@ -10,7 +10,7 @@ use od_spec::eds::readers::Reader;
 
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 
-/// Checks CANopen object dictionaries – specifications, EDS and DCF files – and makes EDS, DCF, JSON, Rust and documents from them.
+/// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
 #[command(
     name = "odgen",
@@ -146,7 +146,7 @@ pub(crate) enum Color {
 pub(crate) enum Command {
     /// Make the files of a specification: EDS of each device and the JSON dump; all of them or, on an error, none
     Build(BuildArgs),
-    /// Check specifications, EDS and DCF files without writing anything
+    /// Check specifications, EDS, DCF, XDD and XDC files without writing anything
     Check(CheckArgs),
     /// Look into a concise DCF, the binary that a CANopen master downloads to a node (object 1F22h)
     Concise(ConciseArgs),
@@ -160,7 +160,7 @@ pub(crate) enum Command {
     Docs(DocsArgs),
     /// List where the printed manual says something else than the specification
     Errata(ErrataArgs),
-    /// Make a specification of an EDS or DCF
+    /// Make a specification of an EDS, DCF, XDD or XDC
     Import(ImportArgs),
     /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
     Fix(FixArgs),
@@ -194,7 +194,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct BuildArgs {
-    /// Specifications, EDS or DCF files [default: the `*.od.yaml` of the current directory]
+    /// Specifications, EDS, DCF, XDD or XDC files [default: the `*.od.yaml` of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the files
@@ -208,6 +208,10 @@ pub(crate) struct BuildArgs {
     /// Also a DCF of each device for this node-ID (1 to 127) [default: of a DCF its own node, with its values]
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
+
+    /// Also an XDD of each device (CiA 311), `xdd/KEY.xdd`, and an XDC beside each DCF
+    #[arg(long)]
+    pub xdd: bool,
 
     /// Also a Rust module of each device, `src/KEY.rs`
     #[arg(long)]
@@ -259,7 +263,7 @@ impl From<ReaderName> for Reader {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Specifications, EDS and DCF files, directories to look for them in, or `-` for standard input [default: the
+    /// Specifications, EDS, DCF, XDD and XDC files, directories to look for them in, or `-` for standard input [default: the
     /// `*.od.yaml` of the current directory]
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
@@ -322,7 +326,7 @@ pub(crate) struct ConciseShowArgs {
     /// The concise DCF
     pub file: PathBuf,
 
-    /// The specification, EDS or DCF of the node's device [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC of the node's device [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Key of the device [default: the only one]
@@ -425,7 +429,7 @@ impl From<DiffClass> for od_gen::diff::Class {
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DocsArgs {
-    /// Specifications, EDS or DCF files [default: the `*.od.yaml` of the current directory]
+    /// Specifications, EDS, DCF, XDD or XDC files [default: the `*.od.yaml` of the current directory]
     pub specs: Vec<PathBuf>,
 
     /// Directory for the documents; those of a specification go into a directory with its name
@@ -477,7 +481,7 @@ pub(crate) enum DocsFormat {
 
 #[derive(Debug, Args)]
 pub(crate) struct DumpArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// As JSON, the only format there is
@@ -526,7 +530,7 @@ pub(crate) struct FmtArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
-    /// EDS or DCF files
+    /// EDS, DCF, XDD or XDC files
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
 
@@ -592,7 +596,7 @@ pub(crate) enum Profile {
 
 #[derive(Debug, Args)]
 pub(crate) struct ErrataArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Only this kind of fact, such as `access` or `gap`

@@ -60,7 +60,8 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             ));
         }
         let configured = configured.as_ref().filter(|_| node.is_some());
-        set.extend(artifacts(system, stem, &Selection { devices: &args.device, node, configured }));
+        let selection = Selection { devices: &args.device, node, configured, xdd: args.xdd };
+        set.extend(artifacts(system, stem, &selection));
         set.append(rust);
         if !templates.is_empty() {
             let options = od_gen::docs::options(system, &args.device, None);
@@ -102,10 +103,15 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
     /// So many files are named.
     const NAMED: usize = 5;
     let mut left = left_over(&args.out, set)?;
-    // A build makes a DCF beside the EDS of its device; any other is one of `odgen dcf`.
+    // A build makes a DCF beside the EDS of its device, and an XDC beside its XDD; any other is one of `odgen dcf`.
     left.retain(|path| {
         let path = args.out.join(path);
-        path.extension().is_none_or(|ending| ending != "dcf") || path.with_extension("eds").exists()
+        let beside = |ending: &str| path.with_extension(ending).exists();
+        match path.extension().and_then(std::ffi::OsStr::to_str) {
+            Some("dcf") => beside("eds"),
+            Some("xdc") => beside("xdd"),
+            Some(_) | None => true,
+        }
     });
     if left.is_empty() {
         return Ok(String::new());

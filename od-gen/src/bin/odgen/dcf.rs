@@ -11,6 +11,7 @@ use od_gen::condense;
 use od_gen::eds::write_dcf;
 use od_gen::files::Existing;
 use od_gen::source::FileLoader;
+use od_gen::xdd::write_xdc;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
@@ -85,6 +86,13 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
         let (artifact, line) = concise(&system, device, &commissioning, &path, &read).map_err(refuse)?;
         set.push(artifact);
         further = line;
+    }
+    if args.xdc {
+        let path = path.with_extension("xdc");
+        let name = file_name(&path, &read).map_err(refuse)?;
+        let bytes = write_xdc(&system, device, &commissioning, &name);
+        let _ = writeln!(further, "  {}  {} kB", shown(&path), bytes.len().div_ceil(1024));
+        set.push(Artifact { path: name, bytes, purpose: String::new() });
     }
     save(directory, &set, forced(args.force, Existing::Generated)).map_err(refuse)?;
     let mut line = count_of(count, "set");

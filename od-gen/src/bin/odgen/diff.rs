@@ -143,9 +143,9 @@ enum Source {
 impl Source {
     fn of(path: &Path) -> Self {
         let ends_with = |ending: &str| path.extension().is_some_and(|one| one.eq_ignore_ascii_case(ending));
-        if ends_with("eds") {
+        if ends_with("eds") || ends_with("xdd") {
             Self::Eds
-        } else if ends_with("dcf") {
+        } else if ends_with("dcf") || ends_with("xdc") {
             Self::Dcf
         } else if read_to_string(path).is_ok_and(|text| is_parameter_file(&text)) {
             Self::Parameters

@@ -51,15 +51,16 @@ fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
     let root = sources.files().next().map(|(id, _)| id);
     let eds = root.filter(|root| {
         let file = sources.file(*root);
-        od_spec::eds::is_eds(file.name(), file.text())
+        od_spec::eds::is_eds(file.name(), file.text()) || od_spec::xdd::is_xdd(file.name(), file.text())
     });
     let Some(root) = eds else {
         if compiled.diagnostics.has_errors() {
             report.show(&compiled.diagnostics, &sources);
         } else {
-            let message = format!("{} is no EDS or DCF", path.display());
+            let message = format!("{} is no EDS, DCF, XDD or XDC", path.display());
             report.refuse(
-                Diagnostic::without_place(codes::UNREADABLE, message).help("import takes EDS and DCF files"),
+                Diagnostic::without_place(codes::UNREADABLE, message)
+                    .help("import takes EDS, DCF, XDD and XDC files"),
             );
         }
         return None;

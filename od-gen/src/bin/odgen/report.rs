@@ -12,6 +12,7 @@ use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::visible::{printable, visible, visible_json};
+use od_spec::xdd::is_xdd;
 use od_spec::{Commissioning, Compiled};
 
 use super::args::Color;
@@ -69,7 +70,9 @@ impl Report {
             Format::Human => {
                 let source = sources.files().next().map(|(_, file)| file);
                 let most = match source {
-                    Some(file) if is_eds(file.name(), file.text()) => Most::OfEds,
+                    Some(file) if is_eds(file.name(), file.text()) || is_xdd(file.name(), file.text()) => {
+                        Most::OfEds
+                    }
                     Some(_) | None => Most::OfSpecification,
                 };
                 let shows = match source {

@@ -6,6 +6,7 @@ use od_gen::source::{files_of_specifications_in, specifications_in, whole};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
 use od_spec::visible::visible;
+use od_spec::xdd::has_xdd_name;
 
 use super::USAGE;
 use super::report::{Report, shown};
@@ -61,8 +62,8 @@ fn whole_of(path: &Path, report: &Report) -> PathBuf {
 /// `pitch.od.yaml` → `pitch`, `drive.EDS` → `drive`.
 pub(crate) fn stem(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    if has_eds_name(&name) {
-        // Both endings have four characters.
+    if has_eds_name(&name) || has_xdd_name(&name) {
+        // All these endings have four characters.
         return name[..name.len() - 4].to_owned();
     }
     let name = name.strip_suffix(".yaml").or_else(|| name.strip_suffix(".yml")).unwrap_or(&name);

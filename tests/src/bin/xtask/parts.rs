@@ -29,6 +29,8 @@ pub(crate) enum Part {
     FirmwareInC,
     /// Concise DCF files beside those of a tool of others.
     ConciseDcf,
+    /// XDD and XDC files, read by an XML parser of others and held to the structure of the format.
+    XddStructure,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -59,7 +61,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 15] = [
+    pub(crate) const ALL: [Part; 16] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -70,6 +72,7 @@ impl Part {
         Part::Foretold,
         Part::FirmwareInC,
         Part::ConciseDcf,
+        Part::XddStructure,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -89,6 +92,7 @@ impl Part {
             Part::Foretold => "EDS readers: what is foretold",
             Part::FirmwareInC => "EDS readers: firmware in C",
             Part::ConciseDcf => "EDS readers: concise DCF",
+            Part::XddStructure => "EDS readers: XDD and XDC",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -108,6 +112,7 @@ impl Part {
             | Part::Foretold
             | Part::FirmwareInC
             | Part::ConciseDcf
+            | Part::XddStructure
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -126,6 +131,7 @@ impl Part {
             | Part::Foretold
             | Part::FirmwareInC
             | Part::ConciseDcf
+            | Part::XddStructure
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -147,6 +153,7 @@ impl Part {
             | Part::Mutants
             | Part::FirmwareInC
             | Part::ConciseDcf
+            | Part::XddStructure
             | Part::SdoClient
             | Part::Browser
             | Part::Manuals
@@ -182,6 +189,7 @@ impl Part {
             Part::Foretold => readers::foretold(runner),
             Part::FirmwareInC => readers::firmware_in_c(runner),
             Part::ConciseDcf => readers::concise_dcf(runner),
+            Part::XddStructure => readers::xdd_structure(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),

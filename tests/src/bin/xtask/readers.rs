@@ -94,6 +94,32 @@ pub(crate) fn concise_dcf(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(["tests/readers/lely_dcfgen.py", "--odgen"]).arg(odgen))
 }
 
+/// The XDD and XDC files of the shipped devices and of the one with every feature.
+pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
+    const FOLDER: &str = "target/xdd";
+    let shipped = SPECS.map(|stem| (stem, format!("od-spec/devices/{stem}.od.yaml")));
+    let everything = ("everything", "tests/readers/everything.od.yaml".to_owned());
+    let mut dumps = Vec::new();
+    for (stem, path) in shipped.into_iter().chain([everything]) {
+        let system = compile_clean(&path)?;
+        let selection = Selection { node: Some(5), xdd: true, ..Selection::default() };
+        write_all(&root().join(FOLDER), &artifacts(&system, stem, &selection))?;
+        dumps.push(format!("{FOLDER}/{stem}.json"));
+    }
+    let mut arguments = vec!["--xdd-dir", "target/xdd/xdd", "--node", "5", "--dump"];
+    arguments.extend(dumps.iter().map(String::as_str));
+    runner.python("tests/readers/xdd_structure.py", &arguments)?;
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = odgen.to_string_lossy();
+    let mut files =
+        vec!["--odgen".to_owned(), odgen.into_owned(), "od-gen/tests/cli/eds/tank.xdd".to_owned()];
+    for entry in std::fs::read_dir(root().join(FOLDER).join("xdd"))? {
+        files.push(entry?.path().to_string_lossy().into_owned());
+    }
+    files[3..].sort();
+    runner.python("tests/readers/xdd_foreign.py", &files.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
 /// The Python that the readers are installed for, if that could be done.
 fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     let environment = root().join(VENV);

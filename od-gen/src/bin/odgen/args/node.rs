@@ -8,7 +8,7 @@ use super::Messages;
 
 #[derive(Debug, Args)]
 pub(crate) struct DcfArgs {
-    /// The specification, EDS or DCF [default: the only `*.od.yaml` of the current directory]
+    /// The specification, EDS, DCF, XDD or XDC [default: the only `*.od.yaml` of the current directory]
     pub spec: Option<PathBuf>,
 
     /// Key of the device [default: the only one]
@@ -66,6 +66,10 @@ pub(crate) struct DcfArgs {
     /// Also the concise DCF for the master's object 1F22h, beside the DCF with the ending `.bin`
     #[arg(long)]
     pub concise: bool,
+
+    /// Also the same as an XDC (CiA 311), beside the DCF with the ending `.xdc`
+    #[arg(long)]
+    pub xdc: bool,
 
     /// Replace files of these names that odgen did not make
     #[arg(long)]

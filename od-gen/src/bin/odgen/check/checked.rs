@@ -8,6 +8,7 @@ use od_spec::diag::render::Findings;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::eds::{is_eds, readers};
 use od_spec::source::SourceMap;
+use od_spec::xdd::is_xdd;
 use od_spec::{Compiled, Strictness, departures};
 
 use super::inputs::Input;
@@ -59,6 +60,7 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked
             readers::mark(&sources, id, &mut diagnostics);
             Kind::Eds
         }
+        Some((_, file)) if is_xdd(file.name(), file.text()) => Kind::Eds,
         Some(_) => Kind::Specification,
     };
     if let Some(system) = &system {

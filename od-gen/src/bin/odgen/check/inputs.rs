@@ -7,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use od_gen::source::whole;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
+use od_spec::xdd::has_xdd_name;
 
 use crate::args::{CheckArgs, CheckFormat};
 use crate::report::Report;
@@ -87,7 +88,10 @@ fn in_directory(directory: &Path) -> Vec<Input> {
     }
     found.sort();
     if found.is_empty() && inputs.is_empty() {
-        let message = format!("there is no `*.od.yaml`, `*.eds` or `*.dcf` in {}", directory.display());
+        let message = format!(
+            "there is no `*.od.yaml`, `*.eds`, `*.dcf`, `*.xdd` or `*.xdc` in {}",
+            directory.display()
+        );
         inputs.push(missing(directory, message, "name files of other names one by one"));
     }
     inputs.extend(found.into_iter().map(Input::File));
@@ -119,5 +123,5 @@ fn walk(directory: &Path, found: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::
 }
 
 fn is_named_so(name: &str) -> bool {
-    has_eds_name(name) || name.to_ascii_lowercase().ends_with(".od.yaml")
+    has_eds_name(name) || has_xdd_name(name) || name.to_ascii_lowercase().ends_with(".od.yaml")
 }

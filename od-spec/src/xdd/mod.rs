@@ -1,0 +1,94 @@
+//! XDD and XDC texts (CiA 311): what an EDS or DCF says, in XML.
+//!
+//! Such a file has the facts of an EDS under other names, and some more about what values mean. It is translated into the sections
+//! and keys of an EDS ([`translate`]), every one of them with its place in the XML, and `eds::read` makes the declaration from
+//! these. So there is one reader of objects, whatever the notation; what the notation alone can get wrong is said here, in its own words.
+
+#[cfg(feature = "xdd")]
+mod access;
+#[cfg(feature = "xdd")]
+mod device;
+#[cfg(feature = "xdd")]
+mod languages;
+#[cfg(feature = "xdd")]
+mod meaning;
+#[cfg(feature = "xdd")]
+mod objects;
+#[cfg(feature = "xdd")]
+mod parameters;
+#[cfg(feature = "xdd")]
+mod tree;
+#[cfg(feature = "xdd")]
+mod types;
+#[cfg(feature = "xdd")]
+mod words;
+
+#[cfg(feature = "xdd")]
+pub(crate) use languages::Texts;
+#[cfg(feature = "xdd")]
+pub(crate) use words::in_words_of_xdd;
+
+#[cfg(feature = "xdd")]
+use crate::diag::Diagnostics;
+#[cfg(feature = "xdd")]
+use crate::eds::Document;
+#[cfg(feature = "xdd")]
+use crate::source::FileId;
+
+/// Whether a text is an XDD or XDC: by the name of its file or, where that says nothing, by its first character.
+pub fn is_xdd(name: &str, text: &str) -> bool {
+    has_xdd_name(name) || (!crate::eds::has_eds_name(name) && text.trim_start().starts_with('<'))
+}
+
+/// Whether a file is named like an XDD or XDC.
+pub fn has_xdd_name(name: &str) -> bool {
+    crate::eds::ends_with(name, ".xdd") || is_xdc(name)
+}
+
+/// Whether a file is named like an XDC.
+pub(crate) fn is_xdc(name: &str) -> bool {
+    crate::eds::ends_with(name, ".xdc")
+}
+
+/// An XDD or XDC in the notation of an EDS.
+#[cfg(feature = "xdd")]
+pub(crate) struct Translated {
+    /// Its sections and keys, with their places in the XML.
+    pub document: Document<'static>,
+    /// Descriptions beyond the one language that a comment has.
+    pub texts: Texts,
+}
+
+/// Translates an XDD or XDC; `None`, with a message, for a text that is none.
+#[cfg(feature = "xdd")]
+pub(crate) fn translate(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<Translated> {
+    let xml = tree::parse(file, text, diagnostics)?;
+    let xml = tree::Tree { xml: &xml, file };
+    let Some(list) = xml.first("CANopenObjectList") else {
+        tree::say_that_it_is_none(xml, diagnostics);
+        return None;
+    };
+    let mut document = Document::translated(file);
+    let parameters = parameters::Parameters::of(xml);
+    device::write(&mut document, xml, &parameters);
+    let mut texts = Texts::of(xml);
+    objects::write(&mut document, xml, list, &parameters, &mut texts, diagnostics);
+    tree::say_what_is_left_out(xml, diagnostics);
+    Some(Translated { document, texts })
+}
+
+#[cfg(all(test, not(feature = "xdd")))]
+mod tests {
+    use crate::source::SourceMap;
+    use crate::{NoFiles, compile};
+
+    #[test]
+    fn without_a_reader_it_is_told_what_the_file_is() {
+        let mut sources = SourceMap::new();
+        let root = sources.add("tank.xdd", "<ISO15745ProfileContainer/>");
+        let compiled = compile(&mut sources, root, &mut NoFiles);
+        assert!(compiled.system.is_none());
+        let said: Vec<&str> = compiled.diagnostics.iter().map(|one| one.message.as_str()).collect();
+        assert_eq!(said, ["`tank.xdd` is an XDD, which this program was built without a reader for"]);
+    }
+}
