@@ -248,6 +248,12 @@ fn a_parameter_file_gives_what_settings_give() {
     let section = dcf("a.dcf").replace("\r\n", "\n");
     let section = section.split("\n\n").find(|section| section.contains("[2002]")).unwrap().to_owned();
     assert_snapshot!("section_of_an_unlocked_entry", section);
+    // In an XDC, too.
+    assert_eq!(run(&["--params", "oven.yaml", "--xdc", "--out", "d.dcf"]).0, 0);
+    let xdc = fs::read_to_string(scratch.0.join("d.xdc")).unwrap();
+    let element = xdc.lines().find(|line| line.contains("index=\"2002\"")).unwrap();
+    assert!(element.contains("accessType=\"rw\"") && element.contains("actualValue=\"101\""), "{element}");
+    assert!(xdc.contains("LOCKED PARAMETER"), "{xdc}");
     let eds = odgen(&scratch.0, &["check", "a.dcf"]);
     assert!(
         eds.status.code().unwrap_or(1) == 0 && stderr(&eds).contains("nothing found"),
