@@ -1,17 +1,15 @@
 //! Tables over the whole system: what a manual has no place for, or scatters.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use od_spec::model::{
-    Constraint, Devices, Dictionary, Entry, EntryId, ErratumPlace, Role, Storage, SubIndex, Unit,
-};
+use od_spec::model::{Devices, Dictionary, Entry, EntryId, ErratumPlace, Role, Storage, SubIndex, Unit};
 
 use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
 use crate::tables::overview::among;
-use crate::view::{Align, Appendix, Cell, ErratumView, Row, Table};
+use crate::view::{Appendix, Cell, DeviceView, ErratumView, Row, Table};
 
 /// An appendix before its words are chosen.
 struct Part {
@@ -22,6 +20,21 @@ struct Part {
     /// What it shows.
     intro: Vec<Word>,
     tables: Vec<Table>,
+}
+
+/// Gives every appendix its letter, which those of a device share with those of the system.
+pub(crate) fn letter(appendices: &mut [Appendix], devices: &mut [DeviceView], word: &str) {
+    let letters: BTreeMap<&str, String> = appendices
+        .iter()
+        .zip('A'..='Z')
+        .map(|(appendix, letter)| (appendix.page, letter.to_string()))
+        .collect();
+    let of_devices = devices.iter_mut().flat_map(|device| &mut device.appendices);
+    for appendix in appendices.iter_mut().chain(of_devices) {
+        let Some(letter) = letters.get(appendix.page) else { continue };
+        appendix.title = format!("{word} {letter}: {}", appendix.title);
+        appendix.letter.clone_from(letter);
+    }
 }
 
 impl Source<'_> {
@@ -47,9 +60,13 @@ impl Source<'_> {
 
     /// Those that a device's page shows for its device.
     pub(crate) fn device_appendices(&self) -> Vec<Appendix> {
-        let errors = Table::unnumbered("errors-all", "errors", Cell::default(), vec![self.error_reference()]);
         self.shown([
-            Part { page: "errors", title: Word::ErrorCodes, intro: Vec::new(), tables: vec![errors] },
+            Part {
+                page: "errors",
+                title: Word::ErrorCodes,
+                intro: vec![Word::ErrorsIntro],
+                tables: self.error_tables(),
+            },
             Part {
                 page: "aliases",
                 title: Word::Aliases,
@@ -78,12 +95,28 @@ impl Source<'_> {
         ])
     }
 
+    /// What holds for every error, and what for each.
+    fn error_tables(&self) -> Vec<Table> {
+        let title = Cell::plain(self.word(Word::EveryError));
+        let any = Table::unnumbered("errors-any", "any-error", title, vec![self.any_error()]);
+        let list = self.error_reference();
+        let unsaid = self.unsaid_of_errors(&list);
+        let about = if unsaid.is_empty() {
+            Cell::default()
+        } else {
+            Cell::plain(self.word(Word::ErrorsUnsaid).replace("{n}", &unsaid))
+        };
+        let all = Table::unnumbered("errors-all", "errors", Cell::default(), vec![list]);
+        vec![any, Table { about, ..all }]
+    }
+
     /// The appendices in words, without tables that have no rows and appendices that have no tables.
     fn shown<const N: usize>(&self, parts: [Part; N]) -> Vec<Appendix> {
         parts
             .into_iter()
             .map(|part| Appendix {
                 page: part.page,
+                letter: String::new(),
                 title: self.word(part.title).to_owned(),
                 intro: self.linked(&Devices::All, &self.sentences(&part.intro), ""),
                 tables: part
@@ -251,43 +284,6 @@ impl Source<'_> {
         tables
     }
 
-    fn constraints(&self) -> Vec<Table> {
-        let tables = self.shown_constraints().map(|constraint| {
-            let mut rows = vec![(Word::Condition, self.condition(&constraint.require, &constraint.devices))];
-            if let Some(when) = &constraint.when {
-                rows.push((Word::OnlyThere, self.condition(when, &constraint.devices)));
-            }
-            if self.system.devices.len() > 1 {
-                let devices = match &constraint.devices {
-                    Devices::All => self.word(Word::All).to_owned(),
-                    Devices::Only(keys) => {
-                        keys.iter().map(|key| key.to_uppercase()).collect::<Vec<_>>().join(", ")
-                    }
-                };
-                rows.push((Word::On, Cell::plain(devices)));
-            }
-            rows.push((Word::Because, self.text(&constraint.about)));
-            let rows = rows
-                .into_iter()
-                .filter(|(_, cell)| !cell.is_empty())
-                .map(|(word, cell)| Row::of(vec![Cell::plain(self.word(word)), cell]));
-            let grid = Columns::new()
-                .left(self, "name", Word::Constraint)
-                .with("value", constraint.name.clone(), Align::Left)
-                .full(rows.collect());
-            Table {
-                ladder: self.ladder(constraint),
-                ..Table::unnumbered(
-                    self.constraint_anchor(constraint),
-                    "constraint",
-                    Cell::default(),
-                    vec![grid],
-                )
-            }
-        });
-        tables.collect()
-    }
-
     /// States, transitions and commands of every machine.
     fn machines(&self) -> Vec<Table> {
         let mut tables = Vec::new();
@@ -306,11 +302,6 @@ impl Source<'_> {
             }
         }
         tables
-    }
-
-    /// Where links to a constraint lead.
-    pub(crate) fn constraint_anchor(&self, constraint: &Constraint) -> String {
-        format!("constraint-{}", self.constraint_part(&constraint.name))
     }
 
     /// One erratum.

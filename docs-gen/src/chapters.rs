@@ -28,7 +28,7 @@ impl Source<'_> {
                     title: Cell::words(&section.title, self.language),
                     anchor: section_anchor(self.document(), plan.position),
                     level: plan.level,
-                    content: self.content(section, tables, &self.told_of(chapter, at)),
+                    content: self.content(plan.position, tables, &self.told_of(chapter, at)),
                     tables: tables.iter().flatten().cloned().collect(),
                 });
             }
@@ -72,18 +72,25 @@ impl Source<'_> {
     }
 
     /// What stands in a section, without the tables that are not shown.
-    fn content(&self, section: &model::Section, tables: &[Option<Table>], devices: &Devices) -> Vec<Content> {
+    fn content(&self, section: usize, tables: &[Option<Table>], devices: &Devices) -> Vec<Content> {
+        let mut warnings = 1..;
         let mut shown = 0..;
         let positions: Vec<Option<usize>> =
             tables.iter().map(|table| table.is_some().then(|| shown.next()).flatten()).collect();
-        let of_part = |part: &model::Content| match part {
+        let mut of_part = |part: &model::Content| match part {
             model::Content::Table(table) => {
                 let position = positions.get(*table).copied().flatten()?;
-                Some(Content { kind: "table", table: Some(position), items: Vec::new() })
+                let anchor = String::new();
+                Some(Content { kind: "table", table: Some(position), items: Vec::new(), anchor })
             }
-            model::Content::Prose(prose) => Some(self.prose(prose, devices)),
+            model::Content::Prose(prose) => {
+                let number = (prose.kind == ProseKind::Warning).then(|| warnings.next()).flatten();
+                let anchor = number
+                    .map(|number| format!("{}-warning-{number}", section_anchor(self.document(), section)));
+                Some(Content { anchor: anchor.unwrap_or_default(), ..self.prose(prose, devices) })
+            }
         };
-        section.content.iter().filter_map(of_part).collect()
+        self.document().sections[section].content.iter().filter_map(&mut of_part).collect()
     }
 
     fn prose(&self, prose: &Prose, devices: &Devices) -> Content {
@@ -94,7 +101,7 @@ impl Source<'_> {
                 items.flat_map(|text| self.lines(text, devices)).collect()
             }
         };
-        Content { kind: prose.kind.word(), table: None, items }
+        Content { kind: prose.kind.word(), table: None, items, anchor: String::new() }
     }
 
     /// The lines of a text in the language of the document, or else in its first one.

@@ -35,8 +35,8 @@ words! {
         "/ search, ↓ ↑ results, Enter best result, Esc clear",
         "/ Suche, ↓ ↑ Treffer, Enter bester Treffer, Esc leeren";
     Shaded "shaded":
-        "Shaded rows are kept over power-off.",
-        "Schattierte Zeilen überdauern das Ausschalten.";
+        "Shaded rows are kept over power-off: their Mem. is Y, or their column Stored says by what.",
+        "Schattierte Zeilen überdauern das Ausschalten: bei ihnen steht Sp. auf Y, oder die Spalte Gespeichert nennt, wodurch.";
     Transitions "transitions": "transitions", "Übergänge";
     States "states": "states", "Zustände";
     Commands "commands": "commands", "Befehle";
@@ -61,6 +61,7 @@ words! {
     AllBits "all_bits": "all bits", "alle Bits";
     AllTables "all_tables": "Index of tables", "Verzeichnis der Tabellen";
     BaseUnit "base_unit": "Base unit", "Basiseinheit";
+    Appendix "appendix": "Appendix", "Anhang";
     Because "because": "Why", "Begründung";
     Before "before": "Before", "Vorher";
     Bit "bit": "Bit", "Bit";
@@ -104,6 +105,11 @@ words! {
     Erratum "erratum": "Erratum", "Erratum";
     ErrorCodes "error_codes": "Error codes", "Fehlercodes";
     Errors "errors": "Errors", "Fehler";
+    ErrorsIntro "errors_intro":
+        "From a code to its cause, to what the device does, to the bits that show it and to what resets it. A field that is empty is not stated.",
+        "Von einem Code zur Ursache, zu dem, was das Gerät tut, zu den Bits, die ihn anzeigen, und zu dem, was ihn zurücksetzt. Was in einem leeren Feld stünde, ist nicht angegeben.";
+    ErrorsUnsaid "errors_unsaid": "Not stated for any single code: {n}.", "Für keinen einzelnen Code angegeben: {n}.";
+    EveryError "every_error": "What holds for every error", "Was für jeden Fehler gilt";
     Event "event": "Event", "Ereignis";
     EventTimer "event_timer": "Event timer", "Event-Timer";
     Facts "facts": "Device", "Gerät";
@@ -146,6 +152,7 @@ words! {
         "Nothing fits. Escape clears the search.",
         "Nichts passt. Esc leert die Suche.";
     Notation "notation": "Notation", "Schreibweise";
+    NotStated "not_stated": "not stated", "nicht angegeben";
     NotSupported "not_supported": "not supported", "nicht unterstützt";
     Number "number": "No.", "Nr.";
     Offset "offset": "Offset", "Offset";
@@ -185,6 +192,7 @@ words! {
         "Alle Objekte des Geräts, auch die des Kommunikationsprofils und der PDOs.";
     Relation "relation": "", "";
     ReportedBy "reported_by": "Shown by", "Angezeigt von";
+    ResetBy "reset_by": "Reset by", "Zurückgesetzt durch";
     Reserved "reserved": "reserved", "reserviert";
     Revision "revision": "Issue", "Ausgabe";
     Search "search": "Search", "Suche";
@@ -247,6 +255,10 @@ words! {
     Values "values": "Values", "Werte";
     Vendor "vendor": "Vendor", "Hersteller";
     Warning "warning": "Warning", "Warnung";
+    Warnings "warnings": "Warnings", "Warnungen";
+    WarningsIntro "warnings_intro":
+        "Every warning of this manual, with the place where it stands: first those of the chapters, then those of the objects. Read them before commissioning; each counts together with what stands around it.",
+        "Alle Warnungen dieses Handbuchs mit der Stelle, an der sie stehen: zuerst die der Kapitel, dann die der Objekte. Vor der Inbetriebnahme lesen; jede gilt zusammen mit dem, was um sie herum steht.";
     WritableWhen "writable_when": "Writable while", "Schreibbar, solange";
     Yes "yes": "yes", "ja";
 }

@@ -23,6 +23,7 @@ mod tables;
 mod templates;
 mod uses;
 pub mod view;
+mod warnings;
 
 use od_spec::model::System;
 
@@ -38,6 +39,11 @@ pub fn context(system: &System, options: &Options) -> Context {
     let source = source::Source::new(system, options);
     let document = source.document();
     let issue = document.revision.as_ref();
+    let mut devices: Vec<view::DeviceView> =
+        source.devices.iter().map(|device| source.only(device).device(device)).collect();
+    let mut appendices = source.appendices();
+    appendix::letter(&mut appendices, &mut devices, source.word(language::Word::Appendix));
+    let chapters = source.chapter_views();
     Context {
         format: view::FORMAT,
         language: source.language.code.to_owned(),
@@ -52,9 +58,10 @@ pub fn context(system: &System, options: &Options) -> Context {
             revision: issue.map_or_else(String::new, |issue| issue.number.clone()),
             date: issue.map_or_else(String::new, |issue| source.wording.language.date(issue.date)),
         },
-        devices: source.devices.iter().map(|device| source.only(device).device(device)).collect(),
-        chapters: source.chapter_views(),
-        appendices: source.appendices(),
+        devices,
+        warnings: source.warnings(&chapters),
+        chapters,
+        appendices,
     }
 }
 

@@ -15,6 +15,7 @@ use crate::indices::{self, Written};
 use crate::language::{Language, Word};
 use crate::options::Options;
 use crate::outline::Outline;
+use crate::tables::constraints::title;
 use crate::view::{Cell, Target};
 
 /// What would otherwise be searched for again and again.
@@ -167,7 +168,7 @@ impl<'a> Source<'a> {
         let mut lookup = Lookup {
             units: anchors(self.system.units.keys()),
             machines: anchors(self.system.machines.keys()),
-            constraints: anchors(self.system.constraints.iter().map(|constraint| &constraint.name)),
+            constraints: anchors(self.system.constraints.iter().map(title).collect::<Vec<_>>().iter()),
             ..Lookup::default()
         };
         lookup.standard_names = self.devices.iter().flat_map(|device| standard_names(device)).collect();

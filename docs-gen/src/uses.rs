@@ -9,7 +9,7 @@ use od_spec::model::{
 
 use crate::language::Word;
 use crate::source::Source;
-use crate::tables::pdos;
+use crate::tables::{constraints, pdos};
 use crate::view::{Cell, Used};
 
 /// What refers to each object of a device, worked out once.
@@ -72,7 +72,7 @@ impl Uses {
             for operand in conditions.flat_map(Expr::entries) {
                 if operand.device.as_ref().map_or(applies, |key| *key == device.key) {
                     let anchor = source.constraint_anchor(constraint);
-                    let line = Cell::default().link(&constraint.name, anchor, "constraints");
+                    let line = Cell::default().link(constraints::title(constraint), anchor, "constraints");
                     self.add(operand.id, "constraints", source.word(Word::Constraints), line);
                 }
             }

@@ -30,6 +30,8 @@ pub struct Context {
     pub devices: Vec<DeviceView>,
     /// Chapters of the manual with their sections and tables.
     pub chapters: Vec<Chapter>,
+    /// Every warning with its places: of the chapters, then of the objects; nothing where there are none.
+    pub warnings: Option<Table>,
     /// Tables over the whole system: error codes, aliases, units, storage, constraints, errata, index of tables.
     pub appendices: Vec<Appendix>,
 }
@@ -90,6 +92,8 @@ pub struct Content {
     pub table: Option<usize>,
     /// Paragraphs, formulas or the items of a list.
     pub items: Vec<Cell>,
+    /// Where links to a warning lead; empty for anything else.
+    pub anchor: String,
 }
 
 /// A table, or several grids under one caption.
@@ -704,7 +708,9 @@ pub struct Rung {
 pub struct Appendix {
     /// `errors`, `aliases`, `units`, `storage`, `constraints`, `errata`, `tables`; also the name of its page.
     pub page: &'static str,
-    /// Heading.
+    /// Its letter, the same on every page.
+    pub letter: String,
+    /// Heading, with the letter.
     pub title: String,
     /// What it shows.
     pub intro: Cell,

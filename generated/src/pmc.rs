@@ -6754,6 +6754,10 @@ pub mod machines {
 }
 
 /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
+/// What holds for every error:
+/// - Shown by: bit 3 of 6041h for a fault, bit 7 of 6041h for a warning; the code in 603Fh
+/// - Reaction: The watchdog contact opens.
+/// - Reset by: bit 7 of 6040h from 0 to 1 once no error is pending
 #[allow(dead_code, unreachable_pub)]
 pub mod errors {
     /// No error.

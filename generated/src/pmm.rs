@@ -6431,6 +6431,9 @@ pub mod specials {
 }
 
 /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
+/// What holds for every error:
+/// - Shown by: bit 2 of 3000h for a fault, bit 1 of 3000h for a warning; the code in 603Fh
+/// - Reset by: bit 7 of 3040h from 0 to 1, or an NMT reset command
 #[allow(dead_code, unreachable_pub)]
 pub mod errors {
     /// No error.

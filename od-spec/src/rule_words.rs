@@ -13,7 +13,7 @@ use crate::rule_examples;
 use crate::source::SourceMap;
 
 /// Keys of the language. As a word alone, most are words of any language; a key is told by its colon.
-const CHAPTERS: [&Keys; 29] = [
+const CHAPTERS: [&Keys; 30] = [
     &keys::ALLOWED,
     &keys::CONSTRAINT,
     &keys::DEVICE,
@@ -22,6 +22,7 @@ const CHAPTERS: [&Keys; 29] = [
     &keys::ENTRY,
     &keys::SPECIAL,
     &keys::ERROR,
+    &keys::ANY_ERROR,
     &keys::REVISION,
     &keys::SOURCE,
     &keys::SPEC,

@@ -4,7 +4,8 @@
     run.py DOCS...
 
 DOCS are directories with `manual.html` and `context.json`. WeasyPrint makes `manual.pdf` beside them, pdftotext reads it, and all that the
-context says has to stand there: titles on the page that the contents name, captions beside what they name, cells, texts, warnings. WeasyPrint is
+context says has to stand there: titles on the page that the contents name, captions beside what they name, cells, texts, warnings. What lies
+where on its pages (`layout.py`) has to be readable: no small print, no heading at the foot of a page, no warning overleaf. WeasyPrint is
 installed below target/print. Needs Python with venv, Pango, and pdftotext of poppler-utils. Exit code 0: the manuals are as they must be; 1:
 they are not; 3: a program is missing or pip could not install, nothing was checked.
 """
@@ -20,6 +21,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+# The smallest letters that are read without effort, in points.
+SMALLEST = 7.0
 CACHE = HERE.parent.parent / "target" / "print"
 
 
@@ -40,7 +43,7 @@ def install() -> list[str]:
         if subprocess.run(pip, check=False).returncode != 0:
             raise Missing("pip could not install WeasyPrint")
         stamp.write_text(digest)
-    return [str(python), "-m", "weasyprint"]
+    return [str(python), str(HERE / "layout.py")]
 
 
 def squeezed(text: str) -> str:
@@ -59,6 +62,7 @@ class Manual:
         made = subprocess.run(
             [*weasyprint, str(docs / "manual.html"), str(pdf)], check=False, capture_output=True, text=True
         )
+        self.layout = [json.loads(line) for line in made.stdout.splitlines()]
         self.check(made.returncode == 0, f"WeasyPrint: {made.stderr[-500:]}")
         for line in sorted({line for line in made.stderr.splitlines() if "ERROR" in line}):
             self.check(False, line)
@@ -91,6 +95,10 @@ class Manual:
             return
         self.numbers_of_pages()
         self.contents()
+        self.breaks()
+        self.tables_in_two()
+        self.small_print()
+        self.warnings()
         for chapter in self.context["chapters"]:
             for section in chapter["sections"]:
                 self.section(section)
@@ -143,6 +151,62 @@ class Manual:
             self.check(bool(pages), f"not in the contents: {title}")
             if pages:
                 self.check(any(words in self.raw[page - 1] for page in pages), f"not on page {pages}: {title}")
+
+    def breaks(self) -> None:
+        """No heading is the last thing of a page, no warning the first, and no page within a chapter is mostly empty."""
+        following = [page["chapter"] for page in self.layout[1:]] + [True]
+        overleaf = [page["blocks"][:1] for page in self.layout[1:]] + [[]]
+        for number, (page, is_last, behind) in enumerate(zip(self.layout, following, overleaf), start=1):
+            blocks = page["blocks"]
+            if blocks:
+                last, first = blocks[-1], blocks[0]
+                # A section may have nothing but its title.
+                is_empty = is_last or any(one.get("level", 9) <= last.get("level", 0) for one in behind)
+                self.check(is_empty or last["kind"] not in ("heading", "caption"), f"page {number} ends with: {last['text'][:80]}")
+                self.check(first["kind"] != "warning", f"page {number} begins with the warning: {first['text'][:80]}")
+            share = page["bottom"] / page["height"]
+            self.check(is_last or share > 1 / 3, f"page {number} is used to {share:.0%} only")
+
+    def tables_in_two(self) -> None:
+        """Of a table that goes on overleaf, no single row of usual height stands alone."""
+        parts: dict[int, list[tuple[int, dict]]] = {}
+        for number, page in enumerate(self.layout, start=1):
+            for table in page["tables"]:
+                parts.setdefault(table["element"], []).append((number, table))
+        for table in parts.values():
+            for number, part in table if len(table) > 1 else []:
+                heights = part["heights"]
+                is_high = sum(heights) > self.layout[number - 1]["height"] / 5
+                self.check(len(heights) > 1 or is_high, f"page {number} has a single row of a table of {part['id']}")
+
+    def small_print(self) -> None:
+        for number, page in enumerate(self.layout, start=1):
+            for size, sample in page["sizes"].items():
+                self.check(float(size) >= SMALLEST, f"page {number} has letters of {size} pt: {sample}")
+
+    def warnings(self) -> None:
+        """The overview leads from each warning to the page that it stands on."""
+        if not self.context["warnings"]:
+            return
+        heading = squeezed(self.context["words"]["warnings"] + self.context["words"]["warnings_intro"])
+        first = next((number for number, page in enumerate(self.raw) if heading in page), None)
+        self.check(first is not None, "there is no overview of the warnings")
+        # The overview ends where the first chapter begins.
+        behind = next((at for at in range((first or 0) + 1, len(self.layout)) if self.layout[at]["chapter"]), len(self.raw))
+        overview = "".join(self.raw[first or 0 : behind])
+        for row in self.context["warnings"]["grids"][0]["rows"]:
+            places, warning = (cell["text"] for cell in row["cells"])
+            for place in places.splitlines():
+                # Behind the place stand leading dots and the page.
+                found = re.search(re.escape(squeezed(place)) + r"[.…]*(\d+)", overview)
+                self.check(found is not None, f"not in the overview of the warnings: {place}")
+                if found:
+                    lines = [squeezed(line) for line in warning.splitlines()]
+                    # Digits of the next place may follow those of the page.
+                    pages = [int(found[1][:digits]) for digits in range(1, len(found[1]) + 1)]
+                    pages = [page for page in pages if 0 < page <= len(self.raw)]
+                    stands = any(all(line in self.raw[page - 1] for line in lines) for page in pages)
+                    self.check(stands, f"not on page {found[1]}: the warning of {place}")
 
     def section(self, section: dict) -> None:
         for part in section["content"]:

@@ -1,6 +1,6 @@
 //! Error codes and what the devices do about them.
 
-use od_spec::model::{Dictionary, ErrorCode};
+use od_spec::model::{AnyError, Devices, Dictionary, ErrorCode, Text};
 
 use super::Columns;
 use super::variants::device_keys;
@@ -94,10 +94,11 @@ impl Source<'_> {
                     ..Row::of(vec![
                         Cell::plain(self.error_code(error.code)),
                         Cell::plain(&error.name),
-                        Cell::plain(device_keys(&devices)),
+                        self.devices_cell(&devices),
                         error.priority.as_ref().map_or_else(Cell::default, Cell::plain),
                         self.reaction(error),
                         self.reported_by(error.code),
+                        self.reset(error, &devices),
                         self.text(&error.about),
                     ])
                 }
@@ -110,8 +111,62 @@ impl Source<'_> {
             .center(self, "priority", Word::Priority)
             .left(self, "reaction", Word::Reaction)
             .left(self, "reported_by", Word::ReportedBy)
+            .left(self, "reset", Word::ResetBy)
             .left(self, "description", Word::Description)
             .grid(rows, &["code", "name"])
+    }
+
+    /// What holds for every error, a row for each device that says something about it; what it leaves open is said to be open.
+    pub(crate) fn any_error(&self) -> Grid {
+        let rows =
+            self.devices.iter().filter(|device| device.any_error != AnyError::default()).map(|device| {
+                let on = Devices::one(&device.key);
+                let AnyError { shown, reaction, reset, .. } = &device.any_error;
+                let said = [shown, reaction, reset].map(|text| {
+                    let cell = self.text_on(&on, text);
+                    if cell.is_empty() { Cell::plain(self.word(Word::NotStated)) } else { cell }
+                });
+                Row::of(std::iter::once(self.devices_cell(&[*device])).chain(said).collect())
+            });
+        Columns::new()
+            .left(self, "device", Word::Device)
+            .left(self, "shown", Word::ReportedBy)
+            .left(self, "reaction", Word::Reaction)
+            .left(self, "reset", Word::ResetBy)
+            .grid(rows.collect(), &["shown", "reaction", "reset"])
+    }
+
+    /// The devices of a row; nothing where only one is shown.
+    fn devices_cell(&self, devices: &[&Dictionary]) -> Cell {
+        if self.devices.len() > 1 { Cell::plain(device_keys(devices)) } else { Cell::default() }
+    }
+
+    /// The columns of the list of codes that nobody has said anything for, in words; empty where there are none.
+    pub(crate) fn unsaid_of_errors(&self, list: &Grid) -> String {
+        let columns =
+            [("reaction", Word::Reaction), ("reported_by", Word::ReportedBy), ("reset", Word::ResetBy)];
+        let is_missing = |key: &str| list.columns.iter().all(|column| column.key != key);
+        let missing = columns.into_iter().filter(|(key, _)| is_missing(key));
+        missing.map(|(_, word)| self.word(word)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// What resets an error on these devices; where they differ, each is named.
+    fn reset(&self, error: &ErrorCode, devices: &[&Dictionary]) -> Cell {
+        let mut groups: Vec<(&Text, Vec<&Dictionary>)> = Vec::new();
+        for device in devices {
+            let text = error.reset_on(device);
+            match groups.iter_mut().find(|(other, _)| *other == text) {
+                Some((_, devices)) => devices.push(device),
+                None => groups.push((text, vec![device])),
+            }
+        }
+        let several = groups.len() > 1;
+        groups.iter().filter(|(text, _)| !text.is_empty()).fold(Cell::default(), |cell, (text, devices)| {
+            let keys = devices.iter().map(|device| device.key.clone()).collect();
+            let cell = cell.line();
+            let cell = if several { cell.text(format!("{}: ", device_keys(devices))) } else { cell };
+            cell.and(self.text_on(&Devices::Only(keys), text))
+        })
     }
 
     /// What the devices do, and what entry chooses it.

@@ -1,6 +1,7 @@
 //! From the contents of a table to its columns and rows.
 
 pub(crate) mod bits;
+pub(crate) mod constraints;
 pub(crate) mod errors;
 mod hysteresis;
 mod hysteresis_picture;

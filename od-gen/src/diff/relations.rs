@@ -24,7 +24,8 @@ pub(super) struct Systems<'a> {
 impl Systems<'_> {
     /// What differs beside the objects.
     pub(super) fn relations(self) -> Vec<Change> {
-        let mut changes = self.errors();
+        let mut changes = self.any_error();
+        changes.extend(self.errors());
         changes.extend(self.constraints());
         changes.extend(self.machines());
         changes
@@ -80,9 +81,36 @@ impl Systems<'_> {
         let chosen = |error: &ErrorCode| error.option_code.map(|id| id.to_string());
         let option_code = Change::of(place.clone(), Fact::OptionCode, chosen(before), chosen(after))
             .map(|change| behaves(change, DOES_SOMETHING_ELSE));
+        let reset = self.reset(before, after);
         let about = texts(&place, Fact::About, &before.about, &after.about, language);
-        let found = name.into_iter().chain(priority).chain(reaction).chain(option_code).chain(about);
+        let found = name.into_iter().chain(priority).chain(reaction).chain(option_code);
+        let found = found.chain(reset).chain(about);
         found.map(|change| change.named(&after.name)).collect()
+    }
+
+    /// What resets an error. What is said of every error of a device is compared once, for the device.
+    fn reset(self, before: &ErrorCode, after: &ErrorCode) -> Vec<Change> {
+        if before.reset.is_empty() && after.reset.is_empty() {
+            return Vec::new();
+        }
+        let (old, new) = (before.reset_on(self.devices.old), after.reset_on(self.devices.new));
+        let changes = texts(&Place::Error(after.code), Fact::Reset, old, new, self.devices.language);
+        changes.into_iter().map(|change| behaves(change, RESET_OTHERWISE)).collect()
+    }
+
+    /// What is said of every error of the device.
+    fn any_error(self) -> Vec<Change> {
+        let (old, new) = (&self.devices.old.any_error, &self.devices.new.any_error);
+        let facts = [
+            (Fact::Shown, &old.shown, &new.shown, SHOWN_OTHERWISE),
+            (Fact::Reaction, &old.reaction, &new.reaction, DOES_SOMETHING_ELSE),
+            (Fact::Reset, &old.reset, &new.reset, RESET_OTHERWISE),
+        ];
+        let changes = facts.into_iter().flat_map(|(fact, old, new, because)| {
+            let changes = texts(&Place::Device, fact, old, new, self.devices.language);
+            changes.into_iter().map(move |change| behaves(change.part("any error"), because))
+        });
+        changes.collect()
     }
 
     fn constraints(self) -> Vec<Change> {
@@ -258,6 +286,8 @@ impl Systems<'_> {
 }
 
 const DOES_SOMETHING_ELSE: &str = "the device does something else";
+const RESET_OTHERWISE: &str = "what reset the error before may not do it any more";
+const SHOWN_OTHERWISE: &str = "a program looks for errors elsewhere";
 
 /// A text that says how the device behaves, and so is more than words.
 fn behaves(mut change: Change, because: &'static str) -> Change {

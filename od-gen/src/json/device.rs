@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use od_spec::ascii::in_ascii;
 use od_spec::model::{
-    self, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Real, Value,
+    self, AnyError, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Real,
+    Value,
 };
 use od_spec::wording::{Notation, Wording};
 use serde::{Serialize, Serializer};
@@ -35,6 +36,8 @@ pub(super) struct DeviceView<'a> {
     dummies: Vec<&'static str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     dynamic_channels: Vec<ChannelView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    any_error: Option<AnyErrorView<'a>>,
     file: Json,
     objects: Objects<'a>,
     pdos: Vec<Json>,
@@ -60,6 +63,7 @@ impl<'a> DeviceView<'a> {
             lss: info.lss,
             dummies: info.dummies.iter().map(|data_type| data_type.name()).collect(),
             dynamic_channels: info.dynamic_channels.iter().map(ChannelView::new).collect(),
+            any_error: AnyErrorView::new(&device.any_error),
             file: json!({
                 "description": file.description,
                 "created": date_time(file.created),
@@ -72,6 +76,22 @@ impl<'a> DeviceView<'a> {
             objects: Objects(device),
             pdos: device.pdos.iter().map(pdo_view).collect(),
         }
+    }
+}
+
+#[derive(Serialize)]
+struct AnyErrorView<'a> {
+    shown: Words<'a>,
+    reaction: Words<'a>,
+    reset: Words<'a>,
+}
+
+impl<'a> AnyErrorView<'a> {
+    /// Nothing where the device says nothing.
+    fn new(said: &'a AnyError) -> Option<Self> {
+        let AnyError { shown, reaction, reset, .. } = said;
+        let says_something = [shown, reaction, reset].into_iter().any(|text| !text.is_empty());
+        says_something.then(|| Self { shown: words(shown), reaction: words(reaction), reset: words(reset) })
     }
 }
 

@@ -17,6 +17,8 @@ pub(super) struct ErrorView<'a> {
     priority: Option<&'a str>,
     reaction: Words<'a>,
     option_code: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reset: Option<Words<'a>>,
     about: Words<'a>,
 }
 
@@ -28,6 +30,7 @@ pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
         priority: error.priority.as_deref(),
         reaction: words(&error.reaction),
         option_code: error.option_code.map(entry_id),
+        reset: (!error.reset.is_empty()).then(|| words(&error.reset)),
         about: words(&error.about),
     }
 }
@@ -98,6 +101,8 @@ pub(super) fn machine(machine: &StateMachine) -> MachineView<'_> {
 #[derive(Serialize)]
 pub(super) struct ConstraintView<'a> {
     name: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    series: Option<Json>,
     devices: &'a [String],
     require: &'a str,
     when: Option<&'a str>,
@@ -107,6 +112,7 @@ pub(super) struct ConstraintView<'a> {
 pub(super) fn constraint(constraint: &Constraint) -> ConstraintView<'_> {
     ConstraintView {
         name: &constraint.name,
+        series: constraint.series.as_ref().map(|one| json!({"name": one.name, "n": one.number})),
         devices: constraint.devices.keys(),
         require: &constraint.require.text,
         when: constraint.when.as_ref().map(|when| when.text.as_str()),

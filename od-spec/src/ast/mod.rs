@@ -7,13 +7,13 @@ use std::ops::RangeInclusive;
 
 use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
-    channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys, file_keys,
-    machine_keys, revision_keys, signal_keys, source_keys, state_keys, switch_keys, timing_keys,
+    any_error_keys, channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys,
+    file_keys, machine_keys, revision_keys, signal_keys, source_keys, state_keys, switch_keys, timing_keys,
     timing_step_keys, transition_keys, unit_keys, vendor_keys,
 };
 use crate::model::{
     Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, ProseKind,
-    Ratio, Rounding, SubIndex, Text,
+    Ratio, Rounding, Series, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -175,6 +175,11 @@ pub(crate) struct IndexRange {
 file_keys! { declaration
     #[derive(Debug)]
     FileDecl {}
+}
+
+any_error_keys! { declaration
+    #[derive(Debug)]
+    AnyErrorDecl {}
 }
 
 unit_keys! { declaration
@@ -434,6 +439,8 @@ constraint_keys! { declaration
     #[derive(Debug)]
     ConstraintDecl {
         name: Name,
+        /// The one that it stands in for a number, where it was written once for several.
+        series: Option<Series>,
     }
 }
 

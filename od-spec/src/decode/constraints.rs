@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::ast::{ConditionDecl, ConstraintDecl, Words};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::PLACEHOLDER;
-use crate::model::Text;
+use crate::model::{Series, Text};
 use crate::source::{Span, Spanned};
 
 /// The constraint itself, or one for each of its numbers.
@@ -48,7 +48,7 @@ pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> V
         return Vec::new();
     }
     let numbers = decl.numbers.iter().flat_map(|range| range.value.first..=range.value.last);
-    numbers.map(|number| of_number(&decl, &number.to_string())).collect()
+    numbers.map(|number| of_number(&decl, number.into())).collect()
 }
 
 /// Leaves out constraints whose name another one has, which numbers may have given it.
@@ -80,8 +80,9 @@ pub(super) fn of_distinct_names(
 }
 
 /// The constraint for one number.
-fn of_number(decl: &ConstraintDecl, number: &str) -> ConstraintDecl {
-    let said = |text: &str| text.replace(PLACEHOLDER, number);
+fn of_number(decl: &ConstraintDecl, number: u32) -> ConstraintDecl {
+    let digits = number.to_string();
+    let said = |text: &str| text.replace(PLACEHOLDER, &digits);
     let condition = |condition: &Option<Spanned<ConditionDecl>>| {
         let condition = condition.as_ref()?;
         let of_number = match &condition.value {
@@ -97,6 +98,7 @@ fn of_number(decl: &ConstraintDecl, number: &str) -> ConstraintDecl {
     let about: &Words = &decl.about;
     ConstraintDecl {
         name: Spanned::new(said(&decl.name.value), decl.name.span),
+        series: Some(Series { name: decl.name.value.clone(), number }),
         devices: decl.devices.clone(),
         require: condition(&decl.require),
         when: condition(&decl.when),

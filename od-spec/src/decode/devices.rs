@@ -5,15 +5,18 @@ use std::collections::BTreeMap;
 use super::lexical;
 use super::numbered::twice;
 use super::read::{Field, FromNode, Reader, owned, reader};
-use crate::ast::{ChannelDecl, ChannelNumber, DeviceDecl, FeatureChoice, FileDecl, IndexRange, Name};
+use crate::ast::{
+    AnyErrorDecl, ChannelDecl, ChannelNumber, DeviceDecl, FeatureChoice, FileDecl, IndexRange, Name,
+};
 use crate::diag::{Diagnostics, codes};
-use crate::keys::{CHANNELS, channel_keys, device_keys, file_keys};
+use crate::keys::{CHANNELS, any_error_keys, channel_keys, device_keys, file_keys};
 use crate::model::Index;
 use crate::scalar;
 use crate::source::Spanned;
 
 device_keys! { reader pub(super) fn device(key: Name) -> DeviceDecl }
 file_keys! { reader fn file() -> FileDecl }
+any_error_keys! { reader fn any_error() -> AnyErrorDecl }
 channel_keys! { reader fn channel(range: Spanned<IndexRange>) -> ChannelDecl }
 
 impl FromNode for FeatureChoice {
@@ -32,6 +35,12 @@ impl FromNode for FeatureChoice {
 impl Field for Option<FileDecl> {
     fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
         reader.child(key).map(|child| file(child, diagnostics))
+    }
+}
+
+impl Field for Option<AnyErrorDecl> {
+    fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self {
+        reader.child(key).map(|child| any_error(child, diagnostics))
     }
 }
 

@@ -17,13 +17,13 @@ use crate::ast::{
 };
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::keys::{self, constraint_keys, error_keys, vendor_keys};
-use crate::model::{Direction, Index};
+use crate::model::{Direction, Index, Series};
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
 vendor_keys! { reader fn vendor() -> VendorDecl }
-constraint_keys! { reader fn constraint(name: Name) -> ConstraintDecl }
+constraint_keys! { reader fn constraint(name: Name, series: Option<Series>) -> ConstraintDecl }
 error_keys! { reader fn written_error(codes: Spanned<CodeRange>, unsure: bool) -> ErrorDecl }
 
 pub(super) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics) -> Spec {
@@ -142,7 +142,7 @@ fn axes(key: Span, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Axes>
 
 fn constraints(top: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<ConstraintDecl> {
     let written = top.entries("constraints").flat_map(|(name, r)| {
-        let decl = constraint(owned(name), r, diagnostics);
+        let decl = constraint(owned(name), None, r, diagnostics);
         // Numbers that cannot be read were reported.
         let is_broken = r.child("n").is_some() && decl.numbers.is_empty();
         if is_broken { Vec::new() } else { constraints::numbered(decl, diagnostics) }

@@ -1,5 +1,6 @@
 //! Devices.
 
+use super::errors::ANY_ERROR;
 use super::shape::{Key, KeyKind, Keys, Shape, U8, U32};
 use super::table::keys;
 
@@ -22,6 +23,7 @@ macro_rules! device_keys {
             "dummies": Shape::List(&Shape::Text) => dummies: Vec<Name>, "data types that may stand in an RPDO as placeholders", "[unsigned8, unsigned16]";
             "dynamic-channels": Shape::MapOf(KeyKind::Indices, &Shape::Map(&CHANNEL)) => dynamic_channels: Vec<ChannelDecl>, "indices at which a PLC may create network variables", "{0xA080..0xA0BF: {type: unsigned8, access: ro, offset: 0}}";
             "features": Shape::List(&Shape::Feature) => features: Vec<Spanned<FeatureChoice>>, "features of the used libraries that the device has; one with channels is given their number", "[heartbeat producer, digital inputs: 16]";
+            "any-error": Shape::Map(&ANY_ERROR) => any_error: Option<AnyErrorDecl>, "what holds for every error of the device, said once", "{reset: bit 7 of 6040h from 0 to 1}";
             "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself";
             "eds-defaults": Shape::Choice(&["safe", "own", "all"]) => eds_defaults: Option<Name>, "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `own` withholds also those that only a library states; `all` writes every default; safe unless given";
         } }

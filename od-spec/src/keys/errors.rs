@@ -12,6 +12,7 @@ macro_rules! error_keys {
             "priority": Shape::Text => priority: Option<Name>, "priority, as the manual classes it";
             "reaction": Shape::Words => reaction: Words, "what the device does";
             "option-code": Shape::Entry => option_code: Option<Name>, "entry whose value chooses the reaction", "0x605E";
+            "reset": Shape::Words => reset: Words, "what resets it; what the device's `any-error` says unless given", "switch the device off and on";
             "about": Shape::Words => about: Words, "more about it";
         } }
     };
@@ -21,4 +22,20 @@ pub(crate) use error_keys;
 error_keys! { keys
     /// An error code.
     ERROR = "an error code"
+}
+
+macro_rules! any_error_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "shown": Shape::Words => shown: Words, "what shows that there is an error", "bit 3 of 6041h";
+            "reaction": Shape::Words => reaction: Words, "what the device does, whatever the error is";
+            "reset": Shape::Words => reset: Words, "what resets an error; one with a `reset` of its own, and 0x0000, are left out", "bit 7 of 6040h from 0 to 1";
+        } }
+    };
+}
+pub(crate) use any_error_keys;
+
+any_error_keys! { keys
+    /// `any-error:` of a device.
+    ANY_ERROR = "an error rule"
 }

@@ -21,6 +21,8 @@ pub struct Dictionary {
     pub file: FileInfo,
     /// Description.
     pub about: Text,
+    /// What holds for every error of the device.
+    pub any_error: AnyError,
     /// Objects by index.
     pub objects: BTreeMap<Index, Object>,
     /// PDOs, RPDOs first, by number.
@@ -29,6 +31,18 @@ pub struct Dictionary {
     pub facts: Facts,
     /// Where the device is defined.
     pub span: Span,
+}
+
+/// What holds for every error of a device, whatever its code; empty where nothing is said.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AnyError {
+    /// What shows that there is an error.
+    pub shown: Text,
+    /// What the device does.
+    pub reaction: Text,
+    /// What resets an error that says nothing of its own about that.
+    pub reset: Text,
 }
 
 impl Dictionary {

@@ -107,6 +107,10 @@ facts! {
     Requirement = "require",
     /// What the device does on an error.
     Reaction = "reaction",
+    /// What shows an error.
+    Shown = "shown",
+    /// What resets an error.
+    Reset = "reset",
     /// What entry chooses the reaction to an error.
     OptionCode = "option-code",
     /// How urgent an error is.
@@ -168,6 +172,8 @@ impl Fact {
             | Self::Alias
             | Self::Requirement
             | Self::Reaction
+            | Self::Shown
+            | Self::Reset
             | Self::OptionCode
             | Self::Priority
             | Self::Languages

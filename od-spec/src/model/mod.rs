@@ -34,7 +34,7 @@ pub(crate) use arranged::{Course, Stuck};
 pub use condition::{
     ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Incomputable, Outcome, Term, Values,
 };
-pub use device::{Date, DateTime, DeviceInfo, Dictionary, FileInfo};
+pub use device::{AnyError, Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Issue, LadderTable, PdoTable, Prose,
     ProseKind, Section, Table, TableContent, TableId,
@@ -168,8 +168,31 @@ pub struct ErrorCode {
     pub reaction: Text,
     /// The entry whose value chooses the reaction (CiA 402: 605Eh and its like).
     pub option_code: Option<EntryId>,
+    /// What resets it, where that is not what resets every error of a device; see [`ErrorCode::reset_on`].
+    pub reset: Text,
     /// More about it.
     pub about: Text,
+}
+
+impl ErrorCode {
+    /// The code for "no error".
+    pub const NONE: u16 = 0x0000;
+
+    /// What resets the error on a device: what it says itself, or else what the device says of every error. Empty where nobody
+    /// says it, and for the code that means that there is no error.
+    pub fn reset_on<'a>(&'a self, device: &'a Dictionary) -> &'a Text {
+        if self.reset.is_empty() && self.code != Self::NONE { &device.any_error.reset } else { &self.reset }
+    }
+}
+
+/// What a constraint has in common with others that were written with it, as one for several numbers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Series {
+    /// The name that they share, with `{n}` for the number.
+    pub name: String,
+    /// The number of this one.
+    pub number: u32,
 }
 
 /// A condition between entries that every configuration must meet.
@@ -178,6 +201,8 @@ pub struct ErrorCode {
 pub struct Constraint {
     /// Name.
     pub name: String,
+    /// The series that it belongs to, where one condition was written for several numbers.
+    pub series: Option<Series>,
     /// Why.
     pub about: Text,
     /// The condition.

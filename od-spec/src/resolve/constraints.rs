@@ -330,6 +330,7 @@ fn constraint<'d>(
         if with_all_entries.is_empty() { vec![devices.devices.first()?] } else { with_all_entries };
     Some(Constraint {
         name: decl.name.value.clone(),
+        series: decl.series.clone(),
         about: words(&decl.about),
         require: require.value.clone(),
         when: when.map(|when| when.value.clone()),

@@ -2,10 +2,11 @@
 
 use super::numbers::{to_u8, to_u16, to_u32};
 use super::scope::unknown;
-use crate::ast::{ChannelDecl, DeviceDecl, Name};
+use super::types::words;
+use crate::ast::{AnyErrorDecl, ChannelDecl, DeviceDecl, Name, Words};
 use crate::diag::{Diagnostics, codes};
 use crate::model::{
-    DataType, Date, DateTime, DeviceInfo, DynamicChannel, Fact, Facts, FileInfo, Statement, Vendor,
+    AnyError, DataType, Date, DateTime, DeviceInfo, DynamicChannel, Fact, Facts, FileInfo, Statement, Vendor,
 };
 use crate::source::{Span, Spanned};
 
@@ -28,6 +29,16 @@ pub(super) fn facts(device: &DeviceDecl) -> Facts {
     let written =
         |(fact, span): (Fact, Option<Span>)| Some((fact, Statement::written(span?, device.key.span.file)));
     stated.into_iter().filter_map(written).collect()
+}
+
+/// What holds for every error of the device.
+pub(super) fn any_error(device: &DeviceDecl) -> AnyError {
+    let said = |field: fn(&AnyErrorDecl) -> &Words| device.any_error.as_ref().map(|any| words(field(any)));
+    AnyError {
+        shown: said(|any| &any.shown).unwrap_or_default(),
+        reaction: said(|any| &any.reaction).unwrap_or_default(),
+        reset: said(|any| &any.reset).unwrap_or_default(),
+    }
 }
 
 /// Facts for `[DeviceInfo]`.

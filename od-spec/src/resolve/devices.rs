@@ -16,7 +16,9 @@ use super::{aliases, condition_names, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::{DEVICES, ENTRIES_OF_DEVICE, ENTRIES_OF_FILE, Room};
-use crate::model::{DeviceInfo, Dictionary, Facts, Index, Object, Statement, SubIndex, Text, Value, Vendor};
+use crate::model::{
+    AnyError, DeviceInfo, Dictionary, Facts, Index, Object, Statement, SubIndex, Text, Value, Vendor,
+};
 
 pub(super) fn resolve<'a>(
     root: &'a Spec,
@@ -108,6 +110,7 @@ pub(super) fn resolve<'a>(
                 file: device_info::file(device, vendor),
                 info,
                 about: words(&device.about),
+                any_error: device_info::any_error(device),
                 facts: device_info::facts(device),
                 objects: built.objects,
                 pdos,
@@ -138,6 +141,7 @@ pub(super) fn of_library<'a>(
         info: device_info::none(),
         file: device_info::no_file(),
         about: Text::default(),
+        any_error: AnyError::default(),
         objects,
         pdos: Vec::new(),
         facts: Facts::none(),

@@ -117,6 +117,7 @@ fn error(
         reaction: text(words(&decl.reaction), below.map(|below| words(&below.reaction))),
         // Entries are known when the devices are: `option_codes`.
         option_code: None,
+        reset: text(words(&decl.reset), below.map(|below| words(&below.reset))),
         about: text(words(&decl.about), below.map(|below| words(&below.about))),
     })
 }

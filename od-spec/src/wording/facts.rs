@@ -160,6 +160,8 @@ impl Wording {
                 Fact::PdoCount => "PDOs",
                 Fact::Requirement => "Forderung",
                 Fact::Reaction => "Reaktion",
+                Fact::Shown => "angezeigt durch",
+                Fact::Reset => "Rücksetzen",
                 Fact::OptionCode => "wählt die Reaktion",
                 Fact::Priority => "Priorität",
                 Fact::Languages => "Sprachen",

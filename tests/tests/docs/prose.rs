@@ -1,9 +1,11 @@
 //! Texts of a manual stand between its tables, in the language of the document, and with the devices that they are about.
 
+use std::collections::BTreeSet;
+
 use od_gen::docs::{self, Format, Templates};
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::Diagnostics;
-use od_spec::model::{EntryId, Index, SubIndex};
+use od_spec::model::{EntryId, Index, ProseKind, SubIndex};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 
@@ -69,7 +71,7 @@ fn texts_stand_between_tables() {
             "<p class=\"prose\">Another one.</p>",
             "Before the table of ",
             "id=\"table-1\"",
-            "<div class=\"prose warning\" role=\"note\">\n<p><b>Warning</b></p>\n<p>Behind the table.</p>",
+            "<div class=\"prose warning\" id=\"section-2.1-warning-1\" role=\"note\">\n<p><b>Warning</b></p>\n<p>Behind the table.</p>",
             "<ol class=\"prose\">\n<li>First.</li>\n<li>- Second.</li>\n</ol>",
             "<p class=\"prose formula\">d = e</p>",
         ],
@@ -176,4 +178,80 @@ fn warnings_are_in_the_eds() {
     assert_eq!(warning(0x2002, 0).as_deref(), Some("The axis moves at once."));
     assert_eq!(warning(0x2005, 1).as_deref(), Some("Full power burns."));
     assert_eq!(warning(0x2005, 2), None);
+}
+
+/// The overview has every warning of the model once, with all of its places, and its links lead there.
+#[test]
+fn the_overview_has_every_warning() {
+    for (path, language) in [(super::PITCH, "en"), (super::FULLMO, "de")] {
+        let system = compile_clean(path).unwrap();
+        let context = od_docs_context(&system, language);
+        let rows = context["warnings"]["grids"][0]["rows"].as_array().unwrap();
+        let warnings: Vec<(&str, &str)> = rows
+            .iter()
+            .map(|row| (row["cells"][0]["text"].as_str().unwrap(), row["cells"][1]["text"].as_str().unwrap()))
+            .collect();
+        let mut texts: Vec<&str> = warnings.iter().map(|(_, warning)| *warning).collect();
+        let count = texts.len();
+        texts.sort_unstable();
+        texts.dedup();
+        assert_eq!(texts.len(), count, "{path}: a warning stands twice");
+        let mut expected: BTreeSet<(String, String)> = BTreeSet::new();
+        for device in &system.devices {
+            for (id, object, entry) in device.entries() {
+                let name = device.entry_name(id).unwrap();
+                for (place, text) in [
+                    (format!("{} {}", object.index, object.name), &object.warning),
+                    (format!("{id} {name}"), &entry.warning),
+                ] {
+                    expected.extend(text.get(language).map(|text| (place, text.to_owned())));
+                }
+            }
+        }
+        for section in &system.document.sections {
+            let title = format!("{} {}", section.number, section.title.get(language).unwrap());
+            for part in &section.content {
+                let od_spec::model::Content::Prose(prose) = part else { continue };
+                if prose.kind == ProseKind::Warning {
+                    let items = prose.items.iter().filter_map(|item| item.get(language));
+                    expected.insert((title.trim().to_owned(), items.collect::<Vec<_>>().join("\n")));
+                }
+            }
+        }
+        let found: BTreeSet<(String, String)> = warnings
+            .iter()
+            .flat_map(|(places, warning)| {
+                places.lines().map(|place| (place.to_owned(), (*warning).to_owned()))
+            })
+            .collect();
+        assert_eq!(found, expected, "{path}");
+        assert!(found.len() > 30, "{path}");
+    }
+}
+
+fn od_docs_context(system: &od_spec::model::System, language: &str) -> serde_json::Value {
+    serde_json::from_slice(&docs::dump_context(system, &docs::options(system, &[], Some(language)))).unwrap()
+}
+
+/// A letter is that of the same appendix on every page.
+#[test]
+fn appendices_have_the_same_letter_everywhere() {
+    let system = compile_clean(super::PITCH).unwrap();
+    let context = od_docs_context(&system, "en");
+    let letters = |list: &serde_json::Value| -> Vec<(String, String, String)> {
+        let list = list.as_array().unwrap().iter();
+        let text = |one: &serde_json::Value, key: &str| one[key].as_str().unwrap().to_owned();
+        list.map(|one| (text(one, "page"), text(one, "letter"), text(one, "title"))).collect()
+    };
+    let all = letters(&context["appendices"]);
+    let numbered: Vec<&str> = all.iter().map(|(_, letter, _)| letter.as_str()).collect();
+    assert_eq!(numbered, ["A", "B", "C", "D", "E", "F", "G", "H"]);
+    for (_, letter, title) in &all {
+        assert!(title.starts_with(&format!("Appendix {letter}: ")), "{title}");
+    }
+    for device in context["devices"].as_array().unwrap() {
+        for one in letters(&device["appendices"]) {
+            assert!(all.contains(&one), "{one:?}");
+        }
+    }
 }

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use od_spec::model::{
-    Access, BitUsage, DataType, Dictionary, Direction, Edge, Entry, EntryId, ErratumPlace, Index,
-    LadderTable, Level, ModeMeaning, NamedType, Object, PatternBit, PdoMapping, PdoTarget, Ratio,
-    SignalCarrier, StateMachine, Storage, SubIndex, Switch, SwitchBack, SwitchSide, System, TableContent,
-    Timing, TypeKind, Unit, Value,
+    Access, AnyError, BitUsage, Constraint, DataType, Dictionary, Direction, Edge, Entry, EntryId,
+    ErratumPlace, Index, LadderTable, Level, ModeMeaning, NamedType, Object, PatternBit, PdoMapping,
+    PdoTarget, Ratio, SignalCarrier, StateMachine, Storage, SubIndex, Switch, SwitchBack, SwitchSide, System,
+    TableContent, Text, Timing, TypeKind, Unit, Value,
 };
 use od_tests::compile_clean;
 
@@ -713,20 +713,48 @@ fn constraints_and_error_codes_read_back_as_the_model() {
     let system = compile_clean(PITCH).unwrap();
     let (pages, _) = pages(&system);
     let constraints = &pages["constraints.md"];
-    assert_eq!(constraints.tables.len(), system.constraints.len());
-    for (table, constraint) in constraints.tables.iter().zip(&system.constraints) {
-        assert_eq!(table.columns[1], constraint.name);
+    let name = |constraint: &Constraint| match &constraint.series {
+        Some(series) => series.name.replace("{n}", "n"),
+        None => constraint.name.clone(),
+    };
+    let mut names: Vec<String> = system.constraints.iter().map(name).collect();
+    names.dedup();
+    let titles: Vec<&String> = constraints.tables.iter().map(|table| &table.columns[1]).collect();
+    assert_eq!(titles, names.iter().collect::<Vec<_>>());
+    for constraint in &system.constraints {
+        let table = constraints.tables.iter().find(|table| table.columns[1] == name(constraint)).unwrap();
+        let fact = |title: &str| table.rows.iter().find(|row| row[0] == title).map(|row| row[1].clone());
+        let mut condition = fact("Condition").unwrap();
+        if let Some(series) = &constraint.series {
+            assert_eq!(fact("n").unwrap(), "0 … 11", "{}", constraint.name);
+            assert!(series.number < 12);
+            condition = condition.replace("bit n of", &format!("bit {} of", series.number));
+        }
         for entry in constraint.require.entries() {
-            assert!(
-                table.rows[0][1].contains(&format!("{})", entry.id)),
-                "{}: {}",
-                constraint.name,
-                table.rows[0][1]
-            );
+            assert!(condition.contains(&format!("{})", entry.id)), "{}: {condition}", constraint.name);
+        }
+        for (entry, bit) in constraint.require.operands() {
+            let name = system.devices.iter().find_map(|device| device.entry_name(entry.id)).unwrap();
+            let bit = bit.map_or(String::new(), |bit| format!("bit {bit} of "));
+            assert!(condition.contains(&format!("{bit}{name} (")), "{}: {bit}{name}", constraint.name);
         }
     }
+    let numbers: Vec<u32> =
+        system.constraints.iter().filter_map(|one| Some(one.series.as_ref()?.number)).collect();
+    assert_eq!(numbers, (0..12).collect::<Vec<u32>>());
 
-    let errors = &pages["errors.md"].tables[0];
+    let any = &pages["errors.md"].tables[0];
+    assert_eq!(any.rows.len(), system.devices.len());
+    let said = |text: &Text| flat(text.get("en").unwrap_or_default());
+    for (row, device) in any.rows.iter().zip(&system.devices) {
+        assert_eq!(any.cell(row, "Device"), device.key.to_uppercase());
+        let AnyError { shown, reaction, reset, .. } = &device.any_error;
+        for (title, text) in [("Shown by", shown), ("Reaction", reaction), ("Reset by", reset)] {
+            let expected = if text.is_empty() { "not stated".to_owned() } else { said(text) };
+            assert_eq!(any.cell(row, title), expected, "{}", device.key);
+        }
+    }
+    let errors = &pages["errors.md"].tables[1];
     assert_eq!(errors.rows.len(), system.errors.len());
     for (row, error) in errors.rows.iter().zip(&system.errors) {
         let reporting: BTreeSet<(String, u8)> = entries(&system)
@@ -743,5 +771,17 @@ fn constraints_and_error_codes_read_back_as_the_model() {
             })
             .collect();
         assert_eq!(shown, reporting, "{:04X}h", error.code);
+        let having: Vec<_> =
+            system.devices.iter().filter(|device| error.devices.includes(&device.key)).collect();
+        let resets: Vec<String> = having
+            .iter()
+            .map(|device| {
+                let key =
+                    if having.len() > 1 { format!("{}: ", device.key.to_uppercase()) } else { String::new() };
+                format!("{key}{}", said(&device.any_error.reset))
+            })
+            .filter(|_| error.code != 0)
+            .collect();
+        assert_eq!(errors.cell(row, "Reset by").lines().collect::<Vec<_>>(), resets, "{:04X}h", error.code);
     }
 }

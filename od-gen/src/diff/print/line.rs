@@ -75,6 +75,8 @@ const fn is_prose(fact: Fact) -> bool {
             | Fact::Warning
             | Fact::About
             | Fact::Reaction
+            | Fact::Shown
+            | Fact::Reset
             | Fact::Document
             | Fact::Errata
             | Fact::Eds

@@ -200,8 +200,25 @@ impl Plan<'_> {
             let code = hex(error.code.into(), 4);
             quote!(#about pub const #name: u16 = #code;)
         });
+        let mut about =
+            vec!["Error codes, as emergency messages, `1003h` and `603Fh` carry them.".to_owned()];
+        let of_any = &self.device.any_error;
+        for (word, text) in
+            [("Shown by", &of_any.shown), ("Reaction", &of_any.reaction), ("Reset by", &of_any.reset)]
+        {
+            let text = self.words(text);
+            if !text.is_empty() {
+                about.push(format!("- {word}: {text}"));
+            }
+        }
+        if about.len() > 1 {
+            about.insert(1, "What holds for every error:".to_owned());
+            about.insert(1, String::new());
+            about.insert(3, String::new());
+        }
+        let about = about.iter().map(|line| doc(line));
         quote! {
-            /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
+            #(#about)*
             #[allow(dead_code, unreachable_pub)]
             pub mod errors {
                 #(#constants)*
@@ -219,6 +236,10 @@ impl Plan<'_> {
         }
         if let Some(id) = error.option_code {
             let _ = write!(rest, " {id} chooses the reaction.");
+        }
+        let reset = self.words(&error.reset);
+        if !reset.is_empty() {
+            let _ = write!(rest, " Reset by: {reset}");
         }
         let priority = error.priority.as_ref().map(|priority| format!(" Priority {}.", escape(priority)));
         format!("{}.{rest}{}", escape(error.name.trim_end_matches('.')), priority.unwrap_or_default())

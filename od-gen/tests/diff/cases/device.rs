@@ -51,6 +51,25 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "what holds for every error",
+        at: "  pmc:",
+        find: "      shown: \"bit 3 of 6041h for a fault, bit 7 of 6041h for a warning; the code in 603Fh\"\n      reaction: The watchdog contact opens.\n",
+        replace: "      shown: a lamp\n      reaction: A horn sounds.\n",
+        expected: &[
+            "pmc: ~ device, any error: reaction: The watchdog contact opens. -> A horn sounds. [behaviour]",
+            "pmc: ~ device, any error: shown: bit 3 of 6041h for a fault, bit 7 of 6041h for a warning; th… -> a lamp [behaviour]",
+        ],
+    },
+    Case {
+        name: "what resets every error",
+        at: "  pmc:",
+        find: "once no error is pending\"",
+        replace: "at any time\"",
+        expected: &[
+            "pmc: ~ device, any error: reset: bit 7 of 6040h from 0 to 1 once no error is pending -> bit 7 of 6040h from 0 to 1 at any time [behaviour]",
+        ],
+    },
+    Case {
         name: "the product code",
         at: "  pmm:",
         find: "product: 0\n",

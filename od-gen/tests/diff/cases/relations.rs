@@ -46,6 +46,15 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "an error gets a reset of its own",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage, ",
+        replace: "  0x3120: {name: Grid under voltage, reset: power-off, ",
+        expected: &[
+            "pmm: ~ error 3120h Grid under voltage: reset: bit 7 of 3040h from 0 to 1, or an NMT reset command -> power-off [behaviour]",
+        ],
+    },
+    Case {
         name: "another condition",
         at: "  shutdown after ride-through:",
         find: "0x30E0 < 0x30E1",

@@ -44,6 +44,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
         dummies: dummy_types.map(|data_type| made(data_type.name(), dummies.place)).collect(),
         dynamic_channels: Vec::new(),
         features: Vec::new(),
+        any_error: None,
         eds: Some(file(view)),
         eds_defaults: Some(made("all", start)),
         product_name,

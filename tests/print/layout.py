@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Lay a manual out on paper, and say what lies where.
+
+    layout.py HTML PDF
+
+Runs in the environment of WeasyPrint. Writes the PDF and, to standard output, one JSON object for each page: `height` and `bottom` (of the
+area of the text and of what stands in it), `blocks` (what stands on it, in order: `kind`, `id` of the section or object around it, `text`), `tables`
+(heights of the rows of each on this page, and what is the same table on other pages), `sizes` (of the letters in points, with a sample of each).
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import weasyprint
+
+# CSS counts in pixels, paper in points.
+POINTS = 0.75
+HEADINGS = {"h1", "h2", "h3", "h4", "h5", "h6"}
+# What begins on a page of its own.
+CHAPTERS = ("part level-1", "part appendix", "notation", "warnings", "title", "imprint", "contents")
+
+
+def text_of(box) -> str:
+    return " ".join(part.text for part in descendants(box) if type(part).__name__ == "TextBox").strip()
+
+
+def descendants(box):
+    yield box
+    for child in getattr(box, "children", ()):
+        yield from descendants(child)
+
+
+def class_of(box) -> str:
+    element = getattr(box, "element", None)
+    return element.get("class", "") if element is not None else ""
+
+
+def id_of(box) -> str:
+    element = getattr(box, "element", None)
+    return element.get("id", "") if element is not None else ""
+
+
+def is_chapter(box) -> bool:
+    tag = getattr(box, "element_tag", "")
+    return tag in ("section", "nav") and class_of(box).startswith(CHAPTERS)
+
+
+def block(box, around: str) -> dict | None:
+    """What a box is to a reader, if it is one thing."""
+    kind = type(box).__name__
+    tag = getattr(box, "element_tag", "")
+    if tag in HEADINGS:
+        return {"kind": "heading", "level": int(tag[1]), "id": around, "text": text_of(box)}
+    if "warning" in class_of(box).split() and tag in ("p", "div"):
+        return {"kind": "warning", "id": around, "text": text_of(box)}
+    if tag == "p" and class_of(box) in ("caption", "object-head"):
+        return {"kind": "caption", "id": around, "text": text_of(box)}
+    if tag == "svg" and kind.endswith("ReplacedBox"):
+        return {"kind": "picture", "id": around, "text": ""}
+    if tag == "tr" and kind == "TableRowBox":
+        return {"kind": "row", "id": around, "text": text_of(box)}
+    if tag in ("p", "li") and kind == "BlockBox":
+        return {"kind": "text", "id": around, "text": text_of(box)}
+    return None
+
+
+class Page:
+    """What lies on a page."""
+
+    def __init__(self, page) -> None:
+        box = page._page_box
+        top = box.content_box_y()
+        self.found = {"height": box.height, "bottom": 0.0, "chapter": False, "blocks": [], "tables": [], "sizes": {}}
+        for child in box.children:
+            if type(child).__name__ != "MarginBox":
+                self.walk(child, "", top)
+
+    def walk(self, box, around: str, top: float) -> None:
+        kind = type(box).__name__
+        tag = getattr(box, "element_tag", "")
+        if is_chapter(box) and not self.found["blocks"]:
+            # On the first page of a box its heading is not yet told.
+            first = next((part for part in descendants(box) if getattr(part, "element_tag", "") in HEADINGS | {"p", "table", "li"}), None)
+            self.found["chapter"] = first is not None and (first.element_tag in ("h1", "h2") or class_of(box) in ("imprint", "title"))
+        if tag in ("section", "article") and id_of(box):
+            around = id_of(box)
+        if kind == "TextBox":
+            size = round(box.style["font_size"] * POINTS, 2)
+            self.found["sizes"].setdefault(str(size), box.text[:60])
+        if kind == "LineBox" or kind.endswith("ReplacedBox"):
+            self.found["bottom"] = max(self.found["bottom"], box.position_y + box.height - top)
+        if tag == "svg" and kind.endswith("ReplacedBox") and box.replacement:
+            # The letters of a picture shrink with it: 10 is the smallest that its style knows.
+            natural = float(box.element.get("width"))
+            size = round(10 * box.width / natural * POINTS, 2)
+            self.found["sizes"].setdefault(str(size), f"a picture: {box.element.get('aria-label', '')[:60]}")
+        if tag == "table" and kind == "TableBox":
+            groups = [group for group in box.children if not getattr(group, "is_header", False)]
+            rows = [row for group in groups for row in group.children]
+            heights = [row.height for row in rows]
+            self.found["tables"].append({"id": around, "element": id(box.element), "heights": heights})
+        one = block(box, around)
+        if one:
+            self.found["blocks"].append(one)
+            if one["kind"] != "row":
+                return self.sizes(box, top)
+        for child in getattr(box, "children", ()):
+            self.walk(child, around, top)
+
+    def sizes(self, box, top: float) -> None:
+        for part in descendants(box):
+            kind = type(part).__name__
+            if kind == "TextBox":
+                size = round(part.style["font_size"] * POINTS, 2)
+                self.found["sizes"].setdefault(str(size), part.text[:60])
+            if kind == "LineBox" or kind.endswith("ReplacedBox"):
+                self.found["bottom"] = max(self.found["bottom"], part.position_y + part.height - top)
+
+
+def main() -> None:
+    document = weasyprint.HTML(filename=sys.argv[1]).render()
+    document.write_pdf(sys.argv[2])
+    for page in document.pages:
+        print(json.dumps(Page(page).found))
+
+
+if __name__ == "__main__":
+    main()
