@@ -1,6 +1,8 @@
 //! Sequences of events: a row for each step, and the levels of the signals behind it.
 
-use od_spec::model::{BitField, Dictionary, EntryId, Level, Signal, SignalCarrier, Timing, TypeKind};
+use od_spec::model::{
+    BitField, Dictionary, EntryId, Level, NamedBits, Signal, SignalCarrier, Timing, TypeKind,
+};
 
 use super::Columns;
 use super::timing_picture::{DrawnLevel, DrawnSignal, picture};
@@ -43,7 +45,7 @@ impl Source<'_> {
 
     fn shows_signal(&self, carrier: &SignalCarrier) -> bool {
         match carrier {
-            SignalCarrier::Bits { named_type, .. } => self.shows_type(named_type),
+            SignalCarrier::Bits(bits) => self.shows_type(&bits.named_type),
             SignalCarrier::Entry(id) => self.devices.iter().any(|device| device.entry(*id).is_some()),
         }
     }
@@ -57,12 +59,7 @@ impl Source<'_> {
     /// What the picture shows of a signal.
     fn drawn(&self, signal: &Signal) -> DrawnSignal {
         let (name, place) = match &signal.carrier {
-            SignalCarrier::Bits { named_type, first, last, name } if first == last => {
-                (name.clone(), format!("{named_type}, {} {first}", self.word(Word::Bit)))
-            }
-            SignalCarrier::Bits { named_type, first, last, name } => {
-                (name.clone(), format!("{named_type}, {} {first}..{last}", self.word(Word::Bits)))
-            }
+            SignalCarrier::Bits(bits) => (bits.name.clone(), self.place_of_bits(bits)),
             SignalCarrier::Entry(id) => {
                 let name = self.having_entry(*id).and_then(|device| device.entry_name(*id));
                 (name.unwrap_or_default(), id.to_string())
@@ -75,6 +72,15 @@ impl Source<'_> {
         }
     }
 
+    /// Where bits stand: `controlword, Bit 4`.
+    pub(super) fn place_of_bits(&self, NamedBits { named_type, first, last, .. }: &NamedBits) -> String {
+        if first == last {
+            format!("{named_type}, {} {first}", self.word(Word::Bit))
+        } else {
+            format!("{named_type}, {} {first}..{last}", self.word(Word::Bits))
+        }
+    }
+
     fn level(&self, signal: &Signal, level: &Level) -> DrawnLevel {
         match (level, &signal.carrier) {
             (Level::Any, _) => DrawnLevel::Value("x".to_owned()),
@@ -84,7 +90,7 @@ impl Source<'_> {
                 let shown = entry.map(|entry| self.wording.value(Some(id.index), entry, value));
                 DrawnLevel::Value(shown.unwrap_or_default())
             }
-            (Level::Value(value), SignalCarrier::Bits { named_type, first, last, .. }) => {
+            (Level::Value(value), SignalCarrier::Bits(NamedBits { named_type, first, last, .. })) => {
                 match value.integer() {
                     Some(0) if first == last => DrawnLevel::Low,
                     Some(1) if first == last => DrawnLevel::High,
