@@ -52,7 +52,7 @@ impl Source<'_> {
                 page: "tables",
                 title: Word::AllTables,
                 intro: vec![Word::TablesIntro],
-                tables: vec![self.tables()],
+                tables: vec![self.tables(), self.figures()],
             },
         ]));
         list
@@ -364,8 +364,10 @@ impl Source<'_> {
                 errata = if at == 0 { errata } else { errata.text(", ") };
                 errata = errata.link(number.to_string(), format!("erratum-{number}"), "errata");
             }
+            let figure = printed.figure.as_ref().filter(|figure| figure.anchor == printed.anchor);
             let place = match printed.number {
                 Some(number) => format!("{} {number}", self.word(Word::Table)),
+                None if let Some(figure) = figure => format!("{} {}", self.word(Word::Figure), figure.number),
                 None if printed.section.is_empty() && printed.title.is_empty() => printed.anchor.clone(),
                 None if printed.section.is_empty() => printed.title.text.clone(),
                 None => printed.section.clone(),
@@ -388,5 +390,30 @@ impl Source<'_> {
             .left(self, "errata", Word::DiffersCount)
             .full(rows.collect());
         Table::unnumbered("tables-all", "tables", Cell::default(), vec![grid])
+    }
+
+    /// Every figure of the manual, in order.
+    fn figures(&self) -> Table {
+        let printed = self.printed().into_iter();
+        let rows = printed.filter_map(|printed| {
+            let figure = printed.figure?;
+            let place = format!("{} {}", self.word(Word::Figure), figure.number);
+            Some(Row::of(vec![
+                Cell::plain(figure.number.to_string()),
+                figure.title,
+                Cell::plain(printed.section),
+                Cell::plain(self.language.table_kind(printed.kind)),
+                Cell::default().link(place, figure.anchor, printed.page),
+            ]))
+        });
+        let grid = Columns::new()
+            .right(self, "number", Word::Number)
+            .left(self, "title", Word::Figure)
+            .left(self, "section", Word::Section)
+            .left(self, "kind", Word::Kind)
+            .left(self, "place", Word::Place)
+            .full(rows.collect());
+        let title = Cell::plain(self.word(Word::ListOfFigures));
+        Table::unnumbered("figures-all", "figures", title, vec![grid])
     }
 }

@@ -128,6 +128,8 @@ impl Source<'_> {
                         | TableContent::Ladder(_)
                         | TableContent::Timing(_)
                         | TableContent::Hysteresis(_)
+                        | TableContent::Flow(_)
+                        | TableContent::Axis(_)
                         | TableContent::Pdos(_)
                         | TableContent::Rows { .. }
                         | TableContent::Glossary

@@ -69,6 +69,7 @@ words! {
     BitOf "bit_of": "bit {n} of", "Bit {n} von";
     BitRates "bit_rates": "Bit rates", "Bitraten";
     BothEdges "both_edges": "0↔1", "0↔1";
+    Block "block": "Block", "Block";
     Byte "byte": "Byte", "Byte";
     Category "category": "Category", "Kategorie";
     CausedBy "caused_by": "Caused by step", "Ausgelöst von Schritt";
@@ -94,6 +95,7 @@ words! {
     Default "default": "Default", "Vorgabe";
     Device "device": "Device", "Gerät";
     DeviceType "device_type": "Device type", "Gerätetyp";
+    Does "does": "Function", "Funktion";
     DynamicChannels "dynamic_channels": "Dynamic channels", "Dynamische Kanäle";
     Differs "differs": "Differs from the standard in", "Weicht vom Standard ab in";
     ElementsOf "elements": "Entries", "Einträge";
@@ -114,6 +116,7 @@ words! {
     EventTimer "event_timer": "Event timer", "Event-Timer";
     Facts "facts": "Device", "Gerät";
     Factor "factor": "Factor", "Faktor";
+    Figure "figure": "Figure", "Abbildung";
     Formula "formula": "Formula", "Formel";
     From "from": "From", "Von";
     FromStandard "from_standard": "From", "Aus";
@@ -134,12 +137,14 @@ words! {
         "Attr: ro can be read, wo written, rw both; rwr and rww are rw for TPDOs and RPDOs alone; r(w) can be read, and written once the device is unlocked for service, (w) only the latter; const never changes. Map: N not mappable, Y (R) into RPDOs, Y (T) into TPDOs, Y (RT) into both. Mem.: Y can be stored; about the others the EDS says nothing, and where it says it of none, the column is missing. Behind a value in a unit stands the raw value where the two differ; special values are raw.",
         "Zugriff: ro ist lesbar, wo schreibbar, rw beides; rwr und rww sind rw nur für TPDOs und nur für RPDOs; r(w) ist lesbar und, wenn das Gerät für den Service entsperrt ist, schreibbar, (w) nur das Letztere; const ändert sich nie. Map: N nicht mappbar, Y (R) in RPDOs, Y (T) in TPDOs, Y (RT) in beide. Sp.: Y speicherbar; über die anderen sagt die EDS nichts, und wo sie es von keinem sagt, fehlt die Spalte. Hinter einem Wert mit Einheit steht der Rohwert, wo beide sich unterscheiden; besondere Werte sind Rohwerte.";
     Links "links": "See also", "Siehe auch";
+    ListOfFigures "list_of_figures": "Figures", "Abbildungen";
     ListOfTables "list_of_tables": "Tables", "Tabellen";
     LockedNote "locked": "Writable only when the device is unlocked for service.", "Nur schreibbar, wenn das Gerät für den Service entsperrt ist.";
     Machines "machines": "State machines", "Zustandsmaschinen";
     Manual "manual": "Manual", "Handbuch";
     ManufacturerObjects "manufacturer_objects": "Manufacturer-specific objects", "Herstellerspezifische Objekte";
     Map "map": "Map", "Map";
+    Mark "mark": "Mark", "Marke";
     Mask "mask": "Mask", "Maske";
     Mnemonic "mnemonic": "Short", "Kürzel";
     Meaning "meaning": "Meaning", "Bedeutung";
@@ -210,6 +215,7 @@ words! {
     Since "since": "Since issue", "Seit Ausgabe";
     SkipLink "skip": "Skip to the objects", "Zu den Objekten";
     SkipContents "skip_contents": "Skip to the text", "Zum Text";
+    Span "span": "Span", "Strecke";
     State "state": "State", "Zustand";
     Status "status": "Status", "Status";
     Storage "storage": "Storage", "Speicherung";
@@ -238,6 +244,7 @@ words! {
         "Every table of the printed manual, the table of this document that takes its place, and the errata about it. The file tables.json lists them for programs, fact by fact.",
         "Jede Tabelle des gedruckten Handbuchs, die Tabelle dieses Dokuments, die an ihre Stelle tritt, und die Errata dazu. Die Datei tables.json führt sie für Programme einzeln auf.";
     DiffersCount "differs_count": "Errata", "Errata";
+    TakesFrom "takes_from": "Takes from", "Bekommt von";
     Target "target": "Shows", "Zeigt";
     Theme "theme": "Light or dark", "Hell oder dunkel";
     To "to": "To", "Nach";
@@ -265,9 +272,11 @@ words! {
 
 /// Kinds of tables by the key of the specification that fills them, and their German names.
 const TABLE_KINDS: &[(&str, &str)] = &[
+    ("axis", "Achse"),
     ("bits", "Bits"),
     ("commands", "Befehle"),
     ("errors", "Fehlercodes"),
+    ("flow", "Blockbild"),
     ("glossary", "Glossar"),
     ("history", "Änderungen"),
     ("hysteresis", "Hysterese"),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::model::{Dictionary, Document, Index, Section, System, TableContent, TableId};
+use od_spec::model::{Dictionary, Document, Figure, Index, Section, System, Table, TableContent, TableId};
 
 use crate::cell::slug;
 
@@ -122,18 +122,25 @@ fn level(document: &Document, position: usize) -> usize {
     }
 }
 
-/// The anchor of a table: its number, or else its section and what fills it.
+/// The anchor of a table: its number, or that of the figure that it is, or else its section and what fills it.
 pub(crate) fn table_anchor(document: &Document, id: TableId) -> String {
     let section = &document.sections[id.section];
     let table = &section.tables[id.table];
-    match table.number {
-        Some(number) => format!("table-{number}"),
-        None => {
-            let before = section.tables[..id.table].iter().filter(|table| table.number.is_none()).count();
+    match (table.number, table.as_figure()) {
+        (Some(number), _) => format!("table-{number}"),
+        (None, Some(figure)) => figure_anchor(figure),
+        (None, None) => {
+            let has_neither = |table: &&Table| table.number.is_none() && table.as_figure().is_none();
+            let before = section.tables[..id.table].iter().filter(has_neither).count();
             let anchor = format!("{}-{}", section_anchor(document, id.section), kind_of(&table.content));
             if before == 0 { anchor } else { format!("{anchor}-{}", before + 1) }
         }
     }
+}
+
+/// The anchor of a figure.
+pub(crate) fn figure_anchor(figure: &Figure) -> String {
+    format!("figure-{}", figure.number)
 }
 
 /// The anchor of a section: its number, or else its title and, where another has the same, its place.
@@ -169,6 +176,8 @@ pub(crate) const fn kind_of(content: &TableContent) -> &'static str {
         TableContent::Ladder(_) => "ladder",
         TableContent::Timing(_) => "timing",
         TableContent::Hysteresis(_) => "hysteresis",
+        TableContent::Flow(_) => "flow",
+        TableContent::Axis(_) => "axis",
         TableContent::Pdos(_) => "pdos",
         TableContent::Rows { .. } => "rows",
         TableContent::Glossary => "glossary",

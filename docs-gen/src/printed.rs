@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::outline::kind_of;
 use crate::source::Source;
-use crate::view::Cell;
+use crate::view::{Cell, FigureView};
 
 /// Index of the manual's tables, for programs.
 #[derive(Debug, Clone, Serialize)]
@@ -28,6 +28,8 @@ pub struct PrintedTable {
     /// Caption.
     #[serde(serialize_with = "text_only")]
     pub title: Cell,
+    /// Its picture, where the manual numbers it.
+    pub figure: Option<PrintedFigure>,
     /// Number of the section that it stands in.
     pub section: String,
     /// What fills it.
@@ -42,6 +44,18 @@ pub struct PrintedTable {
     pub errata: Vec<usize>,
     /// Its facts that differ on purpose.
     pub differs: Vec<Difference>,
+}
+
+/// A printed figure and its counterpart.
+#[derive(Debug, Clone, Serialize)]
+pub struct PrintedFigure {
+    /// Number, as printed.
+    pub number: u16,
+    /// Caption.
+    #[serde(serialize_with = "text_only")]
+    pub title: Cell,
+    /// Anchor of the picture that takes its place.
+    pub anchor: String,
 }
 
 /// A fact of a printed table that differs on purpose.
@@ -100,6 +114,9 @@ impl Source<'_> {
                     list.push(PrintedTable {
                         number: printed.number,
                         title: table.title.clone(),
+                        figure: table.figure.clone().map(|FigureView { number, anchor, title }| {
+                            PrintedFigure { number, title, anchor }
+                        }),
                         section: section.number.clone(),
                         kind: kind_of(&printed.content),
                         anchor: table.anchor.clone(),

@@ -105,10 +105,12 @@ pub struct Table {
     pub number: Option<u16>,
     /// Caption; may be empty.
     pub title: Cell,
+    /// Number and caption of its picture, where the manual numbers it.
+    pub figure: Option<FigureView>,
     /// More about what it shows; may be empty.
     pub about: Cell,
     /// What fills it: `overview`, `objects`, `bits`, `values`, `errors`, `reactions`, `states`, `transitions`, `commands`,
-    /// `ladder`, `timing`, `hysteresis`, `pdos`, `rows`, `glossary`, `history`, or the name of an appendix.
+    /// `ladder`, `timing`, `hysteresis`, `flow`, `axis`, `pdos`, `rows`, `glossary`, `history`, or the name of an appendix.
     pub kind: &'static str,
     /// Its grids.
     pub grids: Vec<Grid>,
@@ -116,6 +118,17 @@ pub struct Table {
     pub ladder: Option<Ladder>,
     /// Numbers of the errata about it.
     pub errata: Vec<usize>,
+}
+
+/// A numbered figure.
+#[derive(Debug, Clone, Serialize)]
+pub struct FigureView {
+    /// Number, as printed.
+    pub number: u16,
+    /// Where links lead: `figure-13`; the anchor of the table, where both stand under one caption.
+    pub anchor: String,
+    /// Caption.
+    pub title: Cell,
 }
 
 /// Columns and rows.
@@ -135,6 +148,10 @@ pub struct Grid {
     pub timing: Option<TimingPicture>,
     /// A picture of the switches whose values these are.
     pub hysteresis: Option<HysteresisPicture>,
+    /// A picture of the diagram whose blocks these are.
+    pub flow: Option<FlowPicture>,
+    /// A picture of the axis whose marks and spans these are.
+    pub axis: Option<AxisPicture>,
 }
 
 /// Index, name and shape above the entries of an object.
@@ -673,6 +690,124 @@ pub struct PictureText {
     pub align: Align,
     /// Where the entry stands that says it, if one does.
     pub target: Option<Target>,
+}
+
+/// A block diagram, to be drawn; all lengths are in the units of the picture.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct FlowPicture {
+    /// Width of the picture.
+    pub width: u32,
+    /// Height of the picture.
+    pub height: u32,
+    /// Its blocks, in order.
+    pub boxes: Vec<FlowBox>,
+    /// What goes from block to block.
+    pub arrows: Vec<FlowArrow>,
+    /// Where arrows of one block part.
+    pub dots: Vec<(u32, u32)>,
+}
+
+/// A block in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct FlowBox {
+    /// What it is, in one line.
+    pub name: String,
+    /// Left edge.
+    pub x: u32,
+    /// Upper edge.
+    pub y: u32,
+    /// Width.
+    pub width: u32,
+    /// Height.
+    pub height: u32,
+    /// Its name, entries and bits.
+    pub lines: Vec<PictureLine>,
+}
+
+/// A line of a text in a picture, around its middle.
+#[derive(Debug, Clone, Serialize)]
+pub struct PictureLine {
+    /// The text.
+    pub text: String,
+    /// Whether it belongs to the name.
+    pub is_name: bool,
+    /// The link that begins with this line.
+    pub link: Option<PictureLink>,
+    /// Its middle.
+    pub x: u32,
+    /// Its lower edge.
+    pub y: u32,
+}
+
+/// A link over lines of a text in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct PictureLink {
+    /// Where it leads.
+    pub target: Target,
+    /// How many lines it has.
+    pub lines: usize,
+    /// Left edge of what can be touched.
+    pub x: u32,
+    /// Upper edge.
+    pub y: u32,
+    /// Width.
+    pub width: u32,
+    /// Height.
+    pub height: u32,
+}
+
+/// An arrow in a block diagram.
+#[derive(Debug, Clone, Serialize)]
+pub struct FlowArrow {
+    /// Position of the block that it leaves.
+    pub from: usize,
+    /// Position of the block to which it leads.
+    pub to: usize,
+    /// The line, as SVG writes it.
+    pub path: String,
+    /// The tip, as SVG writes it.
+    pub tip: String,
+    /// What goes this way.
+    pub label: Option<PictureText>,
+}
+
+/// An axis with marks and spans, to be drawn; all lengths are in the units of the picture.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct AxisPicture {
+    /// Width of the picture.
+    pub width: u32,
+    /// Height of the picture.
+    pub height: u32,
+    /// The axis, as SVG writes it.
+    pub axis: String,
+    /// The tip of the axis, as SVG writes it.
+    pub tip: String,
+    /// The marks, from the left.
+    pub marks: Vec<AxisMarkPicture>,
+    /// The spans.
+    pub spans: Vec<AxisSpanPicture>,
+}
+
+/// A mark in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct AxisMarkPicture {
+    /// The mark on the axis, as SVG writes it.
+    pub line: String,
+    /// From there to the spans that begin or end there, as SVG writes it; may be empty.
+    pub guide: String,
+    /// Its name and entries.
+    pub lines: Vec<PictureLine>,
+}
+
+/// A span in a picture.
+#[derive(Debug, Clone, Serialize)]
+pub struct AxisSpanPicture {
+    /// The line, as SVG writes it.
+    pub path: String,
+    /// The tip, as SVG writes it.
+    pub tip: String,
+    /// Its name and entries.
+    pub lines: Vec<PictureLine>,
 }
 
 /// Thresholds in their order.

@@ -17,6 +17,14 @@ pub(crate) const TIMING_STEPS: usize = 64;
 pub(crate) const TIMING_SIGNALS: usize = 32;
 /// Switches with a hysteresis in one picture: each is compared with the others.
 pub(crate) const SWITCHES: usize = 32;
+/// Blocks of a diagram: a picture of more would be read by nobody.
+pub(crate) const BLOCKS: usize = 48;
+/// Arrows of a diagram: each is drawn around the others.
+pub(crate) const ARROWS: usize = 96;
+/// Marks of an axis.
+pub(crate) const MARKS: usize = 16;
+/// Spans of an axis.
+pub(crate) const SPANS: usize = 32;
 /// Bytes that are written once and stand for many: the texts of a run, of the elements of an array, of an object that several
 /// devices have. It is the size of the largest file.
 pub(crate) const REPEATED_TEXT: usize = 64 << 20;

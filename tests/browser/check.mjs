@@ -359,6 +359,7 @@ for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}
 const figured = (table) => table.grids.flatMap((grid) => [
   ...(grid.timing?.signals ?? []).flatMap((signal) => [signal.name, signal.place, ...signal.levels.map((level) => level.text)]),
   ...(grid.hysteresis?.switches ?? []).flatMap((one) => [one.name, ...one.texts.map((text) => text.text)]),
+  ...[...(grid.flow?.boxes ?? []), ...(grid.axis?.marks ?? []), ...(grid.axis?.spans ?? [])].flatMap((part) => part.lines).map((line) => line.text),
 ]);
 const pictured = (table) => table.grids.flatMap((grid) => grid.bits?.rows ?? []).flatMap((row) => row.fields.map((field) => field.name));
 const picturesOf = async (page, name) => {
@@ -398,6 +399,7 @@ for (const device of context.devices) {
 // ---------------------------------------------------------------- pictures: what they name is a link, for fingers and keys, too
 const targetsOf = (table) => [...(table.ladder?.rungs ?? []), ...table.grids.flatMap((grid) => [
   ...(grid.timing?.signals ?? []), ...(grid.hysteresis?.switches ?? []).flatMap((one) => one.texts), ...(grid.machine?.states ?? []).map(() => ({ target: grid.machine.status })),
+  ...[...(grid.flow?.boxes ?? []), ...(grid.axis?.marks ?? []), ...(grid.axis?.spans ?? [])].flatMap((part) => part.lines).flatMap((line) => line.link ?? []),
 ])].flatMap(({ target }) => target ?? []);
 // Tables of a page with the targets that their pictures have to lead to, in any order.
 const isLinked = async (page, name, key, wanted) => {
@@ -424,7 +426,7 @@ const isLinked = async (page, name, key, wanted) => {
   const page = await open("index.html");
   await page.addStyleTag({ content: "* { content-visibility: visible !important }" });
   const tables = [...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)), ...context.appendices.flatMap((appendix) => appendix.tables)];
-  await isLinked(page, "index.html", "index", tables.map((table) => ({ id: table.anchor, targets: targetsOf(table) })).filter(({ targets }) => targets.length > 0));
+  await isLinked(page, "index.html", "index", tables.map((table) => ({ id: table.figure?.anchor ?? table.anchor, targets: targetsOf(table) })).filter(({ targets }) => targets.length > 0));
   await page.close();
 }
 for (const device of context.devices) {

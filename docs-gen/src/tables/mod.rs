@@ -1,8 +1,11 @@
 //! From the contents of a table to its columns and rows.
 
+mod axis_picture;
 pub(crate) mod bits;
 pub(crate) mod constraints;
 pub(crate) mod errors;
+mod flow_picture;
+mod flows;
 mod hysteresis;
 mod hysteresis_picture;
 mod machine_picture;
@@ -20,9 +23,9 @@ use od_spec::model::{
 };
 
 use crate::language::Word;
-use crate::outline::{kind_of, table_anchor};
+use crate::outline::{figure_anchor, kind_of, table_anchor};
 use crate::source::Source;
-use crate::view::{Align, Cell, Column, Grid, Row, Table};
+use crate::view::{Align, Cell, Column, FigureView, Grid, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.
 pub(crate) struct Columns(Vec<Column>);
@@ -89,6 +92,19 @@ impl Row {
     }
 }
 
+impl Grid {
+    /// Whether it has a picture.
+    const fn is_drawn(&self) -> bool {
+        let Self { object: _, columns: _, rows: _, bits, machine, timing, hysteresis, flow, axis } = self;
+        bits.is_some()
+            || machine.is_some()
+            || timing.is_some()
+            || hysteresis.is_some()
+            || flow.is_some()
+            || axis.is_some()
+    }
+}
+
 impl Table {
     /// A table that the manual does not number.
     pub(crate) fn unnumbered(
@@ -101,6 +117,7 @@ impl Table {
             anchor: anchor.into(),
             number: None,
             title,
+            figure: None,
             about: Cell::default(),
             kind,
             grids,
@@ -146,6 +163,8 @@ impl Source<'_> {
                 about = self.text(&constraint.about);
                 vec![self.ladder_rows(constraint, labels)]
             }
+            TableContent::Flow(flow) => vec![self.flow(flow)?],
+            TableContent::Axis(axis) => vec![self.axis(axis)?],
             TableContent::Hysteresis(switches) => vec![self.hysteresis(switches)?],
             TableContent::Timing(timing) => vec![self.timing(timing)?],
             TableContent::Pdos(pdos) => {
@@ -160,10 +179,18 @@ impl Source<'_> {
         if grids.is_empty() {
             return None;
         }
+        // Devices that differ may leave nothing to be drawn.
+        let is_drawn = ladder.is_some() || grids.iter().any(Grid::is_drawn);
+        let figure = table.figure.as_ref().filter(|_| is_drawn).map(|figure| FigureView {
+            number: figure.number,
+            anchor: figure_anchor(figure),
+            title: self.text(&figure.title),
+        });
         Some(Table {
             anchor: table_anchor(self.document(), id),
             number: table.number,
             title: self.text(&table.title),
+            figure,
             about,
             kind: kind_of(&table.content),
             grids,

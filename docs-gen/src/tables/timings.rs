@@ -1,6 +1,8 @@
 //! Sequences of events: a row for each step, and the levels of the signals behind it.
 
-use od_spec::model::{BitField, Dictionary, EntryId, Level, Signal, SignalCarrier, Timing, TypeKind};
+use od_spec::model::{
+    BitField, Dictionary, EntryId, Level, NamedBits, Signal, SignalCarrier, Timing, TypeKind,
+};
 
 use super::Columns;
 use super::timing_picture::{DrawnLevel, DrawnSignal, picture};
@@ -44,7 +46,7 @@ impl Source<'_> {
 
     fn shows_signal(&self, carrier: &SignalCarrier) -> bool {
         match carrier {
-            SignalCarrier::Bits { named_type, .. } => self.shows_type(named_type),
+            SignalCarrier::Bits(bits) => self.shows_type(&bits.named_type),
             SignalCarrier::Entry(id) => self.devices.iter().any(|device| device.entry(*id).is_some()),
         }
     }
@@ -58,12 +60,7 @@ impl Source<'_> {
     /// What the picture shows of a signal.
     fn drawn(&self, signal: &Signal) -> DrawnSignal {
         let (name, place) = match &signal.carrier {
-            SignalCarrier::Bits { named_type, first, last, name } if first == last => {
-                (name.clone(), format!("{named_type}, {} {first}", self.word(Word::Bit)))
-            }
-            SignalCarrier::Bits { named_type, first, last, name } => {
-                (name.clone(), format!("{named_type}, {} {first}..{last}", self.word(Word::Bits)))
-            }
+            SignalCarrier::Bits(bits) => (bits.name.clone(), self.place_of_bits(bits)),
             SignalCarrier::Entry(id) => {
                 let name = self.having_entry(*id).and_then(|device| device.entry_name(*id));
                 (name.unwrap_or_default(), id.to_string())
@@ -77,23 +74,34 @@ impl Source<'_> {
         }
     }
 
-    /// Where the entry or the bit of a signal stands; of a type that several entries have, none is meant more than another.
+    /// Where the entry or the bit of a signal stands.
     fn carrier_target(&self, carrier: &SignalCarrier) -> Option<Target> {
         match carrier {
             SignalCarrier::Entry(id) => self.entry_target(self.having_entry(*id)?, *id),
-            SignalCarrier::Bits { named_type, first, .. } => {
-                let of_type = |device: &Dictionary| -> Vec<EntryId> {
-                    let entries = device.entries();
-                    let having = entries.filter(|(.., entry)| {
-                        entry.named_type.as_ref().is_some_and(|named| named.name == *named_type)
-                    });
-                    having.map(|(id, ..)| id).collect()
-                };
-                let device = self.devices.iter().copied().find(|device| !of_type(device).is_empty())?;
-                let &[id] = of_type(device).as_slice() else { return None };
-                // Rows of bits stand on the page of their device.
-                Some(Target { anchor: format!("{}.b{first}", entry_anchor(id)), page: device.key.clone() })
-            }
+            SignalCarrier::Bits(bits) => self.bits_target(bits),
+        }
+    }
+
+    /// Where bits stand; of a type that several entries have, none is meant more than another.
+    pub(super) fn bits_target(&self, NamedBits { named_type, first, .. }: &NamedBits) -> Option<Target> {
+        let of_type = |device: &Dictionary| -> Vec<EntryId> {
+            let having = device.entries().filter(|(.., entry)| {
+                entry.named_type.as_ref().is_some_and(|named| named.name == *named_type)
+            });
+            having.map(|(id, ..)| id).collect()
+        };
+        let device = self.devices.iter().copied().find(|device| !of_type(device).is_empty())?;
+        let &[id] = of_type(device).as_slice() else { return None };
+        // Rows of bits stand on the page of their device.
+        Some(Target { anchor: format!("{}.b{first}", entry_anchor(id)), page: device.key.clone() })
+    }
+
+    /// Where bits stand: `controlword, Bit 4`.
+    pub(super) fn place_of_bits(&self, NamedBits { named_type, first, last, .. }: &NamedBits) -> String {
+        if first == last {
+            format!("{named_type}, {} {first}", self.word(Word::Bit))
+        } else {
+            format!("{named_type}, {} {first}..{last}", self.word(Word::Bits))
         }
     }
 
@@ -106,7 +114,7 @@ impl Source<'_> {
                 let shown = entry.map(|entry| self.wording.value(Some(id.index), entry, value));
                 DrawnLevel::Value(shown.unwrap_or_default())
             }
-            (Level::Value(value), SignalCarrier::Bits { named_type, first, last, .. }) => {
+            (Level::Value(value), SignalCarrier::Bits(NamedBits { named_type, first, last, .. })) => {
                 match value.integer() {
                     Some(0) if first == last => DrawnLevel::Low,
                     Some(1) if first == last => DrawnLevel::High,

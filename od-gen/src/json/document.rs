@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use od_spec::model::{
-    self, Content, Dictionary, Level, Signal, SignalCarrier, Switch, SwitchBack, SwitchSide, System, Table,
-    TableContent, Timing,
+    self, Axis, AxisReach, Block, Content, Dictionary, EntryId, Level, NamedBits, Signal, SignalCarrier,
+    Switch, SwitchBack, SwitchSide, System, Table, TableContent, Timing,
 };
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -49,7 +49,14 @@ enum ContentView<'a> {
 struct TableView<'a> {
     number: Option<u16>,
     title: Words<'a>,
+    figure: Option<FigureView<'a>>,
     content: Json,
+}
+
+#[derive(Serialize)]
+struct FigureView<'a> {
+    number: u16,
+    title: Words<'a>,
 }
 
 pub(super) fn document(system: &System) -> DocumentView<'_> {
@@ -115,6 +122,8 @@ fn table<'a>(system: &System, table: &'a Table) -> TableView<'a> {
         TableContent::Hysteresis(switches) => {
             json!({"hysteresis": switches.iter().map(switch).collect::<Vec<_>>()})
         }
+        TableContent::Flow(flow) => json!({"flow": flow.blocks.iter().map(block).collect::<Vec<_>>()}),
+        TableContent::Axis(one) => json!({"axis": axis(one)}),
         TableContent::Timing(one) => json!({"timing": timing(system, one)}),
         TableContent::Pdos(pdos) => {
             json!({"pdos": {"device": pdos.device, "direction": pdos.direction.word()}})
@@ -127,7 +136,43 @@ fn table<'a>(system: &System, table: &'a Table) -> TableView<'a> {
         TableContent::Glossary => json!({"glossary": true}),
         TableContent::History => json!({"history": true}),
     };
-    TableView { number: table.number, title: words(&table.title), content }
+    let figure = table.figure.as_ref();
+    let figure = figure.map(|figure| FigureView { number: figure.number, title: words(&figure.title) });
+    TableView { number: table.number, title: words(&table.title), figure, content }
+}
+
+fn block(block: &Block) -> Json {
+    let from = block.from.iter().map(|one| json!({"block": one.block, "carries": words(&one.carries)}));
+    json!({
+        "block": words(&block.name),
+        "entries": entry_ids(&block.entries),
+        "bits": block.bits.as_ref().map(bits),
+        "does": words(&block.does),
+        "from": from.collect::<Vec<_>>(),
+    })
+}
+
+fn axis(axis: &Axis) -> Json {
+    let marks =
+        axis.marks.iter().map(|mark| json!({"mark": words(&mark.name), "entries": entry_ids(&mark.entries)}));
+    let spans = axis.spans.iter().map(|span| {
+        let (from, to) = match span.reach {
+            AxisReach::Between(from, to) => (Some(from), Some(to)),
+            AxisReach::Above(from) => (Some(from), None),
+            AxisReach::Below(to) => (None, Some(to)),
+        };
+        let (name, does) = (words(&span.name), words(&span.does));
+        json!({"span": name, "entries": entry_ids(&span.entries), "from": from, "to": to, "does": does})
+    });
+    json!({"marks": marks.collect::<Vec<_>>(), "spans": spans.collect::<Vec<_>>()})
+}
+
+fn entry_ids(entries: &[EntryId]) -> Vec<String> {
+    entries.iter().map(|id| entry_id(*id)).collect()
+}
+
+fn bits(NamedBits { named_type, first, last, name }: &NamedBits) -> Json {
+    json!({"type": named_type, "first": first, "last": last, "name": name})
 }
 
 fn timing(system: &System, timing: &Timing) -> Json {
@@ -141,7 +186,7 @@ fn signal(system: &System, signal: &Signal) -> Json {
     let level = |level: &Level| match (level, &signal.carrier) {
         (Level::Any, _) => Json::Null,
         (Level::Letter(letter), _) => json!({"letter": letter}),
-        (Level::Value(value), SignalCarrier::Bits { .. }) => json!({"raw": value.integer().map(integer)}),
+        (Level::Value(value), SignalCarrier::Bits(_)) => json!({"raw": value.integer().map(integer)}),
         (Level::Value(value), SignalCarrier::Entry(id)) => {
             let entry = system.devices.iter().find_map(|device: &Dictionary| device.entry(*id));
             json!(entry.map(|entry| device::value(id.index, entry, value)))
@@ -149,7 +194,7 @@ fn signal(system: &System, signal: &Signal) -> Json {
     };
     let levels: Vec<Json> = signal.levels.iter().map(level).collect();
     match &signal.carrier {
-        SignalCarrier::Bits { named_type, first, last, name } => {
+        SignalCarrier::Bits(NamedBits { named_type, first, last, name }) => {
             json!({"type": named_type, "first": first, "last": last, "name": name, "levels": levels})
         }
         SignalCarrier::Entry(id) => json!({"entry": entry_id(*id), "levels": levels}),

@@ -7,9 +7,10 @@ use std::ops::RangeInclusive;
 
 use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
-    any_error_keys, channel_keys, command_keys, constraint_keys, device_keys, erratum_keys, error_keys,
-    file_keys, machine_keys, revision_keys, signal_keys, source_keys, state_keys, switch_keys, timing_keys,
-    timing_step_keys, transition_keys, unit_keys, vendor_keys,
+    any_error_keys, axis_keys, block_keys, channel_keys, command_keys, constraint_keys, device_keys,
+    erratum_keys, error_keys, file_keys, machine_keys, mark_keys, revision_keys, signal_keys, source_keys,
+    span_keys, state_keys, switch_keys, timing_keys, timing_step_keys, transition_keys, unit_keys,
+    vendor_keys,
 };
 use crate::model::{
     Access, BitPattern, BitUsage, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside, ProseKind,
@@ -464,8 +465,17 @@ pub(crate) struct PartDecl {
     pub span: Span,
     pub number: Option<Spanned<i128>>,
     pub title: Words,
+    pub figure: Option<Spanned<FigureDecl>>,
     /// The keys that say what it is; exactly one is right.
     pub contents: Vec<Spanned<ContentDecl>>,
+}
+
+/// `figure:` of a table.
+#[derive(Debug)]
+pub(crate) struct FigureDecl {
+    /// None where it was refused.
+    pub number: Option<Spanned<i128>>,
+    pub title: Words,
 }
 
 timing_keys! { declaration
@@ -498,6 +508,39 @@ switch_keys! { declaration
     }
 }
 
+block_keys! { declaration
+    #[derive(Debug)]
+    BlockDecl {
+        /// Something here was refused.
+        unsure: bool,
+    }
+}
+
+/// What a block takes from another.
+#[derive(Debug)]
+pub(crate) struct InflowDecl {
+    pub block: Option<Name>,
+    pub carries: Words,
+}
+
+axis_keys! { declaration
+    #[derive(Debug)]
+    AxisDecl {}
+}
+
+mark_keys! { declaration
+    #[derive(Debug)]
+    MarkDecl {}
+}
+
+span_keys! { declaration
+    #[derive(Debug)]
+    SpanDecl {
+        /// Something here was refused.
+        unsure: bool,
+    }
+}
+
 #[derive(Debug)]
 pub(crate) enum ContentDecl {
     Prose(ProseKind, Vec<Text>),
@@ -513,6 +556,8 @@ pub(crate) enum ContentDecl {
     Ladder { constraint: Option<Name>, labels: Option<Spanned<Vec<Text>>> },
     Timing(TimingDecl),
     Hysteresis(Vec<Spanned<SwitchDecl>>),
+    Flow(Vec<Spanned<BlockDecl>>),
+    Axis(AxisDecl),
     Pdos { device: Option<Name>, direction: Option<Spanned<Direction>> },
     Rows { columns: Vec<Text>, rows: Vec<Spanned<Vec<Text>>> },
     Glossary,

@@ -68,9 +68,13 @@ fn used(system: &System) -> Used<'_> {
             TableContent::Values(name) => drop(used.types.insert(name)),
             TableContent::Timing(timing) => {
                 used.types.extend(timing.signals.iter().filter_map(|signal| match &signal.carrier {
-                    SignalCarrier::Bits { named_type, .. } => Some(named_type.as_str()),
+                    SignalCarrier::Bits(bits) => Some(bits.named_type.as_str()),
                     SignalCarrier::Entry(_) => None,
                 }));
+            }
+            TableContent::Flow(flow) => {
+                let bits = flow.blocks.iter().filter_map(|block| block.bits.as_ref());
+                used.types.extend(bits.map(|bits| bits.named_type.as_str()));
             }
             TableContent::Overview(_)
             | TableContent::Objects(_)
@@ -81,6 +85,7 @@ fn used(system: &System) -> Used<'_> {
             | TableContent::Commands(_)
             | TableContent::Ladder(_)
             | TableContent::Hysteresis(_)
+            | TableContent::Axis(_)
             | TableContent::Pdos(_)
             | TableContent::Rows { .. }
             | TableContent::Glossary

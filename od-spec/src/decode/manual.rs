@@ -2,12 +2,13 @@
 
 use super::read::{Field, FromNode, Reader, reader};
 use crate::ast::{
-    ContentDecl, ErratumDecl, IssueDecl, Levels, PartDecl, SectionDecl, SignalDecl, SourceDecl, SwitchDecl,
-    TimingDecl, TimingStepDecl,
+    AxisDecl, BlockDecl, ContentDecl, ErratumDecl, FigureDecl, InflowDecl, IssueDecl, Levels, MarkDecl,
+    PartDecl, SectionDecl, SignalDecl, SourceDecl, SpanDecl, SwitchDecl, TimingDecl, TimingStepDecl,
 };
 use crate::diag::Diagnostics;
 use crate::keys::{
-    self, erratum_keys, revision_keys, signal_keys, source_keys, switch_keys, timing_keys, timing_step_keys,
+    self, axis_keys, block_keys, erratum_keys, mark_keys, revision_keys, signal_keys, source_keys, span_keys,
+    switch_keys, timing_keys, timing_step_keys,
 };
 use crate::model::{Direction, ProseKind};
 use crate::scalar;
@@ -21,6 +22,10 @@ timing_keys! { reader fn timing() -> TimingDecl }
 switch_keys! { reader fn switch(unsure: bool) -> SwitchDecl }
 signal_keys! { reader fn signal(unsure: bool) -> SignalDecl }
 timing_step_keys! { reader fn timing_step() -> TimingStepDecl }
+block_keys! { reader fn block(unsure: bool) -> BlockDecl }
+axis_keys! { reader fn axis() -> AxisDecl }
+mark_keys! { reader fn mark() -> MarkDecl }
+span_keys! { reader fn span(unsure: bool) -> SpanDecl }
 
 impl FromNode for SignalDecl {
     fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
@@ -34,6 +39,32 @@ impl FromNode for SwitchDecl {
         let keys = ["below", "above", "back-by", "back-at"];
         let unsure = reader.has_unknown_key(&keys::SWITCH) || has_no_text(reader, &keys);
         Some(switch(unsure, reader, diagnostics))
+    }
+}
+
+impl FromNode for BlockDecl {
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
+        let unsure = reader.has_unknown_key(&keys::BLOCK);
+        Some(block(unsure, reader, diagnostics))
+    }
+}
+
+impl FromNode for InflowDecl {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        Some(Self { block: reader.short("block"), carries: reader.words("carries") })
+    }
+}
+
+impl FromNode for MarkDecl {
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
+        Some(mark(reader, diagnostics))
+    }
+}
+
+impl FromNode for SpanDecl {
+    fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
+        let unsure = reader.has_unknown_key(&keys::SPAN) || has_no_text(reader, &["from", "to"]);
+        Some(span(unsure, reader, diagnostics))
     }
 }
 
@@ -96,6 +127,8 @@ fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
             },
             "timing" => ContentDecl::Timing(timing(value, diagnostics)),
             "hysteresis" => ContentDecl::Hysteresis(Field::read(r, key_name, diagnostics)),
+            "flow" => ContentDecl::Flow(Field::read(r, key_name, diagnostics)),
+            "axis" => ContentDecl::Axis(axis(value, diagnostics)),
             "pdos" => ContentDecl::Pdos {
                 device: value.text("device"),
                 direction: value.value("direction", Direction::from_word),
@@ -122,6 +155,13 @@ fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
         span: r.node.entries().first().map_or(r.node.span, |(key, _)| key.span),
         number: r.integer("number"),
         title: r.words("title"),
+        figure: r.keyed("figure").map(|(key, figure)| Spanned::new(figure_of(figure), key)),
         contents: contents.collect(),
     }
+}
+
+/// A number, or a number with a caption.
+fn figure_of(r: Reader<'_>) -> FigureDecl {
+    let number = r.scalar(|text| scalar::integer(text).ok()).or_else(|| r.integer("number"));
+    FigureDecl { number, title: r.words("title") }
 }

@@ -85,7 +85,7 @@ codes! {
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
     DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
-        "Two values of an enum, two special values, two transitions, two error codes or two tables have one number."
+        "Two values of an enum, two special values, two transitions, two error codes, two tables or two figures have one number."
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
@@ -112,6 +112,10 @@ codes! {
         "`cause:` of a step names the earlier step that it answers, and the picture draws an arrow from what changes there to what changes here. A cause is earlier than its effect, and at both steps at least one signal changes. Correct the number or the levels, or leave `cause:` out: steps follow each other without it."
     NO_HYSTERESIS Error "OD0327" "a switch without a hysteresis":
         "What goes on below a threshold goes off at a higher value, and what goes on above one at a lower value; a heater is off before a cooler goes on. The values are those of the entries' defaults, so that each of them has a whole number in a unit as its default. Correct the defaults, or name other entries."
+    LOOSE_PART Error "OD0328" "a part of a picture that hangs in the air":
+        "A block of `flow:` takes what it needs from earlier blocks, so that the picture has a direction, names each of them once, and gives something to another or takes something from one. A span of `axis:` begins and ends at different marks; it may lack one of the two ends. Blocks of one picture have different names, and so have marks, because they are named by them."
+    NO_COMMON_DEVICE Error "OD0329" "a picture across devices":
+        "The entries that a picture names are those of one device: a reader finds them in its tables. Name entries that one device has, or draw two pictures."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":

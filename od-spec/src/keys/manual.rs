@@ -44,6 +44,7 @@ keys! {
         "formula": Shape::Words, "a formula; each line of the value is one", "\"power = force · velocity\"";
         "number": Shape::Integer(1, 9999), "number of a table, as printed";
         "title": Shape::Words, "caption of a table";
+        "figure": Shape::ShortOr(&Shape::Integer(1, 9999), &FIGURE), "number of the picture that is drawn, as printed", "13";
         "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
         "objects": INDICES, "the objects' entries in detail";
         "bits": Shape::ShortOr(&Shape::Text, &TABLE_BITS), "bits of a named type", "{type: PMM digital inputs, masks: 16}";
@@ -56,10 +57,20 @@ keys! {
         "ladder": Shape::ShortOr(&Shape::Text, &TABLE_LADDER), "entries of an ordering constraint with their defaults";
         "timing": Shape::Map(&TIMING), "a sequence of events, drawn as levels of signals";
         "hysteresis": Shape::OneOrMore(&Shape::Map(&SWITCH)), "what goes on beyond a threshold and off behind it, drawn with the values of the defaults";
+        "flow": Shape::OneOrMore(&Shape::Map(&BLOCK)), "blocks, and what goes from one to another, drawn as a block diagram";
+        "axis": Shape::Map(&AXIS), "marks on an axis and the spans between them, drawn as a dimensioned line";
         "pdos": Shape::Map(&TABLE_PDOS), "default PDOs of a device", "{device: pmc, direction: receive}";
         "rows": Shape::Map(&TABLE_ROWS), "rows of text", "{columns: [Index, Use], rows: [[0000h, not used]]}";
         "glossary": Shape::YesNo, "abbreviations";
         "history": Shape::YesNo, "issues of the manual";
+    }
+}
+
+keys! {
+    /// `figure:` of a table.
+    FIGURE = "a figure" {
+        "number" required: Shape::Integer(1, 9999), "number, as printed";
+        "title": Shape::Words, "caption, where it is not that of the table";
     }
 }
 
@@ -158,4 +169,79 @@ pub(crate) use switch_keys;
 switch_keys! { keys
     /// A switch with a hysteresis.
     SWITCH = "a switch with a hysteresis"
+}
+
+macro_rules! block_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "block" required: Shape::Words => name: Words, "what it is; the name by which later blocks know it", "ramp generator";
+            "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries or objects whose values it has or that set it up", "[0x6083, 0x6084]";
+            "type": Shape::Text => named_type: Option<Name>, "bit field type that has the bit", "controlword";
+            "bit": Shape::Text => bit: Option<Name>, "bit or run of bits of the type that it is, or that acts on it", "halt";
+            "does": Shape::Words => does: Words, "what it does", "limits the velocity";
+            "from": Shape::OneOrMore(&Shape::ShortOr(&Shape::Text, &INFLOW)) => from: Vec<Spanned<InflowDecl>>, "earlier blocks from which it takes something: an arrow leads from each", "[target position, limits]";
+        } }
+    };
+}
+pub(crate) use block_keys;
+
+block_keys! { keys
+    /// A block of a diagram.
+    BLOCK = "a block"
+}
+
+keys! {
+    /// What a block takes from another.
+    INFLOW = "what a block takes from another" {
+        "block" required: Shape::Text, "name of the earlier block", "ramp generator";
+        "carries": Shape::Words, "what comes from there; stands at the arrow", "set-point";
+    }
+}
+
+macro_rules! axis_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "marks" required: Shape::OneOrMore(&Shape::Map(&MARK)) => marks: Vec<Spanned<MarkDecl>>, "places on it, from the lowest value to the highest";
+            "spans": Shape::OneOrMore(&Shape::Map(&SPAN)) => spans: Vec<Spanned<SpanDecl>>, "parts of it, from the top of the picture";
+        } }
+    };
+}
+pub(crate) use axis_keys;
+
+axis_keys! { keys
+    /// `axis:` of a table.
+    AXIS = "an axis"
+}
+
+macro_rules! mark_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "mark" required: Shape::Words => name: Words, "what is there; the name by which spans know it", "target position";
+            "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries whose value it is", "0x607A";
+        } }
+    };
+}
+pub(crate) use mark_keys;
+
+mark_keys! { keys
+    /// A mark on an axis.
+    MARK = "a mark on an axis"
+}
+
+macro_rules! span_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "span" required: Shape::Words => name: Words, "what it is", "position window";
+            "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries that say how long it is, or that act there", "0x6067";
+            "from": Shape::Text => from: Option<Name>, "mark where it begins; without it, it has no lower end", "target position";
+            "to": Shape::Text => to: Option<Name>, "mark where it ends; without it, it has no upper end", "upper edge";
+            "does": Shape::Words => does: Words, "what holds there", "the target counts as reached";
+        } }
+    };
+}
+pub(crate) use span_keys;
+
+span_keys! { keys
+    /// A span of an axis.
+    SPAN = "a span of an axis"
 }

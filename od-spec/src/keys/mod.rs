@@ -24,8 +24,8 @@ pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, VENDOR};
 pub use libraries::{AXES, FEATURE};
 pub use machines::{COMMAND, MACHINE, STATE, TRANSITION};
 pub use manual::{
-    CONTENT, ERRATUM, SECTION, SIGNAL, SWITCH, TABLE_BITS, TABLE_LADDER, TABLE_PDOS, TABLE_ROWS, TIMING,
-    TIMING_STEP,
+    AXIS, BLOCK, CONTENT, ERRATUM, FIGURE, INFLOW, MARK, SECTION, SIGNAL, SPAN, SWITCH, TABLE_BITS,
+    TABLE_LADDER, TABLE_PDOS, TABLE_ROWS, TIMING, TIMING_STEP,
 };
 pub use objects::{ARRAY, OBJECT, SUB0};
 pub use parameters::{PARAMETER_FILE, PARAMETERS_VERSION};
@@ -42,6 +42,9 @@ pub(crate) use entry::entry_keys;
 pub(crate) use errors::{any_error_keys, error_keys};
 pub(crate) use file::{revision_keys, source_keys, vendor_keys};
 pub(crate) use machines::{command_keys, machine_keys, state_keys, transition_keys};
-pub(crate) use manual::{erratum_keys, signal_keys, switch_keys, timing_keys, timing_step_keys};
+pub(crate) use manual::{
+    axis_keys, block_keys, erratum_keys, mark_keys, signal_keys, span_keys, switch_keys, timing_keys,
+    timing_step_keys,
+};
 pub(crate) use pdos::{pdo_communication_keys, pdo_keys, pdo_mapping_keys, pdo_parameters_keys};
 pub(crate) use types::unit_keys;

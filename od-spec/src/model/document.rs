@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{Date, Devices, Direction, EntryId, Index, Switch, Text, Timing};
+use super::{Axis, Date, Devices, Direction, EntryId, Flow, Index, Switch, Text, Timing};
 
 /// The printed manual that a specification stands for.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -125,8 +125,27 @@ pub struct Table {
     pub number: Option<u16>,
     /// Caption.
     pub title: Text,
+    /// Number and caption of the picture that is drawn of it.
+    pub figure: Option<Figure>,
     /// What fills it.
     pub content: TableContent,
+}
+
+/// A numbered figure of the manual: the picture of a [`Table`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// Number, as printed.
+    pub number: u16,
+    /// Caption; that of the table, unless the figure has one of its own.
+    pub title: Text,
+}
+
+impl Table {
+    /// The figure, where table and picture stand under one caption, which is the figure's.
+    #[must_use]
+    pub fn as_figure(&self) -> Option<&Figure> {
+        self.figure.as_ref().filter(|figure| self.number.is_none() && figure.title == self.title)
+    }
 }
 
 /// What fills a table.
@@ -156,6 +175,10 @@ pub enum TableContent {
     Timing(Timing),
     /// Switches with a hysteresis, and the values at which they go on and off.
     Hysteresis(Vec<Switch>),
+    /// Blocks, and what goes from one to another.
+    Flow(Flow),
+    /// Marks on an axis, and the spans between them.
+    Axis(Axis),
     /// Default PDOs.
     Pdos(PdoTable),
     /// Rows of text.
@@ -187,6 +210,8 @@ impl TableContent {
             | Self::Ladder(_)
             | Self::Timing(_)
             | Self::Hysteresis(_)
+            | Self::Flow(_)
+            | Self::Axis(_)
             | Self::Pdos(_)
             | Self::Rows { .. }
             | Self::Glossary

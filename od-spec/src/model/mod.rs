@@ -4,12 +4,14 @@
 //! from here and from nothing else.
 
 mod arranged;
+mod axis;
 mod condition;
 mod device;
 mod document;
 mod download;
 mod dynamic_channel;
 mod fact;
+mod flow;
 mod held;
 mod hysteresis;
 mod machine;
@@ -31,17 +33,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 pub(crate) use arranged::{Course, Stuck};
+pub use axis::{Axis, AxisMark, AxisReach, AxisSpan};
 pub use condition::{
     ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Incomputable, Outcome, Term, Values,
 };
 pub use device::{AnyError, Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
-    BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Issue, LadderTable, PdoTable, Prose,
-    ProseKind, Section, Table, TableContent, TableId,
+    BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Figure, Issue, LadderTable, PdoTable,
+    Prose, ProseKind, Section, Table, TableContent, TableId,
 };
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
+pub use flow::{Block, Flow, Inflow};
 pub(crate) use held::Held;
 pub use hysteresis::{Switch, SwitchBack, SwitchPoints, SwitchSide};
 pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
@@ -55,7 +59,7 @@ pub use ratio::Ratio;
 pub use real::Real;
 pub use role::Role;
 pub use text::Text;
-pub use timing::{Level, Signal, SignalCarrier, Timing, TimingStep};
+pub use timing::{Level, NamedBits, Signal, SignalCarrier, Timing, TimingStep};
 pub use types::{
     Access, AccessRight, Category, DataType, Direction, EntryId, Family, Index, Outside, PdoMapping,
     Rounding, Storage, SubIndex,

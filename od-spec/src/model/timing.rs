@@ -34,18 +34,22 @@ impl Signal {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SignalCarrier {
     /// Bits of a named type.
-    Bits {
-        /// The type.
-        named_type: String,
-        /// Lowest bit.
-        first: u8,
-        /// Highest bit.
-        last: u8,
-        /// What the bits are called, perhaps in one mode of operation only; empty where they have no name.
-        name: String,
-    },
+    Bits(NamedBits),
     /// The value of an entry.
     Entry(EntryId),
+}
+
+/// A bit or a run of bits of a named type.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NamedBits {
+    /// The type.
+    pub named_type: String,
+    /// Lowest bit.
+    pub first: u8,
+    /// Highest bit.
+    pub last: u8,
+    /// What the bits are called, perhaps in one mode of operation only; empty where they have no name.
+    pub name: String,
 }
 
 /// The level of a [`Signal`] between two steps.

@@ -14,8 +14,8 @@ use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits;
 use crate::model::{
-    BitTable, Content, Devices, Dictionary, Document, Erratum, ErratumPlace, Index, Issue, LadderTable,
-    PdoTable, Prose, Section, System, Table, TableContent,
+    BitTable, Content, Devices, Dictionary, Document, Erratum, ErratumPlace, Figure, Index, Issue,
+    LadderTable, PdoTable, Prose, Section, System, Table, TableContent,
 };
 use crate::source::{Span, Spanned};
 
@@ -94,6 +94,8 @@ fn table(
         }),
         ContentDecl::Timing(decl) => TableContent::Timing(figures.timing(decl, diagnostics)?),
         ContentDecl::Hysteresis(decls) => TableContent::Hysteresis(figures.switches(decls, diagnostics)?),
+        ContentDecl::Flow(decls) => TableContent::Flow(figures.flow(decls, diagnostics)?),
+        ContentDecl::Axis(decl) => TableContent::Axis(figures.axis(decl, diagnostics)?),
         ContentDecl::Pdos { device, direction } => {
             let (device, direction) = (device.as_ref()?.value.clone(), direction.as_ref()?.value);
             TableContent::Pdos(PdoTable { device, direction })
@@ -106,7 +108,13 @@ fn table(
         ContentDecl::History => TableContent::History,
     };
     let number = decl.number.as_ref().map(|number| to_u16(number.value));
-    Some(Table { number, title: words(&decl.title), content })
+    let title = words(&decl.title);
+    let figure = decl.figure.as_ref().and_then(|figure| {
+        let number = to_u16(figure.value.number.as_ref()?.value);
+        let own = words(&figure.value.title);
+        Some(Figure { number, title: if own.is_empty() { title.clone() } else { own } })
+    });
+    Some(Table { number, title, figure, content })
 }
 
 /// Codes of a list; `all` is the empty list.
@@ -152,12 +160,13 @@ pub(super) fn errata(
         };
         room = rest;
         if is_described
-            && let Some(number) = named.unknown
+            && let Some((kind, number)) = named.unknown
             && let Some(span) = decl.place.as_ref().map(|place| place.span)
         {
+            let (title, word) = (kind.title(), kind.word());
             diagnostics.push(
-                Diagnostic::new(codes::UNKNOWN_REFERENCE, span, format!("there is no Table {number}"))
-                    .help("correct the number, or add the table to `document:`"),
+                Diagnostic::new(codes::UNKNOWN_REFERENCE, span, format!("there is no {title} {number}"))
+                    .help(format!("correct the number, or add the {word} to `document:`")),
             );
         }
         let Some(kind) = decl.kind else { continue };
@@ -214,28 +223,27 @@ fn place(
 
 /// Checks what the tables refer to.
 pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: &mut Diagnostics) {
-    let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
+    let mut tables: BTreeMap<i128, Span> = BTreeMap::new();
+    let mut figures: BTreeMap<i128, Span> = BTreeMap::new();
     let contents = Contents::of(root, system, broken);
     for decl in root.sections.iter().flat_map(|section| &section.content) {
-        if let Some(number) = &decl.number
-            && let Some(before) = numbers.insert(number.value, number.span)
-        {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::DUPLICATE_VALUE,
-                    number.span,
-                    format!("table {} stands twice", number.value),
-                )
-                .label("again here")
-                .with(before, "first here")
-                .help("each numbered table of the manual stands once"),
-            );
-        }
+        is_new("table", decl.number.as_ref(), &mut tables, diagnostics);
+        let figure = decl.figure.as_ref().and_then(|figure| figure.value.number.as_ref());
+        is_new("figure", figure, &mut figures, diagnostics);
         match decl.contents.as_slice() {
             [content] => {
                 contents.check(&content.value, diagnostics);
-                if let (ContentDecl::Prose(kind, _), Some(table)) = (&content.value, of_table(decl)) {
-                    let message = format!("`{}` has neither number nor title", kind.word());
+                let is_prose = matches!(content.value, ContentDecl::Prose(..));
+                if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value)) {
+                    let message = "nothing is drawn of this content, so that it is no figure";
+                    diagnostics.push(
+                        Diagnostic::new(codes::CONFLICTING_KEYS, figure.span, message)
+                            .with(content.span, "the content stands here")
+                            .help("remove the key; it belongs to `bits`, `states`, `ladder`, `timing`, `hysteresis`, `flow` and `axis`"),
+                    );
+                }
+                if let (ContentDecl::Prose(kind, _), Some((table, what))) = (&content.value, of_table(decl)) {
+                    let message = format!("`{}` has {what}", kind.word());
                     diagnostics.push(
                         Diagnostic::new(codes::CONFLICTING_KEYS, table, message)
                             .with(content.span, "a text stands here")
@@ -257,8 +265,55 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
     }
 }
 
-/// The place of the first key that only tables have.
-fn of_table(decl: &PartDecl) -> Option<Span> {
+/// The place of the first key that only tables have, and what a text has not.
+fn of_table(decl: &PartDecl) -> Option<(Span, &'static str)> {
     let number = decl.number.as_ref().map(|number| number.span);
-    number.or_else(|| decl.title.as_ref().map(|title| title.span))
+    let of_both = number.or_else(|| decl.title.as_ref().map(|title| title.span));
+    let figure = decl.figure.as_ref().map(|figure| (figure.span, "no picture"));
+    of_both.map(|span| (span, "neither number nor title")).or(figure)
+}
+
+/// Reports a number that stood before.
+fn is_new(
+    what: &str,
+    number: Option<&Spanned<i128>>,
+    before: &mut BTreeMap<i128, Span>,
+    diagnostics: &mut Diagnostics,
+) {
+    if let Some(number) = number
+        && let Some(before) = before.insert(number.value, number.span)
+    {
+        let message = format!("{what} {} stands twice", number.value);
+        diagnostics.push(
+            Diagnostic::new(codes::DUPLICATE_VALUE, number.span, message)
+                .label("again here")
+                .with(before, "first here")
+                .help(format!("each numbered {what} of the manual stands once")),
+        );
+    }
+}
+
+/// Whether the documents draw a picture of a content.
+const fn is_drawn(content: &ContentDecl) -> bool {
+    match content {
+        ContentDecl::Bits { .. }
+        | ContentDecl::States(_)
+        | ContentDecl::Ladder { .. }
+        | ContentDecl::Timing(_)
+        | ContentDecl::Hysteresis(_)
+        | ContentDecl::Flow(_)
+        | ContentDecl::Axis(_) => true,
+        ContentDecl::Prose(..)
+        | ContentDecl::Overview(_)
+        | ContentDecl::Objects(_)
+        | ContentDecl::Values(_)
+        | ContentDecl::Errors(_)
+        | ContentDecl::Reactions(_)
+        | ContentDecl::Transitions(_)
+        | ContentDecl::Commands(_)
+        | ContentDecl::Pdos { .. }
+        | ContentDecl::Rows { .. }
+        | ContentDecl::Glossary
+        | ContentDecl::History => false,
+    }
 }

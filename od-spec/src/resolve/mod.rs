@@ -2,6 +2,7 @@
 
 mod aliases;
 mod assigned;
+mod axes;
 pub(crate) mod bit_values;
 mod channels;
 mod condition_names;
@@ -17,6 +18,7 @@ mod entries;
 mod errors;
 mod features;
 mod figures;
+mod flows;
 mod keys_have_effect;
 mod libraries;
 mod likes;

@@ -1,5 +1,5 @@
 //! Which tables of the manual an erratum is about, read from the words of its place: `5.1.1.1, Table 38`,
-//! `4.3.1.1, detail table`, `Tables 12 to 15`.
+//! `4.3.1.1, detail table`, `Tables 12 to 15`. A figure is the picture of a table.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -10,8 +10,41 @@ use crate::model::{Document, ErratumPlace, Index, TableContent, TableId};
 pub(super) struct Named {
     /// Tables of the document.
     pub tables: Vec<TableId>,
-    /// The first number of a table that the document does not have.
-    pub unknown: Option<u32>,
+    /// The first number of a table or figure that the document does not have.
+    pub unknown: Option<(Kind, u32)>,
+}
+
+/// What has a number in a manual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Table,
+    Figure,
+}
+
+impl Kind {
+    /// As its caption has it.
+    pub(super) const fn title(self) -> &'static str {
+        match self {
+            Self::Table => "Table",
+            Self::Figure => "Figure",
+        }
+    }
+
+    /// In a sentence.
+    pub(super) const fn word(self) -> &'static str {
+        match self {
+            Self::Table => "table",
+            Self::Figure => "figure",
+        }
+    }
+
+    /// The kind that a number behind this word is of.
+    fn of(word: &str) -> Option<Self> {
+        if NUMBERED.contains(&word) {
+            return Some(Self::Table);
+        }
+        FIGURES.contains(&word).then_some(Self::Figure)
+    }
 }
 
 /// Where the parts of a document are.
@@ -19,6 +52,8 @@ pub(super) struct Named {
 pub(super) struct Places<'a> {
     /// The numbered tables; of one number, the first.
     numbered: BTreeMap<u32, TableId>,
+    /// The tables with a figure, by its number; of one number, the first.
+    figures: BTreeMap<u32, TableId>,
     /// The tables without a number that show an object.
     unnumbered: BTreeMap<Index, Vec<TableId>>,
     /// The positions of the numbered sections; of one number, the first.
@@ -34,6 +69,9 @@ impl<'a> Places<'a> {
             }
         }
         for (id, _, table) in document.tables() {
+            if let Some(figure) = &table.figure {
+                places.figures.entry(figure.number.into()).or_insert(id);
+            }
             match (table.number, &table.content) {
                 (Some(number), _) => {
                     places.numbered.entry(number.into()).or_insert(id);
@@ -52,6 +90,8 @@ impl<'a> Places<'a> {
 
 /// Words for a numbered table, one or several.
 const NUMBERED: [&str; 4] = ["table", "tables", "tabelle", "tabellen"];
+/// Words for a figure, one or several.
+const FIGURES: [&str; 4] = ["figure", "figures", "abbildung", "abbildungen"];
 /// Words for a table without a number.
 const UNNUMBERED: [&str; 9] = [
     "table",
@@ -75,14 +115,20 @@ pub(super) fn read(place: &str, at: &[ErratumPlace], places: &Places<'_>) -> Nam
     let mut named = Named { tables: Vec::new(), unknown: None };
     for segment in place.split(';') {
         let words = Words::of(segment, places);
-        for numbers in &words.tables {
+        for (kind, numbers) in &words.numbers {
+            let numbered = match kind {
+                Kind::Table => &places.numbered,
+                Kind::Figure => &places.figures,
+            };
             let mut expected = *numbers.start();
-            for (number, id) in places.numbered.range(numbers.clone()) {
+            for (number, id) in numbered.range(numbers.clone()) {
                 named.tables.push(*id);
                 expected = if *number == expected { number.saturating_add(1) } else { expected };
             }
-            if expected <= *numbers.end() {
-                named.unknown = named.unknown.or(Some(expected));
+            // A document without figures says nothing about those of the manual.
+            let is_described = *kind == Kind::Table || !numbered.is_empty();
+            if expected <= *numbers.end() && is_described {
+                named.unknown = named.unknown.or(Some((*kind, expected)));
             }
         }
         if words.unnumbered {
@@ -111,7 +157,8 @@ fn about(places: &Places<'_>, sections: &RangeInclusive<usize>, at: &[ErratumPla
 
 /// What one segment of a place says.
 struct Words {
-    tables: Vec<RangeInclusive<u32>>,
+    /// The numbers of tables and figures.
+    numbers: Vec<(Kind, RangeInclusive<u32>)>,
     /// Positions of the sections.
     sections: Vec<RangeInclusive<usize>>,
     /// Whether the unnumbered tables of the sections are meant.
@@ -128,16 +175,17 @@ impl Words {
             .map(|word| word.trim_end_matches('.'))
             .filter(|word| !word.is_empty())
             .collect();
-        let mut read = Self { tables: Vec::new(), sections: Vec::new(), unnumbered: false };
+        let mut read = Self { numbers: Vec::new(), sections: Vec::new(), unnumbered: false };
         let (mut others, mut at) = (Vec::new(), 0);
         while let Some(word) = words.get(at) {
             let before = at.checked_sub(1).and_then(|before| words.get(before));
             at += 1;
-            if NUMBERED.contains(word) && words.get(at).is_some_and(|next| number(next).is_some()) {
+            let kind = Kind::of(word).filter(|_| words.get(at).is_some_and(|next| number(next).is_some()));
+            if let Some(kind) = kind {
                 let near = before.is_some_and(|before| NEAR.contains(before));
                 let used = numbers(&words[at..], |first, last| {
                     if !near {
-                        read.tables.push(first..=last);
+                        read.numbers.push((kind, first..=last));
                     }
                 });
                 at += used;
@@ -152,7 +200,7 @@ impl Words {
             }
         }
         read.unnumbered = if others.is_empty() {
-            read.tables.is_empty()
+            read.numbers.is_empty()
         } else {
             others.iter().any(|word| UNNUMBERED.contains(word))
         };
@@ -164,7 +212,7 @@ fn number(word: &str) -> Option<u32> {
     word.parse().ok()
 }
 
-/// Reads a list of table numbers and says how many words it took.
+/// Reads a list of numbers and says how many words it took.
 fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
     let (mut used, mut last) = (0, None);
     while let Some(word) = words.get(used) {
@@ -193,12 +241,16 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Section, Table, Text};
+    use crate::model::{Figure, Section, Table, Text};
 
     fn document() -> Document {
-        let table = |number, indices: &[u16]| Table {
+        let table = |number: Option<u16>, indices: &[u16]| Table {
             number,
             title: Text::default(),
+            // Figure 7 is the picture of Table 3.
+            figure: number
+                .filter(|number| *number == 3)
+                .map(|_| Figure { number: 7, title: Text::default() }),
             content: TableContent::Objects(indices.iter().map(|index| Index(*index)).collect()),
         };
         let section = |number: &str, tables| Section {
@@ -222,7 +274,10 @@ mod tests {
         let document = document();
         let named = read(place, &[ErratumPlace::Object(Index(0x2000))], &Places::of(&document));
         let tables = named.tables.iter().map(|id| format!("{}.{}", id.section, id.table));
-        let unknown = named.unknown.map(|number| format!("?{number}"));
+        let unknown = named.unknown.map(|(kind, number)| match kind {
+            Kind::Table => format!("?{number}"),
+            Kind::Figure => format!("?figure {number}"),
+        });
         tables.chain(unknown).collect::<Vec<_>>().join(" ")
     }
 
@@ -236,6 +291,15 @@ mod tests {
         assert_eq!(tables("Tables 2 to 4294967295"), "1.1 3.0 ?4");
         assert_eq!(tables("Tables 1-3."), "0.0 1.1 3.0");
         assert_eq!(tables("1.1, text below Table 2"), "");
+    }
+
+    #[test]
+    fn numbers_name_figures() {
+        assert_eq!(tables("1.3, Figure. 7"), "3.0");
+        assert_eq!(tables("Table 2 and Figure 7"), "1.1 3.0");
+        assert_eq!(tables("Abbildung 7, Tabelle 1"), "3.0 0.0");
+        assert_eq!(tables("Figures 7 and 8"), "3.0 ?figure 8");
+        assert_eq!(tables("1.1, Abbildung der Pumpe"), "");
     }
 
     #[test]

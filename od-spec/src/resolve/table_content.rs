@@ -85,6 +85,8 @@ impl<'a> Contents<'a> {
             // Whoever resolves it says what is wrong with it.
             ContentDecl::Timing(_)
             | ContentDecl::Hysteresis(_)
+            | ContentDecl::Flow(_)
+            | ContentDecl::Axis(_)
             | ContentDecl::Prose(..)
             | ContentDecl::Bits { named_type: None, .. }
             | ContentDecl::Ladder { constraint: None, .. }

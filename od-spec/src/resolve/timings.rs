@@ -10,7 +10,7 @@ use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::limits::{TIMING_SIGNALS, TIMING_STEPS};
 use crate::model::{
-    BitField, Entry, EntryId, Level, Signal, SignalCarrier, Timing, TimingStep, TypeKind, Value,
+    BitField, Entry, EntryId, Level, NamedBits, Signal, SignalCarrier, Timing, TimingStep, TypeKind, Value,
 };
 use crate::scalar;
 use crate::source::{Span, Spanned};
@@ -59,12 +59,9 @@ impl Figures<'_, '_> {
         let levels: Vec<Option<Level>> =
             levels.iter().map(|level| read_level(level, &carrier, diagnostics)).collect();
         let carrier = match carrier {
-            Carrier::Bits { named_type, name, field } => SignalCarrier::Bits {
-                named_type: named_type.value.clone(),
-                first: field.first,
-                last: field.last,
-                name: name.to_owned(),
-            },
+            Carrier::Bits { named_type, name, field } => {
+                SignalCarrier::Bits(named_bits(named_type, name, field))
+            }
             Carrier::Entry { id, .. } => SignalCarrier::Entry(id),
         };
         Some(Signal { carrier, levels: levels.into_iter().collect::<Option<_>>()? })
@@ -82,7 +79,10 @@ impl Figures<'_, '_> {
             }
         };
         match (named_type, bit, entry) {
-            (Some(named_type), Some(bit), None) => self.bits(named_type, bit, diagnostics),
+            (Some(named_type), Some(bit), None) => {
+                let (name, field) = self.field(named_type, bit, diagnostics)?;
+                Some(Carrier::Bits { named_type, name, field })
+            }
             (None, None, Some(entry)) => {
                 let (id, entry) = self.entry(entry, diagnostics)?;
                 Some(Carrier::Entry { id, entry })
@@ -114,17 +114,29 @@ impl Figures<'_, '_> {
         }
     }
 
-    fn bits<'s>(
+    /// The bits that a type and a name or number mean.
+    pub(super) fn named_bits(
+        &self,
+        named_type: &Name,
+        bit: &Name,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<NamedBits> {
+        let (name, field) = self.field(named_type, bit, diagnostics)?;
+        Some(named_bits(named_type, name, field))
+    }
+
+    /// What bits are called there, and the field that they are.
+    fn field<'s>(
         &'s self,
-        named_type: &'s Name,
+        named_type: &Name,
         bit: &'s Name,
         diagnostics: &mut Diagnostics,
-    ) -> Option<Carrier<'s>> {
+    ) -> Option<(&'s str, &'s BitField)> {
         self.bit_fields.check(named_type, diagnostics);
         let TypeKind::Bits(fields) = &self.system.types.get(&named_type.value)?.kind else { return None };
         let Ok(number) = scalar::integer(&bit.value) else {
             let field = bit_values::field(fields, bit, "the number of the bit", diagnostics)?;
-            return Some(Carrier::Bits { named_type, name: &bit.value, field });
+            return Some((&bit.value, field));
         };
         let has_it = |field: &&BitField| (field.first..=field.last).any(|bit| i128::from(bit) == number);
         let Some(field) = fields.iter().find(has_it) else {
@@ -134,7 +146,16 @@ impl Figures<'_, '_> {
             );
             return None;
         };
-        Some(Carrier::Bits { named_type, name: &field.name, field })
+        Some((&field.name, field))
+    }
+}
+
+fn named_bits(named_type: &Name, name: &str, field: &BitField) -> NamedBits {
+    NamedBits {
+        named_type: named_type.value.clone(),
+        first: field.first,
+        last: field.last,
+        name: name.to_owned(),
     }
 }
 

@@ -10,6 +10,7 @@ use od_spec::model::System;
 use od_tests::compile_clean;
 
 mod defaults;
+mod figures;
 mod groups;
 mod links;
 mod machines;
@@ -55,7 +56,8 @@ fn pages(system: &System) -> (BTreeMap<String, Page>, serde_json::Value) {
 
 /// The tables behind an anchor, up to the next table's anchor.
 fn behind<'a>(page: &'a Page, anchor: &str) -> Vec<&'a Table> {
-    let is_table = |name: &String| name.starts_with("table-") || name.starts_with("section-");
+    let is_table =
+        |name: &String| ["table-", "figure-", "section-"].iter().any(|kind| name.starts_with(kind));
     let first = page.tables.iter().position(|table| table.anchors.iter().any(|name| name == anchor));
     let first = first.unwrap_or_else(|| panic!("no table behind {anchor}"));
     let rest = page.tables[first + 1..].iter().take_while(|table| !table.anchors.iter().any(is_table));

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use od_spec::model::{
-    Access, AnyError, BitUsage, Constraint, DataType, Dictionary, Direction, Edge, Entry, EntryId,
-    ErratumPlace, Index, LadderTable, Level, ModeMeaning, NamedType, Object, PatternBit, PdoMapping,
-    PdoTarget, Ratio, SignalCarrier, StateMachine, Storage, SubIndex, Switch, SwitchBack, SwitchSide, System,
-    TableContent, Text, Timing, TypeKind, Unit, Value,
+    Access, AnyError, Axis, AxisReach, BitUsage, Constraint, DataType, Dictionary, Direction, Edge, Entry,
+    EntryId, ErratumPlace, Flow, Index, LadderTable, Level, ModeMeaning, NamedBits, NamedType, Object,
+    PatternBit, PdoMapping, PdoTarget, Ratio, SignalCarrier, StateMachine, Storage, SubIndex, Switch,
+    SwitchBack, SwitchSide, System, TableContent, Text, Timing, TypeKind, Unit, Value,
 };
 use od_tests::compile_clean;
 
@@ -329,6 +329,8 @@ fn check(system: &System, content: &TableContent, tables: &[&Table]) {
         TableContent::Ladder(ladder) => check_ladder(system, table, ladder),
         TableContent::Timing(timing) => check_timing(system, table, timing),
         TableContent::Hysteresis(switches) => check_switches(system, table, switches),
+        TableContent::Flow(flow) => check_flow(system, table, flow),
+        TableContent::Axis(axis) => check_axis(system, table, axis),
         TableContent::Pdos(pdos) => check_pdos(system, &pdos.device, pdos.direction, table),
         TableContent::Rows { columns, rows } => {
             // Titles of columns carry no mark.
@@ -488,6 +490,65 @@ fn check_switches(system: &System, table: &Table, switches: &[Switch]) {
     }
 }
 
+/// Indices and names of entries, one line each.
+fn listed(system: &System, entries: &[EntryId]) -> Vec<String> {
+    let named = entries.iter().map(|id| {
+        let (device, object) = objects(system, id.index)[0];
+        let name = if id.sub.0 == 0 { object.name.clone() } else { device.entry_name(*id).unwrap() };
+        format!("{id} {name}")
+    });
+    named.collect()
+}
+
+/// A row for each block: what it takes from which block, its entries and bits, and what it does.
+fn check_flow(system: &System, table: &Table, flow: &Flow) {
+    assert_eq!(table.rows.len(), flow.blocks.len());
+    for (row, block) in table.rows.iter().zip(&flow.blocks) {
+        assert_eq!(table.cell(row, "Block"), told(&block.name));
+        let from: Vec<String> = block
+            .from
+            .iter()
+            .map(|inflow| {
+                let (name, carries) = (told(&flow.blocks[inflow.block].name), told(&inflow.carries));
+                if carries.is_empty() { name } else { format!("{name} ({carries})") }
+            })
+            .collect();
+        assert_eq!(table.cell(row, "Takes from"), from.join("\n"));
+        let bits =
+            block.bits.as_ref().map(|bits| format!("{}, Bit {}: {}", bits.named_type, bits.first, bits.name));
+        let entries: Vec<String> = listed(system, &block.entries).into_iter().chain(bits).collect();
+        assert_eq!(cell_if_there(table, row, "Entries"), entries.join("\n"));
+        assert_eq!(cell_if_there(table, row, "Function"), told(&block.does));
+    }
+}
+
+/// A cell; nothing where no row has anything in its column.
+fn cell_if_there<'t>(table: &'t Table, row: &'t [String], column: &str) -> &'t str {
+    table.columns.iter().position(|title| title == column).map_or("", |at| &row[at])
+}
+
+/// A row for each mark, then one for each span with the marks where it begins and ends.
+fn check_axis(system: &System, table: &Table, axis: &Axis) {
+    assert_eq!(table.rows.len(), axis.marks.len() + axis.spans.len());
+    let (marks, spans) = table.rows.split_at(axis.marks.len());
+    for (row, mark) in marks.iter().zip(&axis.marks) {
+        assert_eq!((table.cell(row, "Kind"), table.cell(row, "Name")), ("Mark", told(&mark.name).as_str()));
+        assert_eq!(cell_if_there(table, row, "Entries"), listed(system, &mark.entries).join("\n"));
+    }
+    for (row, span) in spans.iter().zip(&axis.spans) {
+        assert_eq!((table.cell(row, "Kind"), table.cell(row, "Name")), ("Span", told(&span.name).as_str()));
+        let name = |at: usize| told(&axis.marks[at].name);
+        let (from, to) = match span.reach {
+            AxisReach::Between(from, to) => (name(from), name(to)),
+            AxisReach::Above(from) => (name(from), "…".to_owned()),
+            AxisReach::Below(to) => ("…".to_owned(), name(to)),
+        };
+        assert_eq!((table.cell(row, "From"), table.cell(row, "To")), (from.as_str(), to.as_str()));
+        assert_eq!(cell_if_there(table, row, "Entries"), listed(system, &span.entries).join("\n"));
+        assert_eq!(cell_if_there(table, row, "Meaning"), told(&span.does));
+    }
+}
+
 /// A row for each step, behind one for what holds before the first.
 fn check_timing(system: &System, table: &Table, timing: &Timing) {
     assert_eq!(table.rows.len(), timing.steps.len() + 1);
@@ -495,7 +556,7 @@ fn check_timing(system: &System, table: &Table, timing: &Timing) {
     for (at, signal) in timing.signals.iter().enumerate() {
         let title = &table.columns[levels + at];
         match &signal.carrier {
-            SignalCarrier::Bits { named_type, first, name, .. } => {
+            SignalCarrier::Bits(NamedBits { named_type, first, name, .. }) => {
                 assert_eq!(*title, format!("{named_type}, Bit {first}: {name}"));
             }
             SignalCarrier::Entry(id) => {

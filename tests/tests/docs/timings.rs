@@ -105,7 +105,7 @@ fn pictures_show_the_levels_that_are_given() {
                     assert!(texts.iter().all(|text| *text == level), "{spec}: {level} is {texts:?}");
                 }
                 let name = match &signal.carrier {
-                    SignalCarrier::Bits { name, .. } => name.clone(),
+                    SignalCarrier::Bits(bits) => bits.name.clone(),
                     SignalCarrier::Entry(id) => {
                         let system = compile_clean(spec).unwrap();
                         system.devices.iter().find_map(|device| device.entry_name(*id)).unwrap()
