@@ -172,7 +172,7 @@ fn flat(text: &str) -> String {
 /// The devices' objects of an index, each different one once.
 /// A text as the English document shows it: what exists in another language only is marked, unless it has no words, as
 /// `Bit 9` and `0..3` have none.
-fn told(text: &od_spec::model::Text) -> String {
+fn told(text: &Text) -> String {
     let shown = flat(text.get("en").unwrap_or_default());
     let mut words = shown.split(|sign: char| !sign.is_alphabetic());
     let has_words = words.any(|word| word.chars().count() > 2 && word.chars().any(char::is_lowercase));
@@ -334,7 +334,7 @@ fn check(system: &System, content: &TableContent, tables: &[&Table]) {
         TableContent::Pdos(pdos) => check_pdos(system, &pdos.device, pdos.direction, table),
         TableContent::Rows { columns, rows } => {
             // Titles of columns carry no mark.
-            let title = |text: &od_spec::model::Text| flat(text.get("en").unwrap_or_default());
+            let title = |text: &Text| flat(text.get("en").unwrap_or_default());
             assert_eq!(table.columns, columns.iter().map(title).collect::<Vec<_>>());
             let cells: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(told).collect()).collect();
             assert_eq!(table.rows, cells);

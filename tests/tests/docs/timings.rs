@@ -52,15 +52,6 @@ fn drawn(row: &[&Element], middle: i64, x: i64) -> String {
         assert_ne!(piece.level, middle);
         return if piece.level < middle { "1" } else { "0" }.to_owned();
     }
-    let ends = |band: &Element| -> (i64, i64) {
-        let numbers: Vec<i64> = band.get("d")[1..]
-            .split(['L', 'H', 'Z', ' '])
-            .filter(|part| !part.is_empty())
-            .map(|part| part.parse().unwrap())
-            .collect();
-        // `M{from} {middle}L{left} {top}H{right}L{to} {middle}…`
-        (numbers[0], numbers[5])
-    };
     let bands = row.iter().filter(|element| element.is("band"));
     let (from, to) = bands.map(|band| ends(band)).find(|(from, to)| (*from..=*to).contains(&x)).unwrap();
     let inside = |element: &&&Element| {
@@ -69,6 +60,39 @@ fn drawn(row: &[&Element], middle: i64, x: i64) -> String {
     let texts: Vec<&str> = row.iter().filter(inside).map(|element| element.text.as_str()).collect();
     assert_eq!(texts.len(), 1, "{texts:?}");
     texts[0].to_owned()
+}
+
+/// Where a band begins and ends.
+fn ends(band: &Element) -> (i64, i64) {
+    let numbers: Vec<i64> = band.get("d")[1..]
+        .split(['L', 'H', 'Z', ' '])
+        .filter(|part| !part.is_empty())
+        .map(|part| part.parse().unwrap())
+        .collect();
+    // `M{from} {middle}L{left} {top}H{right}L{to} {middle}…`
+    (numbers[0], numbers[5])
+}
+
+/// From where to where a signal keeps a level, as it is drawn.
+fn drawn_runs(row: &[&Element]) -> Vec<(i64, i64)> {
+    let lines = row.iter().filter(|element| element.is("wave") && !element.is("band"));
+    let lines = lines.flat_map(|line| pieces(line.get("d"))).filter(|piece| !piece.is_vertical);
+    let bands = row.iter().filter(|element| element.is("band")).map(|band| ends(band));
+    let mut runs: Vec<(i64, i64)> = lines.map(|piece| (piece.from, piece.to)).chain(bands).collect();
+    runs.sort_unstable();
+    runs
+}
+
+/// The same as it is given: a level is kept from a step to the one at which it changes.
+fn given_runs(levels: &[Level], edges: &[i64]) -> Vec<(i64, i64)> {
+    let mut runs: Vec<(i64, i64)> = Vec::new();
+    for (at, pair) in edges.windows(2).enumerate() {
+        match runs.last_mut() {
+            Some(run) if levels[at] == levels[at - 1] => run.1 = pair[1],
+            Some(_) | None => runs.push((pair[0], pair[1])),
+        }
+    }
+    runs
 }
 
 #[test]
@@ -94,6 +118,13 @@ fn pictures_show_the_levels_that_are_given() {
                 let found: Vec<String> = places.iter().map(|place| drawn(&row, middle, *place)).collect();
                 let given: Vec<String> = signal.levels.iter().map(shown).collect();
                 assert_eq!(found, given, "{spec}: {:?}", signal.carrier);
+                // It changes at the marks of its steps, and nowhere else.
+                let edges: Vec<i64> = std::iter::once(at[0] - interval)
+                    .chain(at.iter().copied())
+                    .chain([at[at.len() - 1] + interval])
+                    .collect();
+                let given_runs = given_runs(&signal.levels, &edges);
+                assert_eq!(drawn_runs(&row), given_runs, "{spec}: {:?}", signal.carrier);
                 // The digits beside a line say the same.
                 for (place, level) in places.iter().zip(&given) {
                     let near = |element: &&&Element| {
