@@ -136,7 +136,16 @@ class Manual:
         titles.append(self.context["words"]["notation"])
         if tables:
             titles.append(self.context["words"]["list_of_tables"])
-        for title in titles + [title for _, title in tables]:
+        figures = [
+            f"{table['figure']['number']} {table['figure']['title']['text']}"
+            for chapter in self.context["chapters"]
+            for section in chapter["sections"]
+            for table in section["tables"]
+            if table["figure"] is not None
+        ]
+        if figures:
+            titles.append(self.context["words"]["list_of_figures"])
+        for title in titles + [title for _, title in tables] + figures:
             # A long title is broken into lines, of which the last has the number.
             words = squeezed(title)
             pages = named.get(words) or [page for line, found in named.items() if len(line) > 3 and words.endswith(line) for page in found]
@@ -176,14 +185,25 @@ class Manual:
             )
 
     def figures(self, table: dict) -> None:
-        """A picture of events or switches stands on one page with its caption, and all of its texts do."""
-        caption = squeezed(table["title"]["text"])
+        """A picture stands on one page with its caption, and all of its texts do."""
+        figure = table["figure"]
+        caption = squeezed(
+            f"{self.context['words']['figure']} {figure['number']} {figure['title']['text']}" if figure else table["title"]["text"]
+        )
         for grid in table["grids"]:
             signals = grid["timing"]["signals"] if grid["timing"] else []
             switches = grid["hysteresis"]["switches"] if grid["hysteresis"] else []
             texts = [text for signal in signals for text in (signal["name"], signal["place"])]
             texts += [level["text"] for signal in signals for level in signal["levels"]]
             texts += [text for switch in switches for text in (switch["name"], *(one["text"] for one in switch["texts"]))]
+            texts += [line["text"] for box in (grid["flow"] or {"boxes": []})["boxes"] for line in box["lines"]]
+            texts += [arrow["label"]["text"] for arrow in (grid["flow"] or {"arrows": []})["arrows"] if arrow["label"]]
+            axis = grid["axis"] or {"marks": [], "spans": []}
+            texts += [line["text"] for part in axis["marks"] + axis["spans"] for line in part["lines"]]
+            if figure and grid["machine"]:
+                texts += [state["name"] for state in grid["machine"]["states"]]
+            if figure and grid["bits"]:
+                texts += [field["name"] for row in grid["bits"]["rows"] for field in row["fields"]]
             if not texts:
                 continue
             wanted = [squeezed(text) for text in texts]

@@ -108,7 +108,7 @@ fn rows(spans: &[(AxisReach, Label)], scale: &Scale) -> Vec<usize> {
             here.map(|((other, _), _)| part(*other))
                 .all(|(other_begin, other_end)| end <= other_begin || other_end <= begin)
         };
-        rows.push((0..).find(is_free).unwrap_or_default());
+        rows.push((0..spans.len()).find(is_free).unwrap_or_default());
     }
     rows
 }

@@ -410,7 +410,7 @@ fn nets(graph: &Graph, ports: &[i64], layer: usize) -> (Vec<Net>, i64) {
                 net.lane == Some(lane) && first <= other_last + 2 && other_first <= last + 2
             })
         };
-        let lane = (least..).find(|lane| !meets(*lane)).unwrap_or(least);
+        let lane = (least..lanes).find(|lane| !meets(*lane)).unwrap_or(lanes.max(least));
         nets[at].lane = Some(lane);
         lanes = lanes.max(lane + 1);
     }

@@ -113,7 +113,7 @@ impl<'a> Named<'a> {
     /// The position of what has this name, in whichever language.
     pub(super) fn find(&self, name: &Name, diagnostics: &mut Diagnostics) -> Option<usize> {
         let is_it = |text: &&Spanned<Text>| text.value.iter().any(|(_, text)| text == name.value);
-        let found = self.names.iter().position(|text| is_it(&text));
+        let found = self.names.iter().position(is_it);
         if found.is_none() {
             let known = self.names.iter().flat_map(|text| text.value.iter().map(|(_, text)| text));
             let help = format!("write the name of a {} of this picture", self.what);
