@@ -16,7 +16,7 @@ fn random(seed: u64) -> Vec<DrawnBlock> {
     let mut random = Random(seed);
     let count = 2 + random.below(13);
     let words = ["ramp", "generator", "limit", "of", "the", "velocity", "Geschwindigkeitsregelung"];
-    let mut text = |least: usize, random: &mut Random| {
+    let text = |least: usize, random: &mut Random| {
         let count = least + random.below(4);
         (0..count).map(|_| words[random.below(words.len())]).collect::<Vec<_>>().join(" ")
     };
