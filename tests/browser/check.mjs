@@ -244,7 +244,7 @@ for (const device of dump.devices) {
 // ---------------------------------------------------------------- the system's page
 {
   const page = await open("index.html");
-  const expected = [...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)),
+  const expected = [...(context.warnings ? [context.warnings] : []), ...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)),
     ...context.appendices.flatMap((appendix) => appendix.tables)];
   const grids = expected.flatMap((table) => table.grids.map((grid) => ({ anchor: table.anchor, grid })));
   const found = await rowsOf(page, "table.grid");

@@ -40,8 +40,11 @@ const parts = (page) => page.evaluate(() => {
     // Where code cannot have the name of an entry, there is no accessor to copy.
     if (one.matches("button[data-copy^='.']")) continue;
     if (one.localName !== "br") {
-      const name = `${one.localName} ${one.getAttributeNames().sort().join(" ")}`;
-      elements[name] = (elements[name] ?? 0) + 1;
+      // What the script adds to a table that is wider than its place, and in how many lines a picture shows a text, are matters of its length.
+      const isFolded = one.closest("table[role]");
+      const attributes = one.getAttributeNames().filter((name) => !(isFolded && ["role", "data-label", "data-long"].includes(name)));
+      const name = `${one.localName} ${attributes.sort().join(" ")}`;
+      elements[name] = one.matches(".flow text, .axis text") ? elements[name] ?? 1 : (elements[name] ?? 0) + 1;
     }
     for (const { name, value } of one.attributes) {
       if (name.startsWith("on")) handlers.push(`${one.localName} ${name}=${value}`);

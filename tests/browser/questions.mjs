@@ -1,7 +1,7 @@
 // Asks the pages what readers ask, and compares the first result; follows links in every way, and measures where they land.
 //
 //   node questions.mjs DOCS CHROMIUM
-import { readFileSync } from "node:fs";
+import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
@@ -63,7 +63,7 @@ for (const [name, { questions, links }] of Object.entries(table)) {
       const place = `${name} at ${width} px: ${question}`;
       await page.fill("#ui_search", question);
       // A busy machine takes its time for the first list.
-      await page.waitForSelector("#ui_results:not(.off) ol a", { state: "attached", timeout: 2000 }).catch(() => null);
+      await page.waitForSelector("#ui_results:not(.off) ol a", { state: "attached", timeout: 10000 }).catch(() => null);
       const first = await firstOf(page);
       check(first === expected, `${place}: #${first} instead of #${expected}`);
       asked += 1;
@@ -110,11 +110,44 @@ for (const [name, { questions, links }] of Object.entries(table)) {
   }));
 }
 
+// A search in slices, which only pages of many thousand places have, finds the same: a copy of the page has one slice for each piece of the work.
+for (const [name, { questions }] of Object.entries(table)) {
+  const whole = join(docs, name), sliced = join(docs, `${name}.sliced.html`);
+  const text = readFileSync(whole, "utf8"), copy = text.replace("apply(index.places.length > MANY_PLACES)", "apply(true)").replace("SLICE = 3", "SLICE = 0");
+  check(copy.includes("apply(true)") && copy.includes("SLICE = 0"), `${name}: its script has no slices`);
+  writeFileSync(sliced, copy);
+  const answers = async (file) => {
+    const page = await open(pathToFileURL(file).href, 1400), found = [];
+    await page.waitForFunction(() => performance.getEntriesByName("search-ready").length > 0);
+    for (const [question] of questions) {
+      found.push(await page.evaluate(async (text) => {
+        const search = document.getElementById("ui_search"), ask = (value) => { search.value = value; search.dispatchEvent(new Event("input")); };
+        const still = () => new Promise((done) => setTimeout(done, 60));
+        const pieces = () => performance.getEntriesByName("search-piece", "measure").length;
+        // A letter follows while the search for the one before goes on.
+        ask(text.slice(0, -1));
+        ask(text);
+        for (let before = 0; before !== pieces();) { before = pieces(); await still(); }
+        return [pieces(), [...document.querySelectorAll("#ui_results li")].map((line) => line.textContent + line.querySelector("a")?.hash).join("\n")];
+      }, question));
+    }
+    await page.close();
+    return found;
+  };
+  const [expected, found] = [await answers(whole), await answers(sliced)];
+  for (const [at, [question]] of questions.entries()) check(found[at][1] === expected[at][1], `${name}, in slices: ${question} finds ${found[at][1].slice(0, 200)}`);
+  check(found.some(([pieces]) => pieces > 10), `${name}: nothing is found in slices`);
+  rmSync(sliced);
+}
+
 // The question stays: in the address, when the page is loaded again, and on the way back.
 for (const [name, { questions }] of Object.entries(table)) {
   const address = pathToFileURL(join(docs, name)).href, [question, expected] = questions[0];
   const page = await open(`${address}?q=${encodeURIComponent(question)}`, 1400);
-  const state = async () => [await page.inputValue("#ui_search"), await firstOf(page)].join(" → ");
+  const state = async () => {
+    await page.waitForSelector("#ui_results:not(.off) ol a", { state: "attached", timeout: 10000 }).catch(() => null);
+    return [await page.inputValue("#ui_search"), await firstOf(page)].join(" → ");
+  };
   const wanted = `${question} → ${expected}`;
   check(await state() === wanted, `${name}: opened with a question, ${await state()}`);
   await page.reload();
@@ -123,7 +156,7 @@ for (const [name, { questions }] of Object.entries(table)) {
   await page.fill("#ui_search", question);
   await page.waitForFunction(() => location.search !== "");
   await page.goBack();
-  check(await page.inputValue("#ui_search") === "", `${name}: back before the question, ${await state()}`);
+  check(await page.inputValue("#ui_search") === "", `${name}: back before the question, ${await page.inputValue("#ui_search")}`);
   await page.goForward();
   check(await state() === wanted, `${name}: forward, ${await state()}`);
   // Words are marked, rows that do not fit are away, and all can be shown.

@@ -113,7 +113,7 @@ fn diagrams_show_the_blocks_and_what_goes_between_them() {
                 .enumerate()
                 .flat_map(|(to, block)| block.from.iter().map(move |inflow| (inflow.block, to)))
                 .collect();
-            let lines = picture.iter().filter(|one| one.name == "path" && !one.is("tip"));
+            let lines = picture.iter().filter(|one| one.name == "path" && !one.is("tip") && !one.is("area"));
             let drawn: Vec<(usize, usize)> = lines
                 .map(|line| {
                     let (start, end) = ends(line.get("d"));
