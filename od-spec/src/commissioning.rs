@@ -33,6 +33,8 @@ pub struct Commissioning {
     pub denotations: BTreeMap<Denoted, String>,
     /// The files of DOMAINs.
     pub files: BTreeMap<EntryId, DomainFiles>,
+    /// Serial number of this very device (1018h.4), where it is known; nobody sets it over the bus.
+    pub serial_number: Option<u32>,
 }
 
 /// What has a name in the application: an object as a whole, or one of its entries.
@@ -97,6 +99,7 @@ impl Commissioning {
             unlocked: BTreeSet::new(),
             denotations: BTreeMap::new(),
             files: BTreeMap::new(),
+            serial_number: None,
         }
     }
 

@@ -17,6 +17,8 @@ pub(crate) const TIMING_STEPS: usize = 64;
 pub(crate) const TIMING_SIGNALS: usize = 32;
 /// Switches with a hysteresis in one picture: each is compared with the others.
 pub(crate) const SWITCHES: usize = 32;
+/// Nodes of a plant. The largest have some thousands.
+pub(crate) const NODES_OF_PLANT: usize = 100_000;
 /// Bytes that are written once and stand for many: the texts of a run, of the elements of an array, of an object that several
 /// devices have. It is the size of the largest file.
 pub(crate) const REPEATED_TEXT: usize = 64 << 20;

@@ -16,7 +16,8 @@ pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, commission
     section.text("NetworkName", &commissioning.net_name);
     section.flag("CANopenManager", false);
     let serial = EntryId { index: Index(0x1018), sub: SubIndex(4) };
-    let serial = commissioning.values.get(&serial).or_else(|| device.entry(serial)?.default.as_ref());
-    section.key("LSS_SerialNumber", format_args!("0x{:08X}", serial.and_then(Value::integer).unwrap_or(0)));
+    let value = commissioning.values.get(&serial).or_else(|| device.entry(serial)?.default.as_ref());
+    let number = commissioning.serial_number.map(i128::from).or_else(|| value.and_then(Value::integer));
+    section.key("LSS_SerialNumber", format_args!("0x{:08X}", number.unwrap_or(0)));
     section.finish(document);
 }
