@@ -16,7 +16,7 @@ use crate::artifact::{Artifact, OutputFile};
 /// # Errors
 /// A directory or a file cannot be read.
 pub fn left_over<F: OutputFile>(directory: &Path, set: &[F]) -> Result<Vec<String>, WriteError> {
-    look(directory, set, set.iter().map(|file| kind(file.path())).collect())
+    look(directory, set, &set.iter().map(|file| kind(file.path())).collect())
 }
 
 /// [`left_over`], with the folders that earlier sets had, as the list of the directory tells: what names folders may be gone.
@@ -32,13 +32,13 @@ pub fn left_over_of_folders<F: OutputFile>(directory: &Path, set: &[F]) -> Resul
     let endings: BTreeSet<&str> = set.iter().map(|file| kind(file.path()).1).collect();
     let of_list = folders.flat_map(|folder| endings.iter().map(move |ending| (folder, *ending)));
     let of_set = set.iter().map(|file| kind(file.path()));
-    look(directory, set, of_list.chain(of_set).collect())
+    look(directory, set, &of_list.chain(of_set).collect())
 }
 
 fn look<F: OutputFile>(
     directory: &Path,
     set: &[F],
-    kinds: BTreeSet<(&str, &str)>,
+    kinds: &BTreeSet<(&str, &str)>,
 ) -> Result<Vec<String>, WriteError> {
     let directory = of_path(directory);
     let folders: BTreeSet<&str> = kinds.iter().map(|(folder, _)| *folder).collect();

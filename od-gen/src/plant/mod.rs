@@ -6,7 +6,7 @@ mod overview;
 mod sheet;
 mod values;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use od_spec::diag::Diagnostic;
@@ -40,8 +40,8 @@ pub struct Made {
 
 /// What there is to do, each kind of node once.
 pub fn jobs(plant: &Plant) -> Vec<Job> {
-    let jobs: BTreeMap<Job, ()> = plant.nodes.iter().map(|node| (job(node), ())).collect();
-    jobs.into_keys().collect()
+    let jobs: BTreeSet<Job> = plant.nodes.iter().map(job).collect();
+    jobs.into_iter().collect()
 }
 
 fn job(node: &PlantNode) -> Job {

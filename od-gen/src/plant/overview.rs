@@ -13,8 +13,6 @@ use super::values::{PlantValue, values};
 struct Said<'a> {
     value: PlantValue<'a>,
     nodes: usize,
-    /// How many of the nodes that the level speaks of have it in force.
-    first: usize,
 }
 
 /// The overview: types with their nodes, sites with their machines, and each value that a level gives.
@@ -25,11 +23,11 @@ pub(super) fn write(plant: &Plant, settled: &[Settled]) -> String {
     }
     let _ = write!(
         text,
-        "\n{} machines at {} sites, {} nodes; {} different kinds of nodes. `{}` has a row for each value of each node.\n",
-        plant.machines.len(),
-        plant.sites.len(),
-        plant.nodes.len(),
-        plant.classes.len(),
+        "\n{} at {}, {} of {}. `{}` has a row for each value of each node.\n",
+        counted(plant.machines.len(), "machine"),
+        counted(plant.sites.len(), "site"),
+        counted(plant.nodes.len(), "node"),
+        counted(plant.classes.len(), "kind"),
         super::SHEET,
     );
     types(&mut text, plant);
@@ -103,7 +101,7 @@ fn runs(names: &[&str]) -> String {
 /// What each level gives, level by level in the order of the file.
 fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
     let mut said: BTreeMap<(usize, EntryId), Said<'_>> = BTreeMap::new();
-    for (class, one) in plant.classes.iter().zip(settled).map(|(class, settled)| (class, settled)) {
+    for (class, one) in plant.classes.iter().zip(settled) {
         let at = plant.nodes.get(class.first).map_or(0, |node| node.class);
         for value in values(plant, at, one) {
             let layer =
@@ -111,16 +109,14 @@ fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
                     plant.layers.get(*layer).is_some_and(|layer| std::ptr::eq(layer, value.from))
                 });
             let Some(layer) = layer else { continue };
-            said.entry((layer, value.id)).and_modify(|said| said.nodes += class.count).or_insert(Said {
-                value,
-                nodes: class.count,
-                first: class.first,
-            });
+            said.entry((layer, value.id))
+                .and_modify(|said| said.nodes += class.count)
+                .or_insert(Said { value, nodes: class.count });
         }
     }
-    text.push_str("\n## Values\n\nEach value with the level that gives it, and how many nodes have it in force. What a level says lies over what stands before the arrow.\n");
+    text.push_str("\n## Values\n\nEach value with the level that gives it, and how many nodes have it in force; what a later level says lies over what an earlier one said.\n");
     let mut level: Option<(&Level, Option<&str>)> = None;
-    for ((layer, id), Said { value, nodes, first }) in &said {
+    for ((layer, id), Said { value, nodes }) in &said {
         let Some(layer) = plant.layers.get(*layer) else { continue };
         let here = (&layer.level, layer.position.as_deref());
         if level != Some(here) {
@@ -140,7 +136,6 @@ fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
                 .as_deref()
                 .map_or_else(|| "no default".to_owned(), |default| format!("the default {}", plain(default))),
         };
-        let _ = first;
         let _ = writeln!(
             text,
             "| {device} | {id} | {} | {}{lock} | {nodes} | {instead} |",
@@ -186,6 +181,11 @@ fn remarks(text: &mut String, plant: &Plant) {
     for [machine, node, serial, remark] in rows {
         let _ = writeln!(text, "| {machine} | {node} | {serial} | {remark} |");
     }
+}
+
+/// `1 site`, `2 sites`.
+fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
 /// A text as a cell of a table can hold it.

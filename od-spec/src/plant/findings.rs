@@ -7,7 +7,7 @@ use super::{Bus, Plant, Settled};
 use crate::diag::{Code, Diagnostic, Diagnostics, Label};
 use crate::source::Span;
 
-/// What makes two findings one: the code, the places and the words.
+/// What makes two findings one: the code, the places, and of a single place the words.
 type Key = (&'static Code, Vec<(Span, String)>, String);
 
 /// Findings that may be about many nodes or machines.
@@ -23,7 +23,9 @@ impl Said {
     fn push(&mut self, diagnostic: &Diagnostic, about: String, count: usize) {
         let labels =
             diagnostic.labels.iter().map(|Label { span, text }| (*span, text.clone())).collect::<Vec<_>>();
-        let key = (diagnostic.code, labels, diagnostic.message.clone());
+        // A condition between devices is broken for each of them: where the places are the same, it is one finding.
+        let words = if labels.len() > 1 { String::new() } else { diagnostic.message.clone() };
+        let key = (diagnostic.code, labels, words);
         let next = self.list.len();
         let at = *self.known.entry(key).or_insert(next);
         match self.list.get_mut(at) {
@@ -67,6 +69,8 @@ impl Plant {
                 let Check::Bus(check) = rule.check else { continue };
                 let mut found = Diagnostics::new();
                 check(&bus, &mut found);
+                // What several nodes inherit is one thing on a machine.
+                found.sort();
                 for diagnostic in &found {
                     of_buses.push(diagnostic, about.clone(), kind.count);
                 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::decl::{LevelDecl, PlantDecl, TypeDecl};
 use crate::ast::Name;
+use crate::decode::is_device_key;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 
 /// Looks up the names of devices, types and positions that the levels of a plant speak of.
@@ -86,7 +87,8 @@ impl<'a> Names<'a> {
     /// Whether the plant has a device; says so if not.
     fn knows(&self, name: &Name, diagnostics: &mut Diagnostics) -> bool {
         let is_known = self.devices.contains(&name.value.as_str());
-        if !is_known {
+        // That a key is none is said already.
+        if !is_known && is_device_key(&name.value) {
             let message = format!("the plant has no device `{}`", shorten(&name.value));
             let help = help(&name.value, self.devices.iter().copied(), "its devices are", diagnostics);
             diagnostics.push(Diagnostic::new(codes::UNKNOWN_DEVICE, name.span, message).help(help));

@@ -54,16 +54,9 @@ fn clash(bus: &Bus<'_>, first: &Message, second: &Message) -> bool {
             is_pdo(first) != is_pdo(second)
                 && [first, second].iter().any(|message| message.traffic == Traffic::Request)
         }
-        (true, false) => is_pdo(first) != is_pdo(second) && !is_channel(first, second),
-        (false, true) => is_pdo(first) != is_pdo(second) && !is_channel(first, second),
+        // A PDO is for PDOs; the two ends of an SDO channel have one identifier.
+        (true, false) | (false, true) => is_pdo(first) != is_pdo(second),
     }
-}
-
-/// The two ends of an SDO channel.
-fn is_channel(first: &Message, second: &Message) -> bool {
-    let is_sdo =
-        |message: &Message| matches!(message.traffic, Traffic::Channel | Traffic::Request | Traffic::Answer);
-    is_sdo(first) && is_sdo(second)
 }
 
 fn finding(bus: &Bus<'_>, id: u32, first: &Message, second: &Message) -> Option<Diagnostic> {
@@ -75,7 +68,8 @@ fn finding(bus: &Bus<'_>, id: u32, first: &Message, second: &Message) -> Option<
     let diagnostic = Diagnostic::new(CODE, blamed.place(plant)?, message)
         .label(blamed.short(plant))
         .help("give one of them another COB-ID, or switch it off (bit 31)");
-    Some(match other.place(plant) {
+    let elsewhere = other.place(plant).filter(|place| Some(*place) != blamed.place(plant));
+    Some(match elsewhere {
         Some(place) => diagnostic.with(place, other.short(plant)),
         None => diagnostic,
     })

@@ -9,7 +9,7 @@ use crate::plant::bus::Parameter;
 pub(super) const RULE: Rule = Rule { codes: &[NO_NODE, TOO_RARE], check: Check::Bus(check) };
 
 const NO_NODE: &Code = &Code {
-    id: "OD0744",
+    id: "OD0853",
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a heartbeat of a node that is not there",
@@ -20,7 +20,7 @@ const NO_NODE: &Code = &Code {
 };
 
 const TOO_RARE: &Code = &Code {
-    id: "OD0745",
+    id: "OD0854",
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a heartbeat that comes too rarely",
@@ -41,8 +41,6 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
             let consumer = Parameter::of(&settled.configured, node.node.value, 0x1016, entry.sub.0);
             let Some(consumer) = consumer else { continue };
             let (watched, wait) = (consumer.raw >> 16 & 0xFF, consumer.raw & 0xFFFF);
-            let key = plant.devices.get(node.device).map_or("", |device| &device.key);
-            let name = format!("{key} at position {}", node.position);
             let place = consumer.set_at.unwrap_or(node.node.span);
             if watched == 0 || wait == 0 || master.is_some_and(|master| i128::from(master.value) == watched) {
                 continue;
@@ -52,7 +50,8 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
                 (i128::from(other.node.value) == watched).then_some((other, settled))
             });
             let Some((other, of_other)) = other else {
-                let message = format!("{name} watches node {watched}, and there is no such node");
+                let message =
+                    format!("the heartbeat of node {watched} is watched, and the machine has no such node");
                 diagnostics.push(
                     Diagnostic::new(NO_NODE, place, message)
                         .help(format!("correct the node-ID; if it is the master's, add `master: {{node: {watched}}}` to the type")),
@@ -64,12 +63,11 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
             if period == 0 || period >= wait {
                 let key = plant.devices.get(other.device).map_or("", |device| &device.key);
                 let sends = if period == 0 {
-                    "sends none".to_owned()
+                    "sends no heartbeat".to_owned()
                 } else {
-                    format!("sends one every {period} ms")
+                    format!("sends a heartbeat every {period} ms")
                 };
-                let message =
-                    format!("{name} waits {wait} ms for the heartbeat of node {watched}, which {sends}");
+                let message = format!("node {watched} {sends}, and one is waited for every {wait} ms");
                 let diagnostic = Diagnostic::new(TOO_RARE, place, message).help(format!(
                     "set 1017h of {key} at position {} to less than {wait} ms",
                     other.position

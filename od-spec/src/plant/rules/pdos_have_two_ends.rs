@@ -10,7 +10,7 @@ use crate::plant::{Bus, Message, Traffic};
 pub(super) const RULE: Rule = Rule { codes: &[RECEIVED, SENT], check: Check::Bus(check) };
 
 const RECEIVED: &Code = &Code {
-    id: "OD0742",
+    id: "OD0851",
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a PDO that nobody receives",
@@ -22,7 +22,7 @@ const RECEIVED: &Code = &Code {
 };
 
 const SENT: &Code = &Code {
-    id: "OD0743",
+    id: "OD0852",
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a PDO that nobody sends",
@@ -51,10 +51,8 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
         } else {
             sent.contains(&message.id) || master_sends.contains(&message.id)
         };
-        if !has_other_end {
-            if let Some(finding) = without_end(bus, message) {
-                diagnostics.push(finding);
-            }
+        if !has_other_end && let Some(finding) = without_end(bus, message) {
+            diagnostics.push(finding);
         }
     }
     for (list, other, code, does, lacks) in [

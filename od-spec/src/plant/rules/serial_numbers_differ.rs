@@ -10,7 +10,7 @@ use crate::source::Span;
 pub(super) const RULE: Rule = Rule { codes: &[CODE], check: Check::Plant(check) };
 
 const CODE: &Code = &Code {
-    id: "OD0746",
+    id: "OD0742",
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a serial number that stands twice",
@@ -63,7 +63,7 @@ fn twice(serial: &str, span: Span, name: &str, first: Span, other: &str, diagnos
     if !diagnostics.is_new(CODE, span) {
         return;
     }
-    let message = format!("{other} and {name} have the serial number `{serial}`");
+    let message = format!("the serial number `{serial}` is that of {other} and of {name}");
     let diagnostic = Diagnostic::new(CODE, span, message)
         .help("correct one of the two; say serial numbers of single machines");
     diagnostics.push(if first == span { diagnostic } else { diagnostic.with(first, "first here") });
