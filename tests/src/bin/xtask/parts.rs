@@ -29,6 +29,7 @@ pub(crate) enum Part {
     FirmwareInC,
     /// Concise DCF files beside those of a tool of others.
     ConciseDcf,
+    Plant,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -59,7 +60,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 15] = [
+    pub(crate) const ALL: [Part; 16] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -70,6 +71,7 @@ impl Part {
         Part::Foretold,
         Part::FirmwareInC,
         Part::ConciseDcf,
+        Part::Plant,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -89,6 +91,7 @@ impl Part {
             Part::Foretold => "EDS readers: what is foretold",
             Part::FirmwareInC => "EDS readers: firmware in C",
             Part::ConciseDcf => "EDS readers: concise DCF",
+            Part::Plant => "EDS readers: a plant",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -108,6 +111,7 @@ impl Part {
             | Part::Foretold
             | Part::FirmwareInC
             | Part::ConciseDcf
+            | Part::Plant
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -126,6 +130,7 @@ impl Part {
             | Part::Foretold
             | Part::FirmwareInC
             | Part::ConciseDcf
+            | Part::Plant
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -147,6 +152,7 @@ impl Part {
             | Part::Mutants
             | Part::FirmwareInC
             | Part::ConciseDcf
+            | Part::Plant
             | Part::SdoClient
             | Part::Browser
             | Part::Manuals
@@ -182,6 +188,7 @@ impl Part {
             Part::Foretold => readers::foretold(runner),
             Part::FirmwareInC => readers::firmware_in_c(runner),
             Part::ConciseDcf => readers::concise_dcf(runner),
+            Part::Plant => readers::plant(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),
