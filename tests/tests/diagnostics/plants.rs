@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use od_spec::Loader;
 use od_spec::diag::{Code, Diagnostics};
-use od_spec::plant::{Plant, Settled, is_plant, plant};
+use od_spec::plant::{Plant, PlantLayer, Settled, is_plant, plant};
 use od_spec::source::SourceMap;
 
 use crate::wording_rules::check_wording;
@@ -82,7 +82,7 @@ fn shown(checked: &Checked) -> String {
             node.net_name,
             node.serial_number,
         );
-        let layers: Vec<String> = plant.layers_of(&class.own).map(|layer| layer.words()).collect();
+        let layers: Vec<String> = plant.layers_of(&class.own).map(PlantLayer::words).collect();
         for (id, value) in &node.values {
             let origin = settled.assigned.origins[id];
             let lock = if node.unlocked.contains(id) { ", unlocked" } else { "" };
