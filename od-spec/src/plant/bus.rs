@@ -1,7 +1,7 @@
 //! The messages on a bus: who sends and who receives which COB-ID.
 
 use super::{Plant, Settled};
-use crate::model::{Dictionary, Direction, EntryId, Fact, Index, SubIndex, Value};
+use crate::model::{Dictionary, Direction, EntryId, Fact, Index, Object, SubIndex, Value};
 use crate::source::Span;
 
 /// Bit of a COB-ID: the message does not exist; in those of SYNC and TIME it says something else.
@@ -86,22 +86,49 @@ impl<'a> Bus<'a> {
         let nodes = plant.machines.get(machine)?.nodes.clone();
         let nodes: Vec<(usize, &Settled)> =
             nodes.filter_map(|at| Some((at, settled.get(plant.nodes.get(at)?.class)?))).collect();
-        let messages = nodes.iter().flat_map(|(at, settled)| messages(plant, *at, settled)).collect();
+        let of_node = |(at, settled): &(usize, &'a Settled)| {
+            let at = *at;
+            settled.on_the_bus.messages.iter().map(move |message| Message { node: at, ..message.clone() })
+        };
+        let messages = nodes.iter().flat_map(of_node).collect();
         Some(Self { plant, machine, nodes, messages })
     }
 }
 
+/// What nodes of a class have to do with others on their bus.
+#[derive(Debug, Clone)]
+pub(super) struct OnTheBus {
+    /// What they send and receive; of no node in particular.
+    messages: Vec<Message>,
+    /// How often they send a heartbeat (1017h).
+    pub heartbeat: Option<Parameter>,
+    /// Whose heartbeats they wait for (1016h).
+    pub watched: Vec<Parameter>,
+}
+
+impl OnTheBus {
+    /// Of a device with its values.
+    pub(super) fn of(configured: &Dictionary, node: u8) -> Self {
+        let consumers = configured.objects.get(&Index(0x1016)).into_iter().flat_map(Object::counted);
+        Self {
+            messages: messages(configured, node),
+            heartbeat: Parameter::of(configured, node, 0x1017, 0),
+            watched: consumers
+                .filter_map(|entry| Parameter::of(configured, node, 0x1016, entry.sub.0))
+                .collect(),
+        }
+    }
+}
+
 /// What a node sends and receives once it has its values.
-fn messages(plant: &Plant, at: usize, settled: &Settled) -> Vec<Message> {
-    let Some(node) = plant.nodes.get(at) else { return Vec::new() };
-    let (device, id) = (&*settled.configured, node.node.value);
+fn messages(device: &Dictionary, id: u8) -> Vec<Message> {
     let mut found = Vec::new();
     let mut push = |traffic, raw: i128, is_sent, set_at| {
         let id = raw & IDENTIFIER & if raw & WIDE == 0 { 0x7FF } else { IDENTIFIER };
         if let Ok(id) = u32::try_from(id)
             && id != 0
         {
-            found.push(Message { traffic, id, is_sent, node: at, set_at });
+            found.push(Message { traffic, id, is_sent, node: 0, set_at });
         }
     };
     let value = |index: u16, sub: u8| Parameter::of(device, id, index, sub);
@@ -140,6 +167,7 @@ fn messages(plant: &Plant, at: usize, settled: &Settled) -> Vec<Message> {
 }
 
 /// A communication parameter of a configured node.
+#[derive(Debug, Clone)]
 pub(super) struct Parameter {
     /// Its value.
     pub raw: i128,

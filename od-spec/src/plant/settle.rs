@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
+use super::bus::OnTheBus;
 use super::{Member, Plant, PlantDevice, PlantLayer};
 use crate::check::{self, Rules};
 use crate::commissioning::Commissioning;
@@ -20,8 +20,8 @@ pub struct Settled {
     pub commissioning: Commissioning,
     /// Where each value is from. Layers are counted as in the class.
     pub assigned: Assigned,
-    /// The device with the values.
-    pub configured: Arc<Dictionary>,
+    /// What the nodes have to do with others on their bus. The device with the values is much larger, and not kept.
+    pub(super) on_the_bus: OnTheBus,
     /// What is wrong with the values.
     pub diagnostics: Diagnostics,
 }
@@ -54,7 +54,8 @@ impl Plant {
         commissioning.bit_rate = class.own.bit_rate;
         commissioning.values.extend(assigned.values.clone());
         commissioning.unlocked.extend(assigned.unlocked.iter().copied());
-        Some(Settled { commissioning, assigned, configured: Arc::new(configured), diagnostics })
+        let on_the_bus = OnTheBus::of(&configured, class.own.node);
+        Some(Settled { commissioning, assigned, on_the_bus, diagnostics })
     }
 
     /// The layers of a node, the first one first.

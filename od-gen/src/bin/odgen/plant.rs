@@ -13,12 +13,12 @@ use od_spec::model::SystemSource;
 use od_spec::plant::{Plant, Settled, plant};
 use od_spec::source::SourceMap;
 
+use super::ERRORS;
 use super::args::{PlantArgs, PlantBuildArgs, PlantCommand};
 use super::output::{forced, not_written, tidy};
 use super::parallel::in_order;
 use super::progress::Progress;
 use super::report::{Report, print, shown};
-use super::ERRORS;
 
 pub(crate) fn run(args: &PlantArgs, report: &Report) -> u8 {
     let done = match &args.command {

@@ -2,9 +2,7 @@
 
 use super::{Check, Rule};
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
-use crate::model::Index;
 use crate::plant::Bus;
-use crate::plant::bus::Parameter;
 
 pub(super) const RULE: Rule = Rule { codes: &[NO_NODE, TOO_RARE], check: Check::Bus(check) };
 
@@ -36,10 +34,7 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
     let master = machine.and_then(|machine| plant.types.get(machine.of_type)?.master.as_ref()?.node);
     for (at, settled) in &bus.nodes {
         let Some(node) = plant.nodes.get(*at) else { continue };
-        let Some(object) = settled.configured.objects.get(&Index(0x1016)) else { continue };
-        for entry in object.counted() {
-            let consumer = Parameter::of(&settled.configured, node.node.value, 0x1016, entry.sub.0);
-            let Some(consumer) = consumer else { continue };
+        for consumer in &settled.on_the_bus.watched {
             let (watched, wait) = (consumer.raw >> 16 & 0xFF, consumer.raw & 0xFFFF);
             let place = consumer.set_at.unwrap_or(node.node.span);
             if watched == 0 || wait == 0 || master.is_some_and(|master| i128::from(master.value) == watched) {
@@ -58,8 +53,8 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
                 );
                 continue;
             };
-            let producer = Parameter::of(&of_other.configured, other.node.value, 0x1017, 0);
-            let period = producer.as_ref().map_or(0, |producer| producer.raw);
+            let producer = of_other.on_the_bus.heartbeat.as_ref();
+            let period = producer.map_or(0, |producer| producer.raw);
             if period == 0 || period >= wait {
                 let key = plant.devices.get(other.device).map_or("", |device| &device.key);
                 let sends = if period == 0 {
