@@ -1,5 +1,7 @@
 //! What every backend gives: files, not yet written.
 
+use std::sync::Arc;
+
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Artifact {
@@ -9,4 +11,45 @@ pub struct Artifact {
     pub bytes: Vec<u8>,
     /// What the file is for, in a few words.
     pub purpose: String,
+}
+
+/// A file of a set, as who writes it sees it.
+pub trait OutputFile {
+    /// Path below the output directory, with `/` between its parts.
+    fn path(&self) -> &str;
+    /// Contents, in pieces that stand one behind the other.
+    fn pieces(&self) -> Vec<&[u8]>;
+    /// The first of the pieces that is not empty: a mark of who made the file stands there.
+    fn head(&self) -> &[u8] {
+        self.pieces().into_iter().find(|piece| !piece.is_empty()).unwrap_or_default()
+    }
+}
+
+impl OutputFile for Artifact {
+    fn path(&self) -> &str {
+        &self.path
+    }
+
+    fn pieces(&self) -> Vec<&[u8]> {
+        vec![&self.bytes]
+    }
+}
+
+/// A file that has pieces in common with others: a plant has a thousand of them that differ in three lines.
+#[derive(Debug, Clone)]
+pub struct SharedFile {
+    /// Path below the output directory, with `/` between its parts.
+    pub path: String,
+    /// Contents, in pieces that stand one behind the other.
+    pub pieces: Vec<Arc<[u8]>>,
+}
+
+impl OutputFile for SharedFile {
+    fn path(&self) -> &str {
+        &self.path
+    }
+
+    fn pieces(&self) -> Vec<&[u8]> {
+        self.pieces.iter().map(AsRef::as_ref).collect()
+    }
 }

@@ -15,10 +15,14 @@ pub fn condense(path: &Path, compiled: &mut Compiled) -> Option<String> {
     match compiled.system.as_ref()?.source {
         SystemSource::Specification => None,
         SystemSource::Eds => {
-            let counts = summary(&std::mem::take::<Diagnostics>(&mut compiled.diagnostics));
-            let path = path.to_string_lossy();
-            let path = visible(&path);
-            (!counts.is_empty()).then(|| format!("{path}: {counts}; `odgen check {path}` shows them"))
+            condensed(&path.to_string_lossy(), &std::mem::take::<Diagnostics>(&mut compiled.diagnostics))
         }
     }
+}
+
+/// One line for all messages about an EDS or DCF, if there are any.
+pub fn condensed(path: &str, diagnostics: &Diagnostics) -> Option<String> {
+    let counts = summary(diagnostics);
+    let path = visible(path);
+    (!counts.is_empty()).then(|| format!("{path}: {counts}; `odgen check {path}` shows them"))
 }

@@ -30,6 +30,8 @@ pub mod json;
 #[cfg(feature = "yaml")]
 pub mod parameters;
 mod plan;
+#[cfg(feature = "eds")]
+pub mod plant;
 pub mod rust;
 pub mod source;
 #[cfg(feature = "xdd")]
@@ -37,13 +39,13 @@ pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
 
-pub use artifact::Artifact;
+pub use artifact::{Artifact, OutputFile, SharedFile};
 #[cfg(all(feature = "eds", feature = "json"))]
 pub use artifacts::{Selection, artifacts};
 #[cfg(feature = "format")]
 pub use builder::{BuildError, Builder};
 pub use expand::{Expansion, expand};
-pub use foreign::condense;
+pub use foreign::{condense, condensed};
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

@@ -27,7 +27,7 @@ pub struct Commissioning {
     pub net_number: u32,
     /// Name of the network; may be empty.
     pub net_name: String,
-    /// Serial number by which LSS finds the node; that of the identity (1018h.4) where none is stated.
+    /// Serial number by which LSS finds the node, and which nobody sets over the bus; that of the identity (1018h.4) where none is stated.
     pub serial_number: Option<u32>,
     /// Values of single entries; every other entry keeps its default.
     pub values: ParameterValues,

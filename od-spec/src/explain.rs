@@ -6,11 +6,13 @@ use crate::check::RULES;
 use crate::diag::{Code, codes};
 use crate::eds;
 use crate::eds::readers::Evidence;
+use crate::plant;
 
 /// All codes, ascending: those of reading and looking up, and those of the rules over texts and over the model.
 pub fn all_codes() -> Vec<&'static Code> {
     let mut list: Vec<&Code> = codes::ALL.to_vec();
     list.extend(RULES.iter().map(|rule| rule.code));
+    list.extend(plant::rules::codes());
     list.extend(eds::codes::ALL);
     list.extend(eds::readers::codes::ALL);
     list.extend(eds::check::RULES.iter().map(|rule| rule.code));

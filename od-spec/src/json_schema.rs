@@ -15,7 +15,7 @@ mod parameters;
 
 use std::fmt::Write as _;
 
-use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, SPEC, Shape, VERSION};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, PLANT, SPEC, Shape, VERSION};
 use crate::model::{Access, DataType};
 
 pub use parameters::parameter_schema;
@@ -28,6 +28,23 @@ pub fn json_schema() -> String {
     ];
     root.extend(file());
     let tables = reachable().into_iter().filter(|keys| !FILES.map(|file| file.name).contains(&keys.name));
+    let tables = tables.map(|keys| (slug(keys.name), object(members(keys))));
+    let scalars = SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
+    root.push(("definitions", Json::Object(tables.chain(scalars).collect())));
+    let mut out = String::new();
+    object(root).print(0, &mut out);
+    out.push('\n');
+    out
+}
+
+/// Prints the JSON Schema of plant files. Which entries a device has, it does not know.
+pub fn plant_schema() -> String {
+    let mut root = vec![
+        ("$schema", text("http://json-schema.org/draft-07/schema#")),
+        ("title", text("CANopen plant (od-plant)")),
+    ];
+    root.extend(members(&PLANT));
+    let tables = reachable_in_plants().into_iter().skip(1);
     let tables = tables.map(|keys| (slug(keys.name), object(members(keys))));
     let scalars = SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
     root.push(("definitions", Json::Object(tables.chain(scalars).collect())));
@@ -61,9 +78,17 @@ fn file() -> Vec<(&'static str, Json)> {
     members
 }
 
-/// All key tables, in the order in which a reader of a file meets them.
+/// All key tables of specifications, in the order in which a reader of a file meets them.
 pub(crate) fn reachable() -> Vec<&'static Keys> {
-    let mut found = FILES.to_vec();
+    reachable_from(FILES.to_vec())
+}
+
+/// All key tables of plant files.
+pub(crate) fn reachable_in_plants() -> Vec<&'static Keys> {
+    reachable_from(vec![&PLANT])
+}
+
+fn reachable_from(mut found: Vec<&'static Keys>) -> Vec<&'static Keys> {
     let mut at = 0;
     while let Some(keys) = found.get(at) {
         for key in keys.keys {
@@ -240,12 +265,17 @@ fn map_of(kind: KeyKind, value: Shape) -> Json {
     }
 }
 
+/// A name that may name folders and files.
+const PLACE: &str = "[A-Za-z0-9][A-Za-z0-9_-]{0,31}";
+
 /// A regular expression for the keys of a map; `None` where every key is right.
 fn key_pattern(kind: KeyKind) -> Option<String> {
     let run = |number: &str| format!(" *{number} *(\\.\\. *{number} *)?");
     Some(match kind {
         KeyKind::Name => return None,
         KeyKind::DeviceKey => "[a-z0-9][a-z0-9-]{0,31}".to_owned(),
+        KeyKind::Place => PLACE.to_owned(),
+        KeyKind::Machines => format!("({PLACE}| *[0-9]+ *\\.\\. *[0-9]+ *)"),
         KeyKind::Language => "[A-Za-z0-9-]{2,}".to_owned(),
         KeyKind::Indices => run(&unsigned(4, 5)),
         KeyKind::SubIndex | KeyKind::Number => unsigned(2, 3),
@@ -327,7 +357,7 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         Shape::Access => "access",
         Shape::Type => "type-name",
         Shape::Value => "value",
-        Shape::Default => "default-value",
+        Shape::Default | Shape::Setting => "default-value",
         Shape::Ratio => "fraction",
         Shape::SignedRatio => "signed-fraction",
         Shape::Base => "fraction-and-symbol",
@@ -346,7 +376,6 @@ const fn definition(shape: Shape) -> Option<&'static str> {
         | Shape::List(_)
         | Shape::OneOrMore(_)
         | Shape::ShortOr(..)
-        | Shape::Setting
         | Shape::Feature => return None,
     })
 }

@@ -47,6 +47,7 @@ pub mod model;
 pub mod name_pattern;
 mod parameters;
 mod parts;
+pub mod plant;
 #[cfg(feature = "reference")]
 mod reference;
 mod resolve;
@@ -78,7 +79,7 @@ pub use explain::{all_codes, code, explanation};
 pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
-pub use json_schema::{json_schema, parameter_schema};
+pub use json_schema::{json_schema, parameter_schema, plant_schema};
 pub use layout::layout;
 pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use parameters::{

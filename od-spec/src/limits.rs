@@ -25,6 +25,8 @@ pub(crate) const ARROWS: usize = 96;
 pub(crate) const MARKS: usize = 16;
 /// Spans of an axis.
 pub(crate) const SPANS: usize = 32;
+/// Nodes of a plant. The largest have some thousands.
+pub(crate) const NODES_OF_PLANT: usize = 100_000;
 /// Bytes that are written once and stand for many: the texts of a run, of the elements of an array, of an object that several
 /// devices have. It is the size of the largest file.
 pub(crate) const REPEATED_TEXT: usize = 64 << 20;

@@ -14,6 +14,8 @@ pub(crate) mod value;
 mod withheld;
 mod writer;
 
+use std::sync::Arc;
+
 use od_spec::Commissioning;
 use od_spec::eds::Document;
 use od_spec::model::{Dictionary, System};
@@ -80,6 +82,36 @@ pub fn dcf_document(
     objects::write(&mut document, system, device, Some(node));
     document
 }
+
+/// A DCF in pieces: nodes that are set to the same values differ in `[DeviceComissioning]` alone.
+#[derive(Debug, Clone)]
+pub struct DcfPieces {
+    before: Arc<[u8]>,
+    after: Arc<[u8]>,
+}
+
+impl DcfPieces {
+    /// What nodes with the values of this one have in common, in files of this name.
+    pub fn new(system: &System, device: &Dictionary, node: &Commissioning, file: &str) -> Self {
+        let (mut before, mut after) = (Document::default(), Document::default());
+        head(&mut before, system, device, file, Some(&format!("{}.eds", device.key)));
+        objects::write(&mut after, system, device, Some(node));
+        let mut before = before.to_bytes();
+        before.extend_from_slice(BETWEEN_SECTIONS);
+        let after = [BETWEEN_SECTIONS, &after.to_bytes()].concat();
+        Self { before: before.into(), after: after.into() }
+    }
+
+    /// The DCF of a node, byte for byte what [`write_dcf`] gives.
+    pub fn dcf(&self, device: &Dictionary, node: &Commissioning) -> Vec<Arc<[u8]>> {
+        let mut own = Document::default();
+        commissioning::write(&mut own, device, node);
+        vec![Arc::clone(&self.before), own.to_bytes().into(), Arc::clone(&self.after)]
+    }
+}
+
+/// The blank line between two sections.
+const BETWEEN_SECTIONS: &[u8] = b"\r\n";
 
 /// `[FileInfo]` to `[Comments]`. A DCF names the EDS that it was made from.
 fn head(

@@ -2,12 +2,26 @@
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
 
 /// The steps that change a disk.
 pub(super) trait Disk {
     /// Writes a file that is on the disk when this returns, with mode and owner of an old one.
-    fn write(&self, path: &Path, bytes: &[u8], like: Option<&Metadata>) -> io::Result<()>;
+    fn write(&self, path: &Path, pieces: &[&[u8]], like: Option<&Metadata>) -> io::Result<()>;
+    /// Writes files; all are on the disk when this returns. On an error, which is that of a position, some may be.
+    fn write_each(&self, files: &[New<'_>]) -> Result<(), (usize, io::Error)> {
+        files.iter().enumerate().try_for_each(|(at, new)| {
+            self.write(&new.path, new.pieces, new.like).map_err(|error| (at, error))
+        })
+    }
+    /// Brings the names of directories to the disk.
+    fn settle_each(&self, directories: &[PathBuf]) -> Result<(), (usize, io::Error)> {
+        let settled =
+            |(at, directory): (usize, &PathBuf)| self.settle(directory).map_err(|error| (at, error));
+        directories.iter().enumerate().try_for_each(settled)
+    }
     /// Gives a file a second name.
     fn keep(&self, file: &Path, name: &Path) -> io::Result<()>;
     /// Gives a file another name, which may be taken.
@@ -18,12 +32,58 @@ pub(super) trait Disk {
     fn settle(&self, directory: &Path) -> io::Result<()>;
 }
 
+/// A file to be written.
+pub(super) struct New<'a> {
+    pub path: PathBuf,
+    pub pieces: &'a [&'a [u8]],
+    /// The old one.
+    pub like: Option<&'a Metadata>,
+}
+
 /// The disk of this machine.
 pub(super) struct Real;
 
+/// So many files are brought to the disk at the same time. It waits for most of the time, and takes what comes together at once.
+const AT_ONCE: usize = 8;
+
+/// Does something with each item, several at a time; the first error by position.
+fn at_once<T: Sync>(
+    items: &[T],
+    act: impl Fn(&T) -> io::Result<()> + Sync,
+) -> Result<(), (usize, io::Error)> {
+    let next = AtomicUsize::new(0);
+    let failed = AtomicBool::new(false);
+    let worker = || {
+        while !failed.load(Ordering::Relaxed) {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(at) else { break };
+            if let Err(error) = act(item) {
+                failed.store(true, Ordering::Relaxed);
+                return Some((at, error));
+            }
+        }
+        None
+    };
+    let errors: Vec<(usize, io::Error)> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..AT_ONCE.min(items.len())).map(|_| scope.spawn(worker)).collect();
+        // A worker does not panic; one that did has not said that its files are there.
+        let lost = || Some((0, io::Error::other("a thread was lost")));
+        workers.into_iter().filter_map(|worker| worker.join().unwrap_or_else(|_| lost())).collect()
+    });
+    errors.into_iter().min_by_key(|(at, _)| *at).map_or(Ok(()), Err)
+}
+
 impl Disk for Real {
-    fn write(&self, path: &Path, bytes: &[u8], like: Option<&Metadata>) -> io::Result<()> {
-        written(path, bytes, like)?.sync_all()
+    fn write(&self, path: &Path, pieces: &[&[u8]], like: Option<&Metadata>) -> io::Result<()> {
+        written(path, pieces, like)?.sync_all()
+    }
+
+    fn write_each(&self, files: &[New<'_>]) -> Result<(), (usize, io::Error)> {
+        at_once(files, |new| self.write(&new.path, new.pieces, new.like))
+    }
+
+    fn settle_each(&self, directories: &[PathBuf]) -> Result<(), (usize, io::Error)> {
+        at_once(directories, |directory| self.settle(directory))
     }
 
     fn keep(&self, file: &Path, name: &Path) -> io::Result<()> {
@@ -63,7 +123,7 @@ impl Disk for Real {
 }
 
 /// A file with its contents, which need not be on the disk yet.
-pub(super) fn written(path: &Path, bytes: &[u8], like: Option<&Metadata>) -> io::Result<File> {
+pub(super) fn written(path: &Path, pieces: &[&[u8]], like: Option<&Metadata>) -> io::Result<File> {
     // What a killed process left there may be a link, or write-protected.
     Real.remove(path)?;
     let mut file = File::create_new(path)?;
@@ -71,7 +131,7 @@ pub(super) fn written(path: &Path, bytes: &[u8], like: Option<&Metadata>) -> io:
         keep_owner(&file, like)?;
         file.set_permissions(like.permissions())?;
     }
-    file.write_all(bytes)?;
+    pieces.iter().try_for_each(|piece| file.write_all(piece))?;
     Ok(file)
 }
 

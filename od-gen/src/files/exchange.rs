@@ -5,9 +5,9 @@ use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::disk::Disk;
-use super::journal::{self, Journal, Names, Phase, Step, fingerprint, target};
-use super::{WriteError, parent};
+use super::disk::{Disk, New};
+use super::journal::{self, Journal, Names, Phase, Step, fingerprint, fingerprint_of, target};
+use super::{WriteError, mark, parent};
 
 /// A file that is to have other contents.
 pub(super) struct Change<'a> {
@@ -15,14 +15,15 @@ pub(super) struct Change<'a> {
     path: String,
     /// Where it lies.
     target: PathBuf,
-    bytes: &'a [u8],
+    pieces: Vec<&'a [u8]>,
     old: Option<Old>,
 }
 
 /// What is there before.
 struct Old {
     metadata: Metadata,
-    bytes: Vec<u8>,
+    fingerprint: u64,
+    is_marked: bool,
 }
 
 /// What became of a set whose process was killed.
@@ -36,11 +37,11 @@ pub enum Recovered {
 
 impl<'a> Change<'a> {
     /// Nothing if the file has these contents already.
-    pub(super) fn of(path: String, target: PathBuf, bytes: &'a [u8]) -> io::Result<Option<Self>> {
+    pub(super) fn of(path: String, target: PathBuf, pieces: Vec<&'a [u8]>) -> io::Result<Option<Self>> {
         let metadata = match fs::metadata(&target) {
             Ok(metadata) => metadata,
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Ok(Some(Self { path, target, bytes, old: None }));
+                return Ok(Some(Self { path, target, pieces, old: None }));
             }
             Err(error) => return Err(error),
         };
@@ -54,7 +55,11 @@ impl<'a> Change<'a> {
             return Err(io::Error::other("it is no regular file"));
         }
         let old = fs::read(&target)?;
-        Ok((old != bytes).then_some(Self { path, target, bytes, old: Some(Old { metadata, bytes: old }) }))
+        if is_made_of(&old, &pieces) {
+            return Ok(None);
+        }
+        let old = Old { metadata, fingerprint: fingerprint(&old), is_marked: mark::is_marked(&old) };
+        Ok(Some(Self { path, target, pieces, old: Some(old) }))
     }
 
     /// Whether there is no file yet.
@@ -62,15 +67,26 @@ impl<'a> Change<'a> {
         self.old.is_none()
     }
 
-    /// The contents before.
-    pub(super) fn old_bytes(&self) -> &[u8] {
-        self.old.as_ref().map_or(&[], |old| &old.bytes)
+    /// Whether the file says that a generator made it.
+    pub(super) fn replaces_generated(&self) -> bool {
+        self.old.as_ref().is_some_and(|old| old.is_marked)
     }
 
     fn step(&self) -> Step {
-        let old = self.old.as_ref().map(|old| fingerprint(&old.bytes));
-        Step { path: self.path.clone(), old, new: fingerprint(self.bytes) }
+        let old = self.old.as_ref().map(|old| old.fingerprint);
+        Step { path: self.path.clone(), old, new: fingerprint_of(&self.pieces) }
     }
+}
+
+/// Whether contents are these pieces, one behind the other.
+fn is_made_of(mut contents: &[u8], pieces: &[&[u8]]) -> bool {
+    for piece in pieces {
+        match contents.strip_prefix(*piece) {
+            Some(rest) => contents = rest,
+            None => return false,
+        }
+    }
+    contents.is_empty()
 }
 
 /// Puts new files in place of old ones. With a directory, a journal in it lets the next process finish what a killed one began.
@@ -126,23 +142,28 @@ pub(super) fn exchange(
 
 /// Brings all new files to the disk, and second names for the old ones.
 fn prepare(changes: &[Change<'_>], names: Names, disk: &impl Disk) -> Result<(), WriteError> {
-    (0..).zip(changes).try_for_each(|(number, change)| {
+    let files: Vec<New<'_>> = (0..)
+        .zip(changes)
+        .map(|(number, change)| New {
+            path: names.waiting(&change.target, number),
+            pieces: &change.pieces,
+            like: change.old.as_ref().map(|old| &old.metadata),
+        })
+        .collect();
+    disk.write_each(&files).map_err(|(at, error)| {
+        WriteError::io(changes.get(at).map(|change| change.target.clone()).unwrap_or_default(), error)
+    })?;
+    (0..).zip(changes).filter(|(_, change)| change.old.is_some()).try_for_each(|(number, change)| {
         let target = &change.target;
-        let old = change.old.as_ref();
-        let kept = disk.write(&names.waiting(target, number), change.bytes, old.map(|old| &old.metadata));
-        let kept = kept.and_then(|()| match old {
-            Some(_) => disk.keep(target, &names.kept(target, number)),
-            None => Ok(()),
-        });
-        kept.map_err(|error| WriteError::io(target, error))
+        disk.keep(target, &names.kept(target, number)).map_err(|error| WriteError::io(target, error))
     })
 }
 
 fn settle(changes: &[Change<'_>], disk: &impl Disk) -> Result<(), WriteError> {
     let directories: BTreeSet<PathBuf> = changes.iter().map(|change| parent(&change.target)).collect();
-    directories
-        .iter()
-        .try_for_each(|directory| disk.settle(directory).map_err(|error| WriteError::io(directory, error)))
+    let directories: Vec<PathBuf> = directories.into_iter().collect();
+    disk.settle_each(&directories)
+        .map_err(|(at, error)| WriteError::io(directories.get(at).cloned().unwrap_or_default(), error))
 }
 
 /// Removes what is left of other names.

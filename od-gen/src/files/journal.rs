@@ -65,13 +65,33 @@ fn unfinished() -> String {
 
 /// A number that contents are recognised by. Eight bytes at once are multiplied in; a shift lets high bits count, too.
 pub(super) fn fingerprint(bytes: &[u8]) -> u64 {
+    fingerprint_of(&[bytes])
+}
+
+/// The fingerprint of contents in pieces, which does not depend on where they are divided.
+pub(super) fn fingerprint_of(pieces: &[&[u8]]) -> u64 {
     let step = |hash: u64, word: u64| {
         let mixed = (hash ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         mixed ^ (mixed >> 32)
     };
-    let (words, rest) = bytes.as_chunks::<8>();
-    let hash = words.iter().fold(bytes.len() as u64, |hash, word| step(hash, u64::from_le_bytes(*word)));
-    rest.iter().fold(hash, |hash, byte| step(hash, u64::from(*byte)))
+    let length: usize = pieces.iter().map(|piece| piece.len()).sum();
+    let mut hash = length as u64;
+    // What is left of the pieces before, less than a word.
+    let (mut begun, mut count) = ([0; 8], 0);
+    for piece in pieces {
+        let (head, piece) = piece.split_at(if count == 0 { 0 } else { (8 - count).min(piece.len()) });
+        begun[count..count + head.len()].copy_from_slice(head);
+        count += head.len();
+        if count == 8 {
+            hash = step(hash, u64::from_le_bytes(begun));
+            count = 0;
+        }
+        let (words, rest) = piece.as_chunks::<8>();
+        hash = words.iter().fold(hash, |hash, word| step(hash, u64::from_le_bytes(*word)));
+        begun[count..count + rest.len()].copy_from_slice(rest);
+        count += rest.len();
+    }
+    begun[..count].iter().fold(hash, |hash, byte| step(hash, u64::from(*byte)))
 }
 
 /// Writes a journal so that either it or the one before is on the disk.
@@ -85,7 +105,7 @@ pub(super) fn write(phase: Phase, steps: &[Step], directory: &Path, disk: &impl 
     // Without this line the text is cut off.
     text.push_str("end\n");
     let new = directory.join(unfinished());
-    disk.write(&new, text.as_bytes(), None)?;
+    disk.write(&new, &[text.as_bytes()], None)?;
     disk.rename(&new, &directory.join(JOURNAL))?;
     disk.settle(directory)
 }

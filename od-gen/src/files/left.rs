@@ -8,22 +8,45 @@ use std::path::Path;
 use super::disk::{Disk as _, Real};
 use super::lock::Lock;
 use super::{WriteError, mark, of_path};
-use crate::artifact::Artifact;
+use crate::artifact::{Artifact, OutputFile};
 
 /// The files below a directory that generators made and `set` does not have, by their paths. They are looked for among those of the
 /// set's kinds: where it has `src/pump.rs`, in `src` and below it and called `.rs`. What else lies there may be another command's.
 ///
 /// # Errors
 /// A directory or a file cannot be read.
-pub fn left_over(directory: &Path, set: &[Artifact]) -> Result<Vec<String>, WriteError> {
+pub fn left_over<F: OutputFile>(directory: &Path, set: &[F]) -> Result<Vec<String>, WriteError> {
+    look(directory, set, &set.iter().map(|file| kind(file.path())).collect())
+}
+
+/// [`left_over`], with the folders that earlier sets had, as the list of the directory tells: what names folders may be gone.
+///
+/// # Errors
+/// A directory or a file cannot be read.
+pub fn left_over_of_folders<F: OutputFile>(directory: &Path, set: &[F]) -> Result<Vec<String>, WriteError> {
+    let listed = mark::listed(of_path(directory));
+    let folders = listed
+        .iter()
+        .map(|path| kind(path).0)
+        .filter(|folder| !folder.is_empty() && of_path(directory).join(folder).is_dir());
+    let endings: BTreeSet<&str> = set.iter().map(|file| kind(file.path()).1).collect();
+    let of_list = folders.flat_map(|folder| endings.iter().map(move |ending| (folder, *ending)));
+    let of_set = set.iter().map(|file| kind(file.path()));
+    look(directory, set, &of_list.chain(of_set).collect())
+}
+
+fn look<F: OutputFile>(
+    directory: &Path,
+    set: &[F],
+    kinds: &BTreeSet<(&str, &str)>,
+) -> Result<Vec<String>, WriteError> {
     let directory = of_path(directory);
-    let kinds: BTreeSet<(&str, &str)> = set.iter().map(|artifact| kind(&artifact.path)).collect();
     let folders: BTreeSet<&str> = kinds.iter().map(|(folder, _)| *folder).collect();
     let mut found = Vec::new();
     for folder in folders {
         list(directory, folder, &mut found).map_err(|error| WriteError::io(directory.join(folder), error))?;
     }
-    let made: BTreeSet<&str> = set.iter().map(|artifact| artifact.path.as_str()).collect();
+    let made: BTreeSet<&str> = set.iter().map(OutputFile::path).collect();
     let listed = mark::listed(directory);
     let mut left = Vec::new();
     for path in found {
@@ -56,8 +79,8 @@ pub fn remove(directory: &Path, left: &[String]) -> Result<(), WriteError> {
     if !old.iter().any(|path| left.contains(path)) {
         return Ok(());
     }
-    let changed = match mark::list(directory, &[], &old) {
-        Some(list) => Real.write(&file, &list.bytes, None),
+    let changed = match mark::list::<Artifact>(directory, &[], &old) {
+        Some(list) => Real.write(&file, &[&list.bytes], None),
         None => Real.remove(&file),
     };
     changed.map_err(|error| WriteError::io(file, error))

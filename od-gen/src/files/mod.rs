@@ -19,14 +19,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 pub use self::exchange::Recovered;
-pub use self::left::{left_over, remove};
+pub use self::left::{left_over, left_over_of_folders, remove};
 pub use self::names::{clash, name_problem};
 
 use self::disk::{Disk, Real};
 use self::exchange::{Change, exchange};
 use self::journal::target;
 use self::lock::Lock;
-use crate::artifact::Artifact;
+use crate::artifact::{Artifact, OutputFile};
 
 /// What happened to one file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,9 +134,9 @@ pub fn write_all(directory: &Path, artifacts: &[Artifact]) -> Result<Vec<Outcome
 /// # Errors
 /// The first file that cannot be written: it is one that must not be replaced, its name is none on every system or leads out of the directory,
 /// its directory cannot be made, a directory is in its way, the disk is full or write-protected.
-pub fn write_set(
+pub fn write_set<F: OutputFile>(
     directory: &Path,
-    artifacts: &[Artifact],
+    artifacts: &[F],
     existing: Existing,
 ) -> Result<Vec<Outcome>, WriteError> {
     write_with(directory, artifacts, existing, &Real)
@@ -166,7 +166,8 @@ fn replace_with(files: &[(PathBuf, Vec<u8>)], disk: &impl Disk) -> Result<(), Wr
     let mut changes = Vec::new();
     for (file, bytes) in targets {
         changes.extend(
-            Change::of(String::new(), file.clone(), bytes).map_err(|error| WriteError::io(file, error))?,
+            Change::of(String::new(), file.clone(), vec![bytes])
+                .map_err(|error| WriteError::io(file, error))?,
         );
     }
     exchange(None, &changes, disk)
@@ -187,9 +188,9 @@ pub fn recover(directory: &Path) -> Result<Option<Recovered>, WriteError> {
     exchange::recover(directory, &Real)
 }
 
-fn write_with(
+fn write_with<F: OutputFile>(
     directory: &Path,
-    artifacts: &[Artifact],
+    artifacts: &[F],
     existing: Existing,
     disk: &impl Disk,
 ) -> Result<Vec<Outcome>, WriteError> {
@@ -198,14 +199,15 @@ fn write_with(
     let mut directories = BTreeSet::from([directory.to_owned()]);
     let mut targets = Vec::new();
     for artifact in artifacts {
-        let path = directory.join(&artifact.path);
+        let path = directory.join(artifact.path());
         let failed = |error| WriteError::io(&path, error);
         fs::create_dir_all(parent(&path)).map_err(failed)?;
-        let file = target(directory, Path::new(&artifact.path)).map_err(failed)?;
+        let file = target(directory, Path::new(artifact.path())).map_err(failed)?;
         directories.extend([parent(&path), parent(&file)]);
         targets.push(file);
     }
-    let _lock = Lock::take(&directories).map_err(|(path, error)| WriteError::io(path, error))?;
+    let _lock = Lock::take(&lockable(&directories, directory))
+        .map_err(|(path, error)| WriteError::io(path, error))?;
     for directory in &directories {
         exchange::sweep(directory, disk)?;
         exchange::recover(directory, disk)?;
@@ -213,21 +215,19 @@ fn write_with(
     let listed = mark::listed(directory);
     let (mut changes, mut outcomes, mut refused) = (Vec::new(), Vec::new(), Vec::new());
     for (artifact, file) in artifacts.iter().zip(targets) {
-        let failed = |error| WriteError::io(directory.join(&artifact.path), error);
-        let change = Change::of(artifact.path.clone(), file, &artifact.bytes).map_err(failed)?;
+        let failed = |error| WriteError::io(directory.join(artifact.path()), error);
+        let change = Change::of(artifact.path().to_owned(), file, artifact.pieces()).map_err(failed)?;
         outcomes.push(if change.is_some() { Outcome::Changed } else { Outcome::Unchanged });
         let Some(change) = change else { continue };
         let may = match existing {
             Existing::Generated => {
-                change.replaces_none()
-                    || mark::is_marked(change.old_bytes())
-                    || listed.contains(&artifact.path)
+                change.replaces_none() || change.replaces_generated() || listed.contains(artifact.path())
             }
             Existing::None => change.replaces_none(),
             Existing::Any => true,
         };
         if !may {
-            refused.push(directory.join(&artifact.path));
+            refused.push(directory.join(artifact.path()));
         }
         changes.push(change);
     }
@@ -240,21 +240,28 @@ fn write_with(
     let list = if existing == Existing::None { None } else { mark::list(directory, artifacts, &listed) };
     if let Some(list) = &list {
         let file = directory.join(&list.path);
-        let change = Change::of(list.path.clone(), file.clone(), &list.bytes);
+        let change = Change::of(list.path.clone(), file.clone(), vec![list.bytes.as_slice()]);
         changes.extend(change.map_err(|error| WriteError::io(file, error))?);
     }
     exchange(Some(directory), &changes, disk)?;
     Ok(outcomes)
 }
 
+/// The directories that are locked: each, or where there are more than a process may have open files, that of the set alone, in which
+/// every other such command begins.
+fn lockable(directories: &BTreeSet<PathBuf>, of_set: &Path) -> BTreeSet<PathBuf> {
+    const MOST: usize = 200;
+    if directories.len() <= MOST { directories.clone() } else { BTreeSet::from([of_set.to_owned()]) }
+}
+
 /// No file has a name that leads elsewhere, or that some system does not take or takes for another's.
-fn check_names(directory: &Path, artifacts: &[Artifact]) -> Result<(), WriteError> {
+fn check_names<F: OutputFile>(directory: &Path, artifacts: &[F]) -> Result<(), WriteError> {
     for artifact in artifacts {
-        if let Some(problem) = name_problem(&artifact.path) {
-            return Err(WriteError { path: directory.join(&artifact.path), reason: Reason::Name(problem) });
+        if let Some(problem) = name_problem(artifact.path()) {
+            return Err(WriteError { path: directory.join(artifact.path()), reason: Reason::Name(problem) });
         }
     }
-    match clash(artifacts.iter().map(|artifact| artifact.path.as_str())) {
+    match clash(artifacts.iter().map(OutputFile::path)) {
         Some((first, second)) => {
             Err(WriteError { path: directory.join(second), reason: Reason::Clash(directory.join(first)) })
         }

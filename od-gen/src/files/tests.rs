@@ -78,10 +78,11 @@ impl Faulty {
 }
 
 impl Disk for Faulty {
-    fn write(&self, path: &Path, bytes: &[u8], like: Option<&Metadata>) -> io::Result<()> {
+    fn write(&self, path: &Path, pieces: &[&[u8]], like: Option<&Metadata>) -> io::Result<()> {
+        let bytes = pieces.concat();
         // A half-written file is a state of its own.
-        self.step(|| written(path, &bytes[..bytes.len() / 2], like).map(drop))?;
-        self.step(|| written(path, bytes, like).map(drop))
+        self.step(|| written(path, &[&bytes[..bytes.len() / 2]], like).map(drop))?;
+        self.step(|| written(path, pieces, like).map(drop))
     }
     fn keep(&self, file: &Path, name: &Path) -> io::Result<()> {
         self.step(|| Real.keep(file, name))
@@ -224,11 +225,11 @@ struct Stopping {
 }
 
 impl Disk for Stopping {
-    fn write(&self, path: &Path, bytes: &[u8], like: Option<&Metadata>) -> io::Result<()> {
-        if String::from_utf8_lossy(bytes).contains("\nundo\n") {
-            return self.again.write(path, bytes, like);
+    fn write(&self, path: &Path, pieces: &[&[u8]], like: Option<&Metadata>) -> io::Result<()> {
+        if String::from_utf8_lossy(&pieces.concat()).contains("\nundo\n") {
+            return self.again.write(path, pieces, like);
         }
-        written(path, bytes, like).map(drop)
+        written(path, pieces, like).map(drop)
     }
     fn keep(&self, file: &Path, name: &Path) -> io::Result<()> {
         Real.keep(file, name)

@@ -22,6 +22,7 @@ mod import;
 mod in_one_file;
 mod new;
 mod parts;
+mod plant;
 mod provoked;
 mod readme;
 mod shipped;

@@ -70,3 +70,41 @@ fn the_parameter_file_is_one_of_the_valve() {
     let schema = odgen(&scratch.0, &["schema", "--params", "valve.od.yaml"]);
     assert!(stdout(&schema).contains("\"title\": \"Parameters of Valve (valve)\""));
 }
+
+/// From an empty folder: the specification, the plant file, and the commands as they stand there.
+#[test]
+fn the_plant_is_built_by_the_commands_that_are_shown() {
+    let scratch = Scratch::new("readme-plant");
+    scratch.file("valve.od.yaml", include_str!("../../../tests/readme/valve.od.yaml"));
+    let readme = readme();
+    let (_, rest) = readme.split_once("<!-- plant -->\n```yaml\n").unwrap();
+    scratch.file("plant.yaml", rest.split_once("```").unwrap().0);
+    let (_, rest) = readme.split_once("<!-- plant-commands -->\n").unwrap();
+    let commands = rest.split_once("<!-- /plant-commands -->").unwrap().0;
+    let mut said = Vec::new();
+    for line in
+        commands.lines().map(|line| line.split('#').next().unwrap().trim()).filter(|line| !line.is_empty())
+    {
+        let arguments: Vec<&str> = line.strip_prefix("odgen ").unwrap().split(' ').collect();
+        let output = odgen(&scratch.0, &arguments);
+        assert_eq!((crate::code(&output), stderr(&output).as_str()), (0, ""), "{line}");
+        said.push(stdout(&output));
+    }
+    assert_eq!(said.len(), 4);
+    assert!(said[1].contains("200 machines at 1 site, 400 nodes"), "{}", said[1]);
+    assert!(
+        said[2].contains("set pressure = 5.8 bar\n      machine Nordfeld 17, position right, plant.yaml:"),
+        "{}",
+        said[2]
+    );
+    let dcf = fs::read_to_string(scratch.0.join("plant/Nordfeld/17/right-valve.dcf")).unwrap();
+    assert!(dcf.contains("ParameterValue=58\r\n") && dcf.contains("LSS_SerialNumber=0x00001267\r\n"));
+    for name in [
+        "plant/overview.md",
+        "plant/values.csv",
+        "plant/Nordfeld/17/nodelist.cpj",
+        "plant/Nordfeld/1/left-valve.bin",
+    ] {
+        assert!(scratch.0.join(name).is_file(), "{name}");
+    }
+}

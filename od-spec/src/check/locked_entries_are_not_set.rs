@@ -7,7 +7,7 @@ use crate::diag::{Code, Diagnostic, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Settings(check) };
 
-const CODE: &Code = &Code {
+pub(crate) const CODE: &Code = &Code {
     id: "OD0704",
     severity: Severity::Error,
     foreign: Severity::Error,

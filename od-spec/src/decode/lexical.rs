@@ -4,6 +4,7 @@ use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange, NumberRange, SubInde
 use crate::model::{
     Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
 };
+use crate::plant::decl::MachineKey;
 use crate::scalar;
 
 /// An entry by index.
@@ -110,6 +111,28 @@ fn run<T: Copy + PartialOrd>(text: &str, one: impl Fn(&str) -> Option<T>) -> Opt
     };
     let (first, last) = (one(text[..dots].trim())?, one(text[dots + 2..].trim())?);
     (first <= last).then_some((first, last))
+}
+
+/// A name that may name folders and files on every system.
+pub(crate) fn is_place(text: &str) -> bool {
+    let mut letters = text.bytes();
+    letters.next().is_some_and(|first| first.is_ascii_alphanumeric())
+        && letters.all(|c| c.is_ascii_alphanumeric() || matches!(c, b'-' | b'_'))
+        && text.len() <= 32
+}
+
+/// `crane-A`, `17`, or `1..200`: machines by name or number.
+pub(crate) fn machines(text: &str) -> Option<MachineKey> {
+    let number = |text: &str| {
+        let number = scalar::integer(text).ok().and_then(|number| u32::try_from(number).ok())?;
+        (number <= 65_535 && text.bytes().all(|c| c.is_ascii_digit())).then_some(number)
+    };
+    if let Some((first, last)) = run(text, number) {
+        return Some(MachineKey::Numbers { first, last, is_run: text.contains("..") });
+    }
+    // `017` would be another name for 17.
+    let is_name = is_place(text) && !text.bytes().all(|c| c.is_ascii_digit());
+    is_name.then(|| MachineKey::Name(text.to_owned()))
 }
 
 /// `5`, or `1..4`: sub-indices of elements or members.

@@ -14,6 +14,7 @@ mod numbered;
 mod objects;
 mod parameters;
 mod pdos;
+mod plant;
 mod read;
 mod shape;
 mod spec;
@@ -21,6 +22,7 @@ mod types;
 
 pub use lexical::is_device_key;
 pub(crate) use parameters::{parameter_file, settings};
+pub(crate) use plant::plant;
 pub(crate) use shape::inside;
 
 use crate::ast::Spec;

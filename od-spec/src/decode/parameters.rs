@@ -45,11 +45,11 @@ pub(crate) fn settings(map: &Node) -> Vec<SettingDecl> {
     values.flat_map(|(key, value)| SettingDecl::of_key(&key, &value)).collect()
 }
 
-const fn reader(node: &Node) -> Reader<'_> {
+pub(super) const fn reader(node: &Node) -> Reader<'_> {
     Reader { node, language: "en", shown: &[] }
 }
 
 /// A number that the shape has limited already.
-fn within<T: TryFrom<i128>>(number: Spanned<i128>) -> Option<Spanned<T>> {
+pub(super) fn within<T: TryFrom<i128>>(number: Spanned<i128>) -> Option<Spanned<T>> {
     T::try_from(number.value).ok().map(|value| Spanned::new(value, number.span))
 }

@@ -219,6 +219,8 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
         let fits = match kind {
             KeyKind::Name => !text.is_empty(),
             KeyKind::DeviceKey => lexical::is_device_key(text),
+            KeyKind::Place => lexical::is_place(text),
+            KeyKind::Machines => lexical::machines(text).is_some(),
             KeyKind::Language => {
                 text.len() >= 2 && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-')
             }
@@ -236,6 +238,8 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 KeyKind::Indices | KeyKind::ErrorCodes => lexical::with_0x(text),
                 KeyKind::Name
                 | KeyKind::DeviceKey
+                | KeyKind::Place
+                | KeyKind::Machines
                 | KeyKind::Language
                 | KeyKind::SubIndex
                 | KeyKind::SubIndices
@@ -249,8 +253,10 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 KeyKind::SubIndices => lexical::sub_indices(text).is_some(),
                 KeyKind::Bits => lexical::bits(text).is_some(),
                 KeyKind::ErrorCodes => lexical::error_codes(text).is_some(),
+                KeyKind::Machines => lexical::machines(text).is_some(),
                 KeyKind::Name
                 | KeyKind::DeviceKey
+                | KeyKind::Place
                 | KeyKind::Language
                 | KeyKind::SubIndex
                 | KeyKind::Integer
@@ -274,6 +280,8 @@ const fn key_words(kind: KeyKind) -> &'static str {
     match kind {
         KeyKind::Name => "names",
         KeyKind::DeviceKey => "short keys of lower-case letters, digits and `-`, such as `pmc`",
+        KeyKind::Place => "names of letters, digits, `-` and `_`, such as `A` or `hall-2`",
+        KeyKind::Machines => "names or numbers such as `17`, or runs such as `1..200`",
         KeyKind::Language => "language codes such as `en`",
         KeyKind::Indices => "indices such as `0x6040`, 0001h to FFFFh, or runs such as `0x3511..0x3519`",
         KeyKind::SubIndex => "sub-indices, 1 to 254",

@@ -172,12 +172,20 @@ codes! {
         "Behind as many records as a concise DCF says it has, the file goes on. A master never sees that part. Either the number at the beginning is too small, or the file is none of this kind."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
         "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
+    UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":
+        "What is said of a type, a position or a device at a position has to be about one that there is: on a machine that has no such thing, nothing would happen, and nobody would notice. Types stand under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
+    OVERLAPPING_RUNS Error "OD0731" "runs of machines that cross":
+        "Of two runs of machines one lies in the other or they have no machine in common: what is said of the smaller run lies over what is said of the larger one. Here some machines are in both and neither lies in the other, so that nobody knows what holds for them. Split one of the runs."
+    TOO_MANY_NODES Error "OD0733" "a plant with too many nodes":
+        "A few lines can stand for millions of nodes. A plant may have 100,000 of them; the largest have some thousands. Correct the run, or make a plant file for each site."
     DEPARTURE Note "OD0811" "a departure from a standard":
         "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
     OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
         "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
     FORMER_NAME Warning "OD0842" "a key under its former name":
         "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value; `tables:` of a section became `content:`, as texts stand there, too."
+    MACHINE_BESIDE_RUNS Warning "OD0850" "a machine beside the runs":
+        "The site counts its machines in runs, and this number is in none of them: it makes one more machine. If one of the others was meant, correct the number; if there is such a machine, make a run longer, or write it as a run of its own, `17..17`."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":

@@ -12,6 +12,7 @@ mod manual;
 mod objects;
 mod parameters;
 mod pdos;
+mod plant;
 mod shape;
 mod table;
 mod types;
@@ -33,6 +34,7 @@ pub use pdos::{
     PDO, PDO_COMMUNICATION, PDO_DIRECTIONS, PDO_MAPPED_ENTRY, PDO_MAPPING, PDO_PARAMETER, PDO_PARAMETERS,
     PDO_RESERVED, PDOS,
 };
+pub use plant::{MASTER, PLANT, PLANT_DEVICE, PLANT_MACHINE, PLANT_NODE, PLANT_TYPE, PLANT_VERSION, SITE};
 pub use shape::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 

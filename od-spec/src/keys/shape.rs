@@ -121,6 +121,10 @@ pub enum KeyKind {
     Name,
     /// A short key of lower-case letters, digits and `-`, which also names the device's files.
     DeviceKey,
+    /// A name of letters, digits, `-` and `_`, which also names folders and files.
+    Place,
+    /// Such a name, or a run of numbers: `1..200`.
+    Machines,
     /// A language code.
     Language,
     /// An index, or a run of them: `0x3511..0x3519`.

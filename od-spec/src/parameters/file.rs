@@ -34,11 +34,7 @@ pub struct ParameterFile {
 
 /// Whether a text is a parameter file: its first key says so.
 pub fn is_parameter_file(text: &str) -> bool {
-    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let first = lines.find(|line| *line != "---");
-    first
-        .and_then(|line| line.strip_prefix(PARAMETERS_VERSION))
-        .is_some_and(|rest| rest.trim_start().starts_with(':'))
+    yaml::begins_with(text, PARAMETERS_VERSION)
 }
 
 /// Reads a parameter file. What is wrong with it by itself goes to `diagnostics`: whether the device has what it names, and

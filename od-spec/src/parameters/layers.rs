@@ -1,5 +1,6 @@
 //! Settings in layers: what a type says, and who lays something over it.
 
+use std::borrow::Borrow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::decl::SettingDecl;
@@ -92,12 +93,36 @@ pub(super) fn assign_layers_with(
     layers: &[Layer],
     diagnostics: &mut Diagnostics,
 ) -> Assigned {
+    let laid = lay_over(rules, system, device, node, layers, diagnostics);
+    check::configuration(rules, system, &laid.configured, node, diagnostics);
+    laid.assigned
+}
+
+/// A device with settings laid over it, before rules looked at it.
+pub(crate) struct Laid {
+    /// The values.
+    pub assigned: Assigned,
+    /// The device that has them.
+    pub configured: Dictionary,
+}
+
+/// Reads settings in layers and lays them over a device.
+pub(crate) fn lay_over<L: Borrow<Layer>>(
+    rules: check::Rules<'_>,
+    system: &System,
+    device: &Dictionary,
+    node: u8,
+    layers: &[L],
+    diagnostics: &mut Diagnostics,
+) -> Laid {
+    let layers: Vec<&Layer> = layers.iter().map(Borrow::borrow).collect();
+    let layers = layers.as_slice();
     let opened = unlocked(device, layers, diagnostics);
     let device = &*overlay::opened(device, &opened);
     let entries = Entries::of(device);
     let mut held: Vec<Held> = Vec::new();
     let mut by_holder: BTreeMap<EntryId, usize> = BTreeMap::new();
-    for (layer, Layer { settings, .. }) in layers.iter().enumerate() {
+    for (layer, Layer { settings, .. }) in layers.iter().copied().enumerate() {
         for decl in settings {
             let setting = match read::setting(device, &entries, node, decl, &mut diagnostics.suggestions) {
                 Ok(setting) => setting,
@@ -126,7 +151,6 @@ pub(super) fn assign_layers_with(
         }
     }
     let configured = overlay::configured(device, node, held.iter().map(|held| &held.setting));
-    check::configuration(rules, system, &configured, node, diagnostics);
     let mut assigned = Assigned::default();
     for one in held {
         let (id, origin) = (one.setting.id, one.origin());
@@ -139,11 +163,11 @@ pub(super) fn assign_layers_with(
         }
         assigned.values.insert(id, one.setting.value);
     }
-    assigned
+    Laid { assigned, configured }
 }
 
 /// The entries whose lock is lifted: those that are named, and what shows the same value.
-fn unlocked(device: &Dictionary, layers: &[Layer], diagnostics: &mut Diagnostics) -> BTreeSet<EntryId> {
+fn unlocked(device: &Dictionary, layers: &[&Layer], diagnostics: &mut Diagnostics) -> BTreeSet<EntryId> {
     let entries = Entries::of(device);
     let mut opened = BTreeSet::new();
     for name in layers.iter().flat_map(|layer| &layer.unlocked) {

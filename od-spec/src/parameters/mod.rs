@@ -11,6 +11,7 @@ mod read;
 pub use decl::SettingDecl;
 pub use file::{ParameterFile, is_parameter_file, parameter_file, settings_of_map};
 pub use layers::{Assigned, Layer, Origin, assign_layers};
+pub(crate) use layers::{Laid, lay_over};
 
 use crate::check;
 use crate::commissioning::{Commissioning, ParameterValues};

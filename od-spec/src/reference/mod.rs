@@ -8,13 +8,13 @@ mod features;
 mod tables;
 mod words;
 
-use crate::json_schema::reachable;
+use crate::json_schema::{reachable, reachable_in_plants};
 use crate::keys::PARAMETER_FILE;
 use crate::model::DataType;
 use words::WORD_TABLES;
 
 /// The chapters, in order.
-static CHAPTERS: [&str; 15] = [
+static CHAPTERS: [&str; 16] = [
     include_str!("chapters/introduction.md"),
     include_str!("chapters/reading.md"),
     include_str!("chapters/naming.md"),
@@ -30,6 +30,7 @@ static CHAPTERS: [&str; 15] = [
     include_str!("chapters/constraints.md"),
     include_str!("chapters/manual.md"),
     include_str!("chapters/parameters.md"),
+    include_str!("chapters/plants.md"),
 ];
 
 /// Prints the language reference in Markdown.
@@ -40,7 +41,7 @@ pub fn reference() -> String {
 
 /// What stands for something else in the chapters, and for what.
 fn marks() -> Vec<(String, String)> {
-    let tables = reachable().into_iter().chain([&PARAMETER_FILE]);
+    let tables = reachable().into_iter().chain([&PARAMETER_FILE]).chain(reachable_in_plants());
     let keys = tables.map(|keys| (keys_mark(keys.name), tables::section(keys)));
     let words = WORD_TABLES.iter().map(|words| (words.mark.to_owned(), words.markdown()));
     let types = DataType::ALL.map(|data_type| format!("`{}`", data_type.name())).join(", ");

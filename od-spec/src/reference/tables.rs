@@ -134,6 +134,8 @@ const fn key_kind(kind: KeyKind) -> &'static str {
         KeyKind::Bits => "bit or bits",
         KeyKind::Integer => "integer",
         KeyKind::ErrorCodes => "error code or codes",
+        KeyKind::Place => "name",
+        KeyKind::Machines => "name, number or run",
         KeyKind::PdoNumber => "number, 1 to 512",
         KeyKind::Number => "number, 0 to 255",
     }

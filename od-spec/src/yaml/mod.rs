@@ -126,6 +126,8 @@ pub(crate) enum Document {
     Specification,
     /// The values of a node.
     Parameters,
+    /// The nodes of many machines.
+    Plant,
 }
 
 impl Document {
@@ -140,8 +142,19 @@ impl Document {
                 "the file holds no parameters",
                 "start with `od-parameters: 1`, and put values under `parameters:`",
             ),
+            Document::Plant => (
+                "the file holds no plant",
+                "start with `od-plant: 1`; the reference shows the smallest plant",
+            ),
         }
     }
+}
+
+/// Whether the first key of a text is this one.
+pub(crate) fn begins_with(text: &str, key: &str) -> bool {
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let first = lines.find(|line| *line != "---");
+    first.and_then(|line| line.strip_prefix(key)).is_some_and(|rest| rest.trim_start().starts_with(':'))
 }
 
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.

@@ -10,7 +10,7 @@ use od_spec::{NoFiles, Strictness, all_codes, code, compile_as, read_text};
 
 use crate::bytes_and_libraries::{LAMP, compiled_with};
 use crate::settings::{HEATER, assigned};
-use crate::{cases, codes, parameter_files, parts, run};
+use crate::{cases, codes, parameter_files, parts, plants, run};
 
 #[path = "../../../od-gen/tests/cli/provoked.rs"]
 mod command_line;
@@ -92,6 +92,7 @@ fn every_code_has_a_case() {
     for code in all_codes() {
         provoked.extend(code.example.iter().flat_map(example));
     }
+    of_parameters.extend(plants::provoked());
     for (name, text) in parameter_files::cases() {
         of_parameters.extend(codes(&parameter_files::settled(&name, &[&text]).diagnostics));
     }

@@ -12,6 +12,7 @@ mod codes;
 mod other_yaml_reader;
 mod parameter_files;
 mod parts;
+mod plants;
 mod random;
 mod settings;
 mod settings_by_kind;

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod node;
+mod plant;
 
 use std::path::PathBuf;
 
@@ -9,6 +10,7 @@ use od_spec::diag::render;
 use od_spec::eds::readers::Reader;
 
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
+pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, ShowFormat};
 
 /// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
@@ -105,6 +107,7 @@ impl Cli {
             Command::Fmt(args) => args.messages.format,
             Command::New(args) => args.messages.format,
             Command::Params(args) => args.messages.format,
+            Command::Plant(args) => args.command.message_format(),
             _ => None,
         };
         behind.or(self.format).unwrap_or_default()
@@ -170,6 +173,8 @@ pub(crate) enum Command {
     New(NewArgs),
     /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
     Params(ParamsArgs),
+    /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine
+    Plant(PlantArgs),
     /// Tell what a message code means and what to do about it
     Explain {
         /// A code such as OD0507, or `all`

@@ -16,7 +16,10 @@ mod line_diff;
 mod listing;
 mod new;
 mod output;
+mod parallel;
 mod params;
+mod plant;
+mod progress;
 mod report;
 mod settings;
 mod specs;
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         Command::Fmt(args) => fmt::run(&args, directory, &report),
         Command::New(args) => new::run(&args, &report),
         Command::Params(args) => params::run(&args, &report),
+        Command::Plant(args) => plant::run(&args, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
         Command::Reference => report::print(&od_spec::reference()),
@@ -108,6 +112,9 @@ fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 
 }
 
 fn schema(args: &args::SchemaArgs, report: &report::Report) -> u8 {
+    if args.plant {
+        return report::print(&od_spec::plant_schema());
+    }
     let Some(spec) = &args.params else { return report::print(&od_spec::json_schema()) };
     let Some(system) = report.compile(spec) else { return ERRORS };
     match report.device_or_only(&system, args.device.as_deref()) {

@@ -17,6 +17,7 @@ use od_spec::{Commissioning, Compiled};
 
 use super::args::Color;
 use super::listing::{Most, for_people};
+use super::progress::Audience;
 use super::{ERRORS, SUCCESS, USAGE};
 
 /// Writes diagnostics the way the user asked for.
@@ -51,6 +52,14 @@ impl Report {
             Color::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
         };
         Self { format, colour }
+    }
+
+    /// Who reads the messages.
+    pub(crate) const fn audience(&self) -> Audience {
+        match self.format {
+            Format::Human | Format::Short => Audience::People,
+            Format::Json | Format::Github => Audience::Programs,
+        }
     }
 
     /// Whether messages are coloured.

@@ -31,6 +31,8 @@ pub(crate) enum Part {
     ConciseDcf,
     /// XDD and XDC files, read by an XML parser of others and held to the structure of the format.
     XddStructure,
+    /// Every DCF of a plant.
+    Plant,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -61,7 +63,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 16] = [
+    pub(crate) const ALL: [Part; 17] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -73,6 +75,7 @@ impl Part {
         Part::FirmwareInC,
         Part::ConciseDcf,
         Part::XddStructure,
+        Part::Plant,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -93,6 +96,7 @@ impl Part {
             Part::FirmwareInC => "EDS readers: firmware in C",
             Part::ConciseDcf => "EDS readers: concise DCF",
             Part::XddStructure => "EDS readers: XDD and XDC",
+            Part::Plant => "EDS readers: a plant",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -113,6 +117,7 @@ impl Part {
             | Part::FirmwareInC
             | Part::ConciseDcf
             | Part::XddStructure
+            | Part::Plant
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -132,6 +137,7 @@ impl Part {
             | Part::FirmwareInC
             | Part::ConciseDcf
             | Part::XddStructure
+            | Part::Plant
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -154,6 +160,7 @@ impl Part {
             | Part::FirmwareInC
             | Part::ConciseDcf
             | Part::XddStructure
+            | Part::Plant
             | Part::SdoClient
             | Part::Browser
             | Part::Manuals
@@ -190,6 +197,7 @@ impl Part {
             Part::FirmwareInC => readers::firmware_in_c(runner),
             Part::ConciseDcf => readers::concise_dcf(runner),
             Part::XddStructure => readers::xdd_structure(runner),
+            Part::Plant => readers::plant(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),

@@ -120,6 +120,13 @@ pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
     runner.python("tests/readers/xdd_foreign.py", &files.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
+/// Every DCF of a plant, read by dcfchk and python-canopen.
+pub(crate) fn plant(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    runner.run(Command::new(&python).args(["tests/readers/plant.py", "--odgen"]).arg(odgen))
+}
+
 /// The Python that the readers are installed for, if that could be done.
 fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     let environment = root().join(VENV);

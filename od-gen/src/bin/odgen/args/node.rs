@@ -114,4 +114,8 @@ pub(crate) struct SchemaArgs {
     /// Key of the device [default: the only one]
     #[arg(long, value_name = "KEY", requires = "params")]
     pub device: Option<String>,
+
+    /// The schema of plant files
+    #[arg(long, conflicts_with = "params")]
+    pub plant: bool,
 }

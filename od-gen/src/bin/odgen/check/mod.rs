@@ -3,9 +3,7 @@
 mod checked;
 mod format;
 mod inputs;
-mod parallel;
 mod policy;
-mod progress;
 mod summary;
 
 use std::path::Path;
@@ -15,9 +13,10 @@ use od_spec::diag::render::{Findings, sarif};
 use self::checked::{Checked, check};
 use self::inputs::Input;
 use self::policy::Policy;
-use self::progress::Progress;
 use self::summary::Total;
 use super::args::{CheckArgs, CheckFormat};
+use super::parallel;
+use super::progress::{Audience, Progress};
 use super::report::{Report, print, print_json};
 use super::{ERRORS, SUCCESS};
 
@@ -30,7 +29,7 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
         Ok(inputs) => inputs,
         Err(code) => return code,
     };
-    let mut progress = Progress::new(inputs.len(), format);
+    let mut progress = Progress::new("checked", "files", inputs.len(), Audience::of(format));
     let (mut total, mut document, mut written) = (Total::default(), Vec::new(), SUCCESS);
     // Printing frames takes longer than finding what they show: that is work for all cores, too.
     let work = |input: &Input| {

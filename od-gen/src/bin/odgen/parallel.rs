@@ -8,7 +8,7 @@ use std::thread;
 
 /// Does the work on each item. Whenever an item is finished, `each` gets the number of finished ones, and the results that are
 /// next in order.
-pub(super) fn in_order<T: Sync, R: Send>(
+pub(crate) fn in_order<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
     mut each: impl FnMut(usize, Vec<R>),

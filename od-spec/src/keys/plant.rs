@@ -1,0 +1,98 @@
+//! The keys of a plant file: the nodes of many machines, and what each of them is set to.
+
+use super::shape::{Key, KeyKind, Keys, Shape, U32};
+use super::table::keys;
+
+/// The key that a plant file begins with.
+pub const PLANT_VERSION: &str = "od-plant";
+
+/// Highest COB-ID of a data frame with 29 bits.
+const HIGHEST_COB_ID: i128 = 0x1FFF_FFFF;
+
+const PARAMETERS: Shape = Shape::MapOf(KeyKind::DeviceKey, &Shape::MapOf(KeyKind::Name, &Shape::Setting));
+const UNLOCK: Shape = Shape::MapOf(KeyKind::DeviceKey, &Shape::List(&Shape::Text));
+const POSITIONS: Shape = Shape::MapOf(
+    KeyKind::Place,
+    &Shape::MapOf(KeyKind::DeviceKey, &Shape::ShortOr(&Shape::Integer(1, 127), &PLANT_NODE)),
+);
+
+keys! {
+    /// Top level of a plant file.
+    PLANT = "a plant" {
+        "od-plant" required: Shape::Version, "version of the language; `1`";
+        "title" required: Shape::Text, "what the plant is called", "Nordfeld wind farm";
+        "about": Shape::Words, "more about it";
+        "devices" required: Shape::MapOf(KeyKind::DeviceKey, &Shape::ShortOr(&Shape::Text, &PLANT_DEVICE)), "the devices, by the key that this file has for them: a file, or the file and the device in it", "{pmc: {from: pitch.od.yaml}}";
+        "types" required: Shape::MapOf(KeyKind::Place, &Shape::Map(&PLANT_TYPE)), "types of machines, by name";
+        "sites" required: Shape::MapOf(KeyKind::Place, &Shape::Map(&SITE)), "where machines stand, by name";
+    }
+}
+
+keys! {
+    /// A device of a plant.
+    PLANT_DEVICE = "a device of a plant" {
+        "from" required: Shape::Text, "its specification, EDS or DCF, relative to this file", "pitch.od.yaml";
+        "device": Shape::Text, "its key in the specification, where that is another one", "pmc";
+    }
+}
+
+keys! {
+    /// A type of machines.
+    PLANT_TYPE = "a type of machines" {
+        "about": Shape::Words, "what it is";
+        "bit-rate" required: Shape::Integer(1, 1000), "bit rate of the bus in kbit/s, one that every device supports", "500";
+        "master": Shape::Map(&MASTER), "what is on the bus beside the nodes; without it nobody knows what nodes wait for";
+        "positions" required: POSITIONS, "places of the machine, each with its devices and their node-IDs", "{A: {pmm: 1, pmc: 11}}";
+        "parameters": PARAMETERS, "values by device and entry, as in a parameter file", "{pmc: {set pressure: 2.5 bar}}";
+        "unlock": UNLOCK, "locked entries, by device, that these parameters set all the same", "{pmc: [calibration]}";
+    }
+}
+
+keys! {
+    /// The master of a bus.
+    MASTER = "the master of a bus" {
+        "node": Shape::Integer(1, 127), "its node-ID, where it has one";
+        "sends": Shape::List(&Shape::Integer(1, HIGHEST_COB_ID)), "COB-IDs of the PDOs that it sends", "[0x20B, 0x20C]";
+        "receives": Shape::List(&Shape::Integer(1, HIGHEST_COB_ID)), "COB-IDs of the PDOs that it receives", "[0x18B]";
+    }
+}
+
+keys! {
+    /// A site.
+    SITE = "a site" {
+        "title": Shape::Text, "what it is called";
+        "comment": Shape::Text, "a remark for the overview";
+        "type": Shape::Text, "type of its machines, where they do not say another one", "OAT-2";
+        "machines" required: Shape::MapOf(KeyKind::Machines, &Shape::Map(&PLANT_MACHINE)), "the machines, each with a bus of its own: names, numbers, or runs of numbers; what is said of a smaller run lies over what is said of a larger one", "{1..200: {}, 17: {serial: \"2031-17\"}}";
+        "positions": POSITIONS, "what is said of single places on every machine of the site";
+        "parameters": PARAMETERS, "values that lie over those of the type";
+        "unlock": UNLOCK, "locked entries, by device, that these parameters set all the same";
+    }
+}
+
+keys! {
+    /// A machine, or a run of them.
+    PLANT_MACHINE = "a machine" {
+        "type": Shape::Text, "its type, where it is not that of the site";
+        "serial": Shape::Text, "its serial number, as it stands on the plate", "\"2031-17\"";
+        "comment": Shape::Text, "a remark for the overview", "gearbox exchanged in 2026";
+        "bit-rate": Shape::Integer(1, 1000), "bit rate in kbit/s, where it is not that of the type";
+        "net-number": U32, "number of its network";
+        "net-name": Shape::HeaderText, "name of its network; that of site and machine without", "WEC 17";
+        "positions": POSITIONS, "what is said of single places", "{B: {pmc: {node: 22}}}";
+        "parameters": PARAMETERS, "values that lie over those of type and site";
+        "unlock": UNLOCK, "locked entries, by device, that these parameters set all the same";
+    }
+}
+
+keys! {
+    /// A device at a position.
+    PLANT_NODE = "a node" {
+        "node": Shape::Integer(1, 127), "node-ID";
+        "node-name": Shape::HeaderText, "name of the node; the product's and the position without";
+        "serial": U32, "serial number of the device (1018h.4)", "4711";
+        "comment": Shape::Text, "a remark for the overview", "exchanged in 2026";
+        "parameters": Shape::MapOf(KeyKind::Name, &Shape::Setting), "values that lie over those of the same level for every position", "{set pressure: 2.5 bar}";
+        "unlock": Shape::List(&Shape::Text), "locked entries that these parameters set all the same", "[calibration]";
+    }
+}
