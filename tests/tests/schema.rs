@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 
 use jsonschema::Validator;
 use od_spec::diag::Diagnostics;
+use od_spec::plant::plant;
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, assign_layers, compile, is_parameter_file, parameter_file};
+use od_spec::{Loader, NoFiles, assign_layers, compile, is_parameter_file, parameter_file};
+use od_tests::shipped::in_one_file;
 use serde_json::Value;
 
 #[path = "../shared/typed_yaml.rs"]
@@ -220,6 +222,10 @@ fn the_other_pieces_of_the_reference_compile() {
             check_parameters(piece);
             continue;
         }
+        if piece.starts_with("od-plant:") {
+            check_plant(piece);
+            continue;
+        }
         // A drive's objects can be mapped, so that it has PDOs.
         let has_devices = piece.lines().any(|line| line.starts_with("devices:"));
         let devices = if has_devices { "" } else { pump };
@@ -232,6 +238,24 @@ fn the_other_pieces_of_the_reference_compile() {
         let found: Vec<String> = found.iter().map(|one| format!("{} {}", one.code, one.message)).collect();
         assert_eq!(found, Vec::<String>::new(), "{piece}");
     }
+}
+
+/// A piece that is a plant file is one of the pitch system.
+fn check_plant(piece: &str) {
+    struct Pitch;
+    impl Loader for Pitch {
+        fn load(&mut self, path: &str, _from: &str) -> Result<Vec<u8>, String> {
+            let stem = path.strip_suffix(".od.yaml").ok_or("no specification")?;
+            Ok(in_one_file(stem).into_bytes())
+        }
+    }
+    let mut sources = SourceMap::new();
+    let file = sources.add("plant.yaml", piece);
+    let read = plant(&mut sources, file, &mut Pitch);
+    assert!(read.diagnostics.is_empty(), "{piece}: {:?}", read.diagnostics);
+    assert!(read.plant.is_some_and(|plant| plant.nodes.len() == 1200));
+    let schema = serde_json::from_str(&od_spec::plant_schema()).expect("JSON");
+    assert_eq!(problems(&jsonschema::draft7::new(&schema).expect("a schema"), piece), Vec::<String>::new());
 }
 
 /// A piece that is a parameter file is one of the oven.

@@ -665,10 +665,11 @@
       return isLong ? lack + LEAST - title.offsetWidth : lack;
     }, 0);
   };
+  const pixels = (length) => Number(length.replace("px", ""));
   const fit = (cards) => {
     if (phone.matches) return;
     const tables = cards.flatMap((card) => {
-      const { paddingLeft, paddingRight } = getComputedStyle(card), room = card.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) + 1;
+      const { paddingLeft, paddingRight } = getComputedStyle(card), room = card.clientWidth - pixels(paddingLeft) - pixels(paddingRight) + 1;
       return [...card.querySelectorAll(".stack")].map((table) => ({ table, room }));
     });
     for (const { table, room } of tables) if (needed.get(table) <= room) table.classList.remove("folded");

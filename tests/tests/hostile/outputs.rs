@@ -155,6 +155,20 @@ fn html(text: &str, count: &mut impl FnMut(String)) {
             let end = rest.find(&format!("</{name}>")).unwrap();
             rest = &rest[end..];
         }
+        // In how many lines a diagram shows a text depends on its words.
+        if name == "svg"
+            && ["flow", "axis"].iter().any(|kind| rest.starts_with(&format!("svg class=\"picture {kind}\"")))
+        {
+            let (picture, behind) = rest.split_once("</svg>").unwrap();
+            let other: Vec<&str> = picture
+                .split('<')
+                .skip(1)
+                .filter(|tag| !tag.trim_start_matches('/').starts_with("text"))
+                .collect();
+            count(format!("html {name} with {} elements", other.len()));
+            rest = behind;
+            continue;
+        }
         // Breaks belong to the text. An accessor has a button of its own, where code can have the name at all.
         let is_accessor = name == "button" && rest.starts_with("button type=\"button\" data-copy=\".");
         if !matches!(name.as_str(), "" | "br" | "/button") && !is_accessor {
