@@ -1,7 +1,7 @@
 //! XDD and XDC texts (CiA 311): what an EDS or DCF says, in XML.
 //!
 //! Such a file has the facts of an EDS under other names, and some more about what values mean. It is translated into the sections
-//! and keys of an EDS ([`translate`]), every one of them with its place in the XML, and `eds::read` makes the declaration from
+//! and keys of an EDS (`translate`), every one of them with its place in the XML, and `eds::read` makes the declaration from
 //! these. So there is one reader of objects, whatever the notation; what the notation alone can get wrong is said here, in its own words.
 
 #[cfg(feature = "xdd")]
