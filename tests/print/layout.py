@@ -57,7 +57,8 @@ def block(box, around: str) -> dict | None:
         return {"kind": "warning", "id": around, "text": text_of(box)}
     if tag == "p" and class_of(box) in ("caption", "object-head"):
         return {"kind": "caption", "id": around, "text": text_of(box)}
-    if tag == "svg" and kind.endswith("ReplacedBox"):
+    # The name of an element of SVG has its namespace before it.
+    if tag.endswith("}svg") and kind.endswith("ReplacedBox"):
         return {"kind": "picture", "id": around, "text": ""}
     if tag == "tr" and kind == "TableRowBox":
         return {"kind": "row", "id": around, "text": text_of(box)}
@@ -91,11 +92,6 @@ class Page:
             self.found["sizes"].setdefault(str(size), box.text[:60])
         if kind == "LineBox" or kind.endswith("ReplacedBox"):
             self.found["bottom"] = max(self.found["bottom"], box.position_y + box.height - top)
-        if tag == "svg" and kind.endswith("ReplacedBox") and box.replacement:
-            # The letters of a picture shrink with it: 10 is the smallest that its style knows.
-            natural = float(box.element.get("width"))
-            size = round(10 * box.width / natural * POINTS, 2)
-            self.found["sizes"].setdefault(str(size), f"a picture: {box.element.get('aria-label', '')[:60]}")
         if tag == "table" and kind == "TableBox":
             groups = [group for group in box.children if not getattr(group, "is_header", False)]
             rows = [row for group in groups for row in group.children]
