@@ -564,7 +564,7 @@ for (const name of names) {
           if (cell.textContent && title !== JSON.stringify(titles[cell.cellIndex])) unnamed.push(place(cell));
           if (!cell.role || cell.matches(".tool")) continue;
           pen.font = `${style.fontStyle} ${style.fontSize} ${style.fontFamily}`;
-          for (const word of cell.textContent.split(/[\s\u00ad/-]+/)) {
+          for (const word of cell.innerText.split(/[\s\u00ad/-]+/)) {
             if (!longest.has(pen.font + word)) longest.set(pen.font + word, pen.measureText(word).width);
             if (longest.get(pen.font + word) > cell.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) + 1) broken.push(`${place(cell)}: ${word}`);
           }
