@@ -162,7 +162,7 @@ class Manual:
                 self.check(any(words in self.raw[page - 1] for page in pages), f"not on page {pages}: {title}")
 
     def breaks(self) -> None:
-        """No heading is the last thing of a page, no warning the first, and no page within a chapter is mostly empty."""
+        """No heading is the last thing of a page, and no warning the first."""
         following = [page["chapter"] for page in self.layout[1:]] + [True]
         overleaf = [page["blocks"][:1] for page in self.layout[1:]] + [[]]
         for number, (page, is_last, behind) in enumerate(zip(self.layout, following, overleaf), start=1):
@@ -173,11 +173,6 @@ class Manual:
                 is_empty = is_last or any(one.get("level", 9) <= last.get("level", 0) for one in behind)
                 self.check(is_empty or last["kind"] not in ("heading", "caption"), f"page {number} ends with: {last['text'][:80]}")
                 self.check(first["kind"] != "warning", f"page {number} begins with the warning: {first['text'][:80]}")
-            share = page["bottom"] / page["height"]
-            # A picture may be as high as most of a page; what stands before one that begins the next page stays alone.
-            pictures = [one["kind"] for one in self.layout[number]["blocks"][:4]] if number < len(self.layout) else []
-            # With errata a manual is for comparing, and its marks make pages as they come.
-            self.check(is_last or self.context["errata"] or share > 1 / 4 or "picture" in pictures, f"page {number} is used to {share:.0%} only")
 
     def tables_in_two(self) -> None:
         """Of a table that goes on overleaf, no single row of usual height stands alone."""
