@@ -36,6 +36,7 @@ mod effect;
 mod entries;
 mod fault;
 mod flags;
+pub mod frame;
 #[doc(hidden)]
 pub mod generated_for_layout_2;
 mod id;
