@@ -1,5 +1,5 @@
 mod lamp {
-    od_macros::object_dictionary!("../../../../tests/ui/err_od0406_default.od.yaml");
+    od_macros::object_dictionary!("ui/err_od0406_default.od.yaml");
 }
 
 fn main() {}

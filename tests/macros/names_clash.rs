@@ -1,5 +1,5 @@
 mod lamp {
-    od_macros::object_dictionary!("../../../../tests/macros/names_clash.od.yaml");
+    od_macros::object_dictionary!("macros/names_clash.od.yaml");
 }
 
 fn main() {}

@@ -1,5 +1,5 @@
 mod lamp {
-    od_macros::object_dictionary!("../../../../tests/ui/ok_minimal.od.yaml", device = "stranger");
+    od_macros::object_dictionary!("ui/ok_minimal.od.yaml", device = "stranger");
 }
 
 fn main() {}

@@ -1,7 +1,7 @@
 #![deny(deprecated)]
 
 mod lamp {
-    od_macros::object_dictionary!("../../../../tests/ui/warn_od0803_error_control.od.yaml");
+    od_macros::object_dictionary!("ui/warn_od0803_error_control.od.yaml");
 }
 
 fn main() {}

@@ -2,11 +2,11 @@
 #![deny(deprecated)]
 
 mod lamp {
-    od_macros::object_dictionary!("../../../../tests/ui/warn_od0803_error_control.od.yaml");
+    od_macros::object_dictionary!("ui/warn_od0803_error_control.od.yaml");
 }
 
 mod lamp_again {
-    od_macros::object_dictionary!("../../../../tests/ui/warn_od0803_error_control.od.yaml", device = "lamp");
+    od_macros::object_dictionary!("ui/warn_od0803_error_control.od.yaml", device = "lamp");
 }
 
 fn main() {}

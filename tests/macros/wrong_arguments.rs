@@ -3,7 +3,7 @@ mod lamp {
 }
 
 mod other {
-    od_macros::object_dictionary!("../../../../tests/ui/ok_minimal.od.yaml", devise = "lamp");
+    od_macros::object_dictionary!("ui/ok_minimal.od.yaml", devise = "lamp");
 }
 
 fn main() {}

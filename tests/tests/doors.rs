@@ -1,9 +1,11 @@
 //! Three ways to the same code: macro, build script, file.
 
+use std::path::Path;
 use std::process::Command;
 
 use firmware_glue::Dictionary;
 use od_generated::{fullmo, pmc, pmm};
+use od_tests::compiler::{Product, compile, messages};
 use od_tests::root;
 
 mod by_builder {
@@ -93,18 +95,29 @@ fn the_compiled_tables_are_equal() {
     assert_eq!(pmc_by_macro::Pmc::new(7).image(), pmc::Pmc::new(7).image());
 }
 
+/// What the compiler says of a file that it must refuse.
+fn refused(file: &Path) -> String {
+    let output = compile(file, Product::Messages).expect("the compiler runs");
+    assert_eq!(output.status.code(), Some(1), "{} is accepted", file.display());
+    messages(&output)
+}
+
 #[test]
 fn a_specification_with_mistakes_is_an_error_of_the_compiler() {
-    let cases = trybuild::TestCases::new();
-    cases.compile_fail("macros/*.rs");
+    insta::glob!("../macros", "*.rs", |path| {
+        let file = Path::new("macros").join(path.file_name().unwrap());
+        insta::assert_snapshot!(refused(&file));
+    });
 }
 
 #[test]
 fn a_file_for_another_layout_is_one_error() {
-    let cases = trybuild::TestCases::new();
-    cases.compile_fail("layouts/older.rs");
-    cases.compile_fail("layouts/older_still.rs");
-    cases.pass("layouts/present.rs");
+    insta::assert_snapshot!("older", refused(Path::new("layouts/older.rs")));
+    insta::assert_snapshot!("older_still", refused(Path::new("layouts/older_still.rs")));
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("present");
+    let output = compile(Path::new("layouts/present.rs"), Product::Program(&program)).unwrap();
+    assert_eq!(messages(&output), "\n");
+    assert!(Command::new(program).status().unwrap().success());
 }
 
 #[test]

@@ -54,7 +54,7 @@ cargo xtask TASK
                       run the tests: every part that this machine has the tools for
   browser             the part of `test` that reads the documents in Chromium
   generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
-  package             package the crates that users depend on, and build each from its package
+  package             package the crates that users depend on, and compile each from its package
   corpus DIR          take the EDS and DCF files of a directory through everything
   fuzz [--of TEXTS] [--seconds N] [--seed N] [FILE|DIR…]
                       change files by chance, and see whether anything breaks
@@ -70,6 +70,7 @@ cargo xtask test [--all] [--without-browser] [--without-emulator]
 Runs the Rust tests, the fuzzer for a minute, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
 emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then it runs every part
 whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
+Beside the Rust tests run the parts that nobody waits for; what these print follows after the Rust tests.
 
   --all               fail when anything is left out
   --without-browser   do not read the documents in Chromium and on paper
@@ -97,7 +98,7 @@ Rewrites everything that is generated and checked in. With --check it writes not
 const PACKAGE: &str = "\
 cargo xtask package
 
-Packages the crates that users depend on, as `cargo publish` would, and builds each from its package. Fails when a package
+Packages the crates that users depend on, as `cargo publish` would, and compiles each from its package. Fails when a package
 lacks its README, a licence text or a fact that a registry shows.
 ";
 

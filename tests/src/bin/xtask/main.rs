@@ -21,8 +21,8 @@ use std::time::{Duration, Instant};
 
 use arguments::{Gaps, Task, TestOptions, parse};
 use od_tests::{Failure, generate};
-use parts::{Area, Part, Readiness};
-use runner::Runner;
+use parts::{Area, Part, Readiness, Turn};
+use runner::{Output, Runner};
 use summary::{Outcome, Row, Verdict};
 use tools::Tool;
 
@@ -81,7 +81,7 @@ fn test(parts: &[Part], options: &TestOptions) -> ExitCode {
     if !missing.is_empty() {
         println!("missing on this machine; what needs it is left out, the rest runs:\n{missing}");
     }
-    let mut rows: Vec<Row> = parts.iter().map(|&part| run(part, &found)).collect();
+    let mut rows = run_all(&parts, &found);
     let unwanted = Part::ALL.into_iter().filter(|part| options.unwanted.contains(&part.area()));
     rows.extend(unwanted.map(|part| Row {
         part,
@@ -89,6 +89,7 @@ fn test(parts: &[Part], options: &TestOptions) -> ExitCode {
         counts: None,
         time: Duration::ZERO,
     }));
+    rows.sort_by_key(|row| row.part);
     let summary = summary::summarize(&rows, &missing, options.gaps);
     print!("{}", summary.text);
     match summary.verdict {
@@ -110,31 +111,60 @@ fn find_tools(parts: &[Part]) -> BTreeSet<Tool> {
     found
 }
 
-fn run(part: Part, found: &BTreeSet<Tool>) -> Row {
+/// Runs the parts, as many at the same time as their turns allow.
+fn run_all(parts: &[Part], found: &BTreeSet<Tool>) -> Vec<Row> {
+    let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn() == turn);
+    if parts.contains(&Part::Rust) {
+        // Before anything runs beside: what is compiled takes the place of programs that others would be using. What is wrong is
+        // told by the part itself.
+        let _ = Runner::default().cargo(&["test", "--workspace", "--quiet", "--no-run"]);
+    }
+    let (done, to_tell) = std::sync::mpsc::channel();
+    let mut rows: Vec<Row> = std::thread::scope(|scope| {
+        scope.spawn(move || {
+            for part in of(Turn::Beside) {
+                let output = Output::Kept(Vec::new());
+                // Nobody listens only when the other thread has panicked.
+                let _ = done.send(run(part, found, output));
+            }
+        });
+        let mut rows: Vec<Row> = of(Turn::First).map(|part| tell(run(part, found, Output::Told))).collect();
+        rows.extend(to_tell.iter().map(tell));
+        rows
+    });
+    rows.extend(of(Turn::Alone).map(|part| tell(run(part, found, Output::Told))));
+    rows
+}
+
+/// Tells what was kept of a part.
+fn tell((row, output): (Row, Output)) -> Row {
+    if let Output::Kept(text) = output {
+        print!("{}", String::from_utf8_lossy(&text));
+    }
+    row
+}
+
+fn run(part: Part, found: &BTreeSet<Tool>, output: Output) -> (Row, Output) {
+    let mut runner = Runner { output, ..Runner::default() };
+    let begin = Instant::now();
     let readiness = part.readiness(found);
     let reason = summary::reason(&readiness);
-    if matches!(readiness, Readiness::Lacks(_)) {
-        return Row {
-            part,
-            outcome: Outcome::LeftOut(reason.unwrap_or_default()),
-            counts: None,
-            time: Duration::ZERO,
-        };
-    }
-    println!("\n== {}", part.title());
-    let mut runner = Runner::default();
-    let begin = Instant::now();
-    let outcome = match part.run(&mut runner) {
-        Err(failure) => {
-            eprintln!("error: {failure}");
-            Outcome::Failed(failure.to_string())
+    let outcome = if matches!(readiness, Readiness::Lacks(_)) {
+        Outcome::LeftOut(reason.unwrap_or_default())
+    } else {
+        runner.tell(&format!("\n== {}", part.title()));
+        match part.run(&mut runner) {
+            Err(failure) => {
+                runner.tell(&format!("error: {failure}"));
+                Outcome::Failed(failure.to_string())
+            }
+            Ok(()) => match reason.or(runner.gap) {
+                None => Outcome::Passed,
+                Some(gap) => Outcome::Partly(gap),
+            },
         }
-        Ok(()) => match reason.or(runner.gap) {
-            None => Outcome::Passed,
-            Some(gap) => Outcome::Partly(gap),
-        },
     };
-    Row { part, outcome, counts: runner.counts, time: begin.elapsed() }
+    (Row { part, outcome, counts: runner.counts, time: begin.elapsed() }, runner.output)
 }
 
 fn write() -> Result<(), Failure> {

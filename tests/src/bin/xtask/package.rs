@@ -16,7 +16,7 @@ const FACTS: [&str; 4] = ["description", "license", "readme", "rust_version"];
 /// What people find it by.
 const LISTS: [&str; 2] = ["keywords", "categories"];
 
-/// Packages each crate and builds it from its package.
+/// Packages each crate and compiles it from its package, with no features but those that it asks for itself.
 pub(crate) fn package() -> Result<(), Failure> {
     let published = published(&cargo(&["metadata", "--format-version", "1", "--no-deps"])?)?;
     let mut lacks = Vec::new();
@@ -28,22 +28,65 @@ pub(crate) fn package() -> Result<(), Failure> {
     if !lacks.is_empty() {
         return Err(lacks.join("\n").into());
     }
-    let sources = cargo_home().ok_or("neither CARGO_HOME nor HOME is set")?.join("registry/src");
-    forget_unpacked(&sources, &published)?;
-    // Nor may what was compiled of them count as up to date, which cargo decides by version, too.
     let target = root().join("target/packaged");
     if target.exists() {
         std::fs::remove_dir_all(&target)?;
     }
-    let mut arguments =
-        vec!["package", "--target-dir", "target/packaged", "--locked", "--allow-dirty", "--quiet"];
+    let mut arguments = vec![
+        "package",
+        "--no-verify",
+        "--target-dir",
+        "target/packaged",
+        "--locked",
+        "--allow-dirty",
+        "--quiet",
+    ];
     for package in &published {
         arguments.extend(["--package", name(package)?]);
     }
     Runner::default().cargo(&arguments)?;
+    let unpacked = unpack(&target, &published)?;
+    let manifest = unpacked.join("Cargo.toml");
+    for package in &published {
+        // Each alone, as features of packages that are compiled together are the sum of all that are asked for.
+        let package =
+            ["check", "--quiet", "--target-dir", "target", "--package", name(package)?, "--manifest-path"];
+        Runner::default().run(cargo_command().args(package).arg(&manifest))?;
+    }
     let names: Vec<&str> = published.iter().map(name).collect::<Result<_, _>>()?;
-    println!("{} packages are complete and build: {}", names.len(), names.join(", "));
+    println!("{} packages are complete and compile: {}", names.len(), names.join(", "));
     Ok(())
+}
+
+/// Unpacks the packages into a workspace of their own, in which each takes the others in place of those of a registry. Cargo's own
+/// check of packages does the same through a registry, but compiles every dependency once more.
+fn unpack(target: &Path, published: &[Value]) -> Result<PathBuf, Failure> {
+    let unpacked = target.join("unpacked");
+    std::fs::create_dir_all(&unpacked)?;
+    let mut directories = Vec::new();
+    for package in published {
+        let version = package.get("version").and_then(Value::as_str).ok_or("a package has no version")?;
+        let directory = format!("{}-{version}", name(package)?);
+        // In a package every file is equally old; cargo tells by their age what to compile.
+        let file = target.join("package").join(format!("{directory}.crate"));
+        Runner::default().run(Command::new("tar").arg("-xzmf").arg(file).arg("-C").arg(&unpacked))?;
+        directories.push((name(package)?, directory));
+    }
+    std::fs::write(unpacked.join("Cargo.toml"), workspace(&directories))?;
+    std::fs::copy(root().join("Cargo.lock"), unpacked.join("Cargo.lock"))?;
+    Ok(unpacked)
+}
+
+/// The manifest of a workspace of packages, each with its directory.
+fn workspace(packages: &[(&str, String)]) -> String {
+    let members: Vec<String> = packages.iter().map(|(_, directory)| format!("{directory:?}")).collect();
+    let patches: Vec<String> =
+        packages.iter().map(|(name, directory)| format!("{name} = {{ path = {directory:?} }}")).collect();
+    format!(
+        "[workspace]\nresolver = \"3\"\nmembers = [{}]\n\n[patch.crates-io]\n{}\n",
+        members.join(", "),
+        patches.join("\n")
+    )
 }
 
 /// The packages of the workspace that may be published, by `cargo metadata`.
@@ -72,46 +115,18 @@ fn lacking<'a>(package: &Value, listed: &str) -> Vec<&'a str> {
     lacks
 }
 
-/// Removes what an earlier run unpacked of the packages.
-///
-/// Cargo serves the packages to each other from a temporary registry, but
-/// keeps what it unpacks of it by path and version: the next run in the same
-/// checkout would build the sources of the last one.
-fn forget_unpacked(sources: &Path, published: &[Value]) -> Result<(), Failure> {
-    if !sources.exists() {
-        return Ok(());
-    }
-    for registry in sources.read_dir()? {
-        let registry = registry?;
-        // A registry is named `host-hash`; one on this machine has no host.
-        if !registry.file_name().to_string_lossy().starts_with('-') {
-            continue;
-        }
-        for package in published {
-            let version = package.get("version").and_then(Value::as_str).ok_or("a package has no version")?;
-            let unpacked = registry.path().join(format!("{}-{version}", name(package)?));
-            if unpacked.exists() {
-                std::fs::remove_dir_all(unpacked)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn cargo_home() -> Option<PathBuf> {
-    let home = || Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo"));
-    std::env::var_os("CARGO_HOME").map(PathBuf::from).or_else(home)
-}
-
 /// What a command of cargo prints.
 fn cargo(arguments: &[&str]) -> Result<String, Failure> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let output = Command::new(cargo).args(arguments).current_dir(root()).output()?;
+    let output = cargo_command().args(arguments).current_dir(root()).output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         return Err(format!("`cargo {}` failed: {said}", arguments.join(" ")).into());
     }
     Ok(String::from_utf8(output.stdout)?)
+}
+
+fn cargo_command() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 #[cfg(test)]
@@ -143,16 +158,16 @@ mod tests {
     }
 
     #[test]
-    fn only_unpacked_packages_of_a_local_registry_are_forgotten() {
-        let sources = std::env::temp_dir().join(format!("od-unpacked-{}", std::process::id()));
-        let folders = ["-0a1b/whole-0.1.0", "-0a1b/other-0.1.0", "index.example-0a1b/whole-0.1.0"];
-        for folder in folders {
-            std::fs::create_dir_all(sources.join(folder)).unwrap();
-        }
-        forget_unpacked(&sources, &published(METADATA).unwrap()).unwrap();
-        let left = folders.map(|folder| sources.join(folder).exists());
-        assert_eq!(left, [false, true, true]);
-        std::fs::remove_dir_all(&sources).unwrap();
-        forget_unpacked(&sources, &[]).unwrap();
+    fn each_package_takes_the_others_from_beside_it() {
+        let packages = [("one", "one-0.1.0".to_owned()), ("two", "two-0.1.0".to_owned())];
+        let expected = r#"[workspace]
+resolver = "3"
+members = ["one-0.1.0", "two-0.1.0"]
+
+[patch.crates-io]
+one = { path = "one-0.1.0" }
+two = { path = "two-0.1.0" }
+"#;
+        assert_eq!(workspace(&packages), expected);
     }
 }

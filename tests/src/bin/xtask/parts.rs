@@ -51,6 +51,17 @@ pub(crate) enum Area {
     Firmware,
 }
 
+/// What a part runs beside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// From the start.
+    First,
+    /// At the same time, one after the other, as these parts share what they install.
+    Beside,
+    /// When all others have ended, one after the other: a client, a browser or an emulator is given a time to answer.
+    Alone,
+}
+
 /// Whether a part can run.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Readiness {
@@ -124,6 +135,26 @@ impl Part {
         }
     }
 
+    pub(crate) const fn turn(self) -> Turn {
+        match self {
+            Part::Rust => Turn::First,
+            Part::Mutants
+            | Part::ReadersSelfTest
+            | Part::EveryFeature
+            | Part::Configured
+            | Part::Shipped
+            | Part::Drives
+            | Part::Foretold
+            | Part::FirmwareInC
+            | Part::ConciseDcf
+            | Part::XddStructure
+            | Part::Plant
+            | Part::Manuals
+            | Part::FirmwareSizes => Turn::Beside,
+            Part::SdoClient | Part::Browser | Part::FirmwareTests => Turn::Alone,
+        }
+    }
+
     /// Tools without which it cannot run.
     const fn needs(self) -> &'static [Tool] {
         match self {
@@ -187,7 +218,8 @@ impl Part {
     pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
         match self {
             Part::Rust => runner.cargo(&["test", "--workspace", "--no-fail-fast"]),
-            Part::Mutants => runner.fuzz(&["--seconds", "60", "--seed", "1"]),
+            // On a machine that is busy with other parts.
+            Part::Mutants => runner.fuzz(&["--seconds", "90", "--seed", "1"]),
             Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
             Part::EveryFeature => readers::every_feature(runner),
             Part::Configured => readers::configured(runner),

@@ -1,4 +1,4 @@
-//! Running programs: their output goes on to the user, and what they count is kept for the summary.
+//! Running programs: their output goes on to the user, at once or later, and what they count is kept for the summary.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
@@ -15,6 +15,17 @@ pub(crate) struct Runner {
     pub(crate) counts: Option<Counts>,
     /// What could not be run.
     pub(crate) gap: Option<String>,
+    pub(crate) output: Output,
+}
+
+/// Where the output of programs goes.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) enum Output {
+    /// To the user, as it comes.
+    #[default]
+    Told,
+    /// Here, for a part that runs beside another one.
+    Kept(Vec<u8>),
 }
 
 /// What a test runner says in its last line.
@@ -60,12 +71,17 @@ impl Runner {
 
     /// Runs a program at the root of the workspace, without any input.
     pub(crate) fn run(&mut self, command: &mut Command) -> Result<(), Failure> {
-        command.current_dir(root()).stdin(Stdio::null()).stdout(Stdio::piped()).env("PYTHONUNBUFFERED", "1");
         let name = command.get_program().to_string_lossy().into_owned();
-        let mut child = command.spawn().map_err(|error| format!("cannot run {name}: {error}"))?;
-        if let Some(output) = child.stdout.take() {
-            self.pass_on(BufReader::new(output), std::io::stdout())?;
+        let (reader, writer) = std::io::pipe()?;
+        command.current_dir(root()).stdin(Stdio::null()).env("PYTHONUNBUFFERED", "1");
+        if matches!(self.output, Output::Kept(_)) {
+            command.stderr(writer.try_clone()?);
         }
+        let child = command.stdout(writer).spawn();
+        // The pipe ends when nobody can write to it any more, not even by running the command again.
+        command.stdout(Stdio::null()).stderr(Stdio::inherit());
+        let mut child = child.map_err(|error| format!("cannot run {name}: {error}"))?;
+        self.pass_on(BufReader::new(reader))?;
         let status = child.wait()?;
         let arguments = command.get_args().map(|argument| argument.to_string_lossy().into_owned());
         let said = format!("{name} {}", arguments.collect::<Vec<_>>().join(" "));
@@ -79,10 +95,13 @@ impl Runner {
         }
     }
 
-    fn pass_on(&mut self, mut from: impl BufRead, mut to: impl Write) -> Result<(), Failure> {
+    fn pass_on(&mut self, mut from: impl BufRead) -> Result<(), Failure> {
         let mut line = Vec::new();
         while from.read_until(b'\n', &mut line)? > 0 {
-            to.write_all(&line)?;
+            match &mut self.output {
+                Output::Told => std::io::stdout().write_all(&line)?,
+                Output::Kept(kept) => kept.extend(&line),
+            }
             if let Some(counts) = Counts::of_line(&String::from_utf8_lossy(&line)) {
                 let sum = self.counts.get_or_insert_default();
                 sum.passed += counts.passed;
@@ -91,6 +110,14 @@ impl Runner {
             line.clear();
         }
         Ok(())
+    }
+
+    /// Tells something about the programs, where their output goes.
+    pub(crate) fn tell(&mut self, text: &str) {
+        match &mut self.output {
+            Output::Told => println!("{text}"),
+            Output::Kept(kept) => kept.extend(format!("{text}\n").bytes()),
+        }
     }
 }
 
@@ -108,11 +135,18 @@ search: 7 passed, 8 failed
 12 passed, 1 failed, 3 skipped
 5 passed
 ";
-        let mut runner = Runner::default();
-        let mut passed_on = Vec::new();
-        runner.pass_on(lines.as_bytes(), &mut passed_on).unwrap();
-        assert_eq!(passed_on, lines.as_bytes());
+        let mut runner = Runner { output: Output::Kept(Vec::new()), ..Runner::default() };
+        runner.pass_on(lines.as_bytes()).unwrap();
+        assert_eq!(runner.output, Output::Kept(lines.into()));
         assert_eq!(runner.counts, Some(Counts { passed: 14, failed: 1 }));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_is_kept_has_messages_of_mistakes_too() {
+        let mut runner = Runner { output: Output::Kept(Vec::new()), ..Runner::default() };
+        runner.run(Command::new("sh").args(["-c", "echo one; echo two >&2; echo three"])).unwrap();
+        assert_eq!(runner.output, Output::Kept(b"one\ntwo\nthree\n".to_vec()));
     }
 
     #[test]
