@@ -17,6 +17,7 @@ mod markdown;
 mod options;
 mod outline;
 mod printed;
+mod series;
 mod source;
 mod synonyms;
 mod tables;

@@ -15,7 +15,7 @@ use crate::indices::{self, Written};
 use crate::language::{Language, Word};
 use crate::options::Options;
 use crate::outline::Outline;
-use crate::tables::constraints::title;
+use crate::series::title;
 use crate::view::{Cell, Target};
 
 /// What would otherwise be searched for again and again.

@@ -8,8 +8,9 @@ use od_spec::model::{
 };
 
 use crate::language::Word;
+use crate::series;
 use crate::source::Source;
-use crate::tables::{constraints, pdos};
+use crate::tables::pdos;
 use crate::view::{Cell, Used};
 
 /// What refers to each object of a device, worked out once.
@@ -72,7 +73,7 @@ impl Uses {
             for operand in conditions.flat_map(Expr::entries) {
                 if operand.device.as_ref().map_or(applies, |key| *key == device.key) {
                     let anchor = source.constraint_anchor(constraint);
-                    let line = Cell::default().link(constraints::title(constraint), anchor, "constraints");
+                    let line = Cell::default().link(series::title(constraint), anchor, "constraints");
                     self.add(operand.id, "constraints", source.word(Word::Constraints), line);
                 }
             }

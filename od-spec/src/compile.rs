@@ -296,3 +296,19 @@ fn missing_library(name: &Spanned<String>, reason: &str) -> Diagnostic {
     let message = format!("cannot read library `{}`: {reason}", shorten(path));
     Diagnostic::new(codes::MISSING_LIBRARY, name.span, message).help(help)
 }
+
+#[cfg(all(test, not(feature = "xdd")))]
+mod tests {
+    use crate::source::SourceMap;
+    use crate::{NoFiles, compile};
+
+    #[test]
+    fn without_a_reader_it_is_told_what_the_file_is() {
+        let mut sources = SourceMap::new();
+        let root = sources.add("tank.xdd", "<ISO15745ProfileContainer/>");
+        let compiled = compile(&mut sources, root, &mut NoFiles);
+        assert!(compiled.system.is_none());
+        let said: Vec<&str> = compiled.diagnostics.iter().map(|one| one.message.as_str()).collect();
+        assert_eq!(said, ["`tank.xdd` is an XDD, which this program was built without a reader for"]);
+    }
+}

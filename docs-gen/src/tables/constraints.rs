@@ -3,20 +3,10 @@
 use od_spec::model::{Constraint, Devices};
 
 use crate::language::Word;
+use crate::series::{NUMBER, title};
 use crate::source::Source;
 use crate::tables::Columns;
 use crate::view::{Align, Cell, PartKind, Row, Table};
-
-/// What stands for the number of a constraint of a series.
-const NUMBER: &str = "n";
-
-/// What a constraint is called in the documents: those of a series have one name.
-pub(crate) fn title(constraint: &Constraint) -> String {
-    match &constraint.series {
-        Some(series) => series.name.replace("{n}", NUMBER),
-        None => constraint.name.clone(),
-    }
-}
 
 /// Constraints that share a table, in order: those of one series, or one alone.
 fn groups<'c>(constraints: impl Iterator<Item = &'c Constraint>) -> Vec<Vec<&'c Constraint>> {

@@ -8,6 +8,7 @@ mod identity;
 mod network;
 mod objects;
 mod parameters;
+mod unique_id;
 mod xml;
 
 use od_spec::Commissioning;

@@ -6,7 +6,7 @@ use od_spec::model::{
 use od_spec::{Commissioning, Denoted};
 
 use super::Subject;
-use super::parameters::{uid_of_entry, uid_of_object};
+use super::unique_id::{uid_of_entry, uid_of_object};
 use super::xml::{Element, Xml, can_write};
 use crate::eds::value::Notation;
 

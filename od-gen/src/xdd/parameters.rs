@@ -4,32 +4,17 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Access, DataType, Entry, EnumValue, Index, Object, ObjectKind, Ratio, Storage, SubIndex, Text, TypeKind,
-    Unit, Value,
+    Access, DataType, Entry, EnumValue, Object, ObjectKind, Ratio, Storage, Text, TypeKind, Unit, Value,
 };
 use od_spec::wording::{Notation, Wording};
 
 use super::objects::Values;
+use super::unique_id::{uid_of_entry, uid_of_object, uid_of_type};
 use super::xml::{Element, Xml};
 use super::{Subject, languages};
 use crate::eds::comments;
 
 const WORDING: Wording = Wording::english(Notation::Eds);
-
-/// The name by which an object refers to its parameter.
-pub(super) fn uid_of_object(index: Index) -> String {
-    format!("UID_OBJ_{:04X}", index.0)
-}
-
-/// The name by which an entry of a structured object refers to its parameter.
-pub(super) fn uid_of_entry(index: Index, sub: SubIndex) -> String {
-    format!("UID_SUB_{:04X}{:02X}", index.0, sub.0)
-}
-
-fn uid_of_type(object: &Object) -> String {
-    let kind = if object.kind == ObjectKind::Array { "ARR" } else { "REC" };
-    format!("UID_{kind}_{:04X}", object.index.0)
-}
 
 /// `ApplicationProcess`.
 pub(super) fn write(xml: &mut Xml, subject: Subject<'_>) {

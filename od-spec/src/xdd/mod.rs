@@ -76,19 +76,3 @@ pub(crate) fn translate(file: FileId, text: &str, diagnostics: &mut Diagnostics)
     tree::say_what_is_left_out(xml, diagnostics);
     Some(Translated { document, texts })
 }
-
-#[cfg(all(test, not(feature = "xdd")))]
-mod tests {
-    use crate::source::SourceMap;
-    use crate::{NoFiles, compile};
-
-    #[test]
-    fn without_a_reader_it_is_told_what_the_file_is() {
-        let mut sources = SourceMap::new();
-        let root = sources.add("tank.xdd", "<ISO15745ProfileContainer/>");
-        let compiled = compile(&mut sources, root, &mut NoFiles);
-        assert!(compiled.system.is_none());
-        let said: Vec<&str> = compiled.diagnostics.iter().map(|one| one.message.as_str()).collect();
-        assert_eq!(said, ["`tank.xdd` is an XDD, which this program was built without a reader for"]);
-    }
-}
