@@ -5,12 +5,14 @@
 
 Runs in the environment of WeasyPrint. Writes the PDF and, to standard output, one JSON object for each page: `height` and `bottom` (of the
 area of the text and of what stands in it), `blocks` (what stands on it, in order: `kind`, `id` of the section or object around it, `text`), `tables`
-(heights of the rows of each on this page, and what is the same table on other pages), `sizes` (of the letters in points, with a sample of each).
+(heights of the rows of each on this page, and what is the same table on other pages), `sizes` (of the letters in points, those of pictures as
+they are scaled, with a sample of each).
 """
 
 from __future__ import annotations
 
 import json
+import re
 import sys
 
 import weasyprint
@@ -57,14 +59,43 @@ def block(box, around: str) -> dict | None:
         return {"kind": "warning", "id": around, "text": text_of(box)}
     if tag == "p" and class_of(box) in ("caption", "object-head"):
         return {"kind": "caption", "id": around, "text": text_of(box)}
-    # The name of an element of SVG has its namespace before it.
-    if tag.endswith("}svg") and kind.endswith("ReplacedBox"):
+    if is_picture(box):
         return {"kind": "picture", "id": around, "text": ""}
     if tag == "tr" and kind == "TableRowBox":
         return {"kind": "row", "id": around, "text": text_of(box)}
     if tag in ("p", "li") and kind == "BlockBox":
         return {"kind": "text", "id": around, "text": text_of(box)}
     return None
+
+
+def is_picture(box) -> bool:
+    # The name of an element of SVG has its namespace before it.
+    return getattr(box, "element_tag", "").endswith("}svg") and type(box).__name__.endswith("ReplacedBox")
+
+
+def letters(box):
+    """Sizes of the letters of a picture, each with its text: as its own style sheet says, scaled to the width that it has on the page."""
+    picture = box.element
+    *_, width, height = (float(number) for number in picture.get("viewBox").split())
+    scale = min(box.width / width, box.height / height) * POINTS
+    rules = {}
+    for sheet in picture.iterfind(".//{*}style"):
+        for names, declarations in re.findall(r"([^{}]+)\{([^}]*)\}", sheet.text or ""):
+            if found := re.search(r"font-size:([\d.]+)px", declarations):
+                rules.update((name.strip(), float(found[1])) for name in names.split(","))
+
+    def walk(element, inherited):
+        name = element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+        size = rules.get(name, inherited)
+        for one in element.get("class", "").split():
+            size = rules.get(f".{one}", size)
+        if name in ("text", "tspan") and (element.text or "").strip():
+            yield round(size * scale, 2), element.text.strip()
+        for child in element:
+            yield from walk(child, size)
+
+    # Letters whose size no rule names are too small, so that they are seen.
+    return walk(picture, 0.0)
 
 
 class Page:
@@ -90,6 +121,8 @@ class Page:
         if kind == "TextBox":
             size = round(box.style["font_size"] * POINTS, 2)
             self.found["sizes"].setdefault(str(size), box.text[:60])
+        if is_picture(box):
+            self.letters(box)
         if kind == "LineBox" or kind.endswith("ReplacedBox"):
             self.found["bottom"] = max(self.found["bottom"], box.position_y + box.height - top)
         if tag == "table" and kind == "TableBox":
@@ -104,6 +137,10 @@ class Page:
                 return self.sizes(box, top)
         for child in getattr(box, "children", ()):
             self.walk(child, around, top)
+
+    def letters(self, picture) -> None:
+        for size, sample in letters(picture):
+            self.found["sizes"].setdefault(str(size), sample[:60])
 
     def sizes(self, box, top: float) -> None:
         for part in descendants(box):
