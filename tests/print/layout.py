@@ -6,7 +6,7 @@
 Runs in the environment of WeasyPrint. Writes the PDF and, to standard output, one JSON object for each page: `height` and `bottom` (of the
 area of the text and of what stands in it), `blocks` (what stands on it, in order: `kind`, `id` of the section or object around it, `text`), `tables`
 (heights of the rows of each on this page, and what is the same table on other pages), `sizes` (of the letters in points, those of pictures as
-they are scaled, with a sample of each).
+they are scaled, with a sample of each), `short` (lines of text that end early).
 """
 
 from __future__ import annotations
@@ -98,13 +98,26 @@ def letters(box):
     return walk(picture, 0.0)
 
 
+def short_lines(box):
+    """Lines that end in the first half of their text, though neither the text nor a line of its own ends there."""
+    lines = [child for child in box.children if type(child).__name__ == "LineBox"]
+    for line, following in zip(lines, lines[1:]):
+        parts = list(descendants(line))
+        width = max((part.position_x + part.width for part in parts if type(part).__name__ == "TextBox"), default=0) - line.position_x
+        has_break = any(getattr(part, "element_tag", "") == "br" for part in parts)
+        # A long word may take its whole line.
+        next_word = len(text_of(following).split(" ")[0])
+        if not has_break and width < box.width / 2 and next_word < 20:
+            yield text_of(line)
+
+
 class Page:
     """What lies on a page."""
 
     def __init__(self, page) -> None:
         box = page._page_box
         top = box.content_box_y()
-        self.found = {"height": box.height, "bottom": 0.0, "chapter": False, "blocks": [], "tables": [], "sizes": {}}
+        self.found = {"height": box.height, "bottom": 0.0, "chapter": False, "blocks": [], "tables": [], "sizes": {}, "short": []}
         for child in box.children:
             if type(child).__name__ != "MarginBox":
                 self.walk(child, "", top)
@@ -130,6 +143,8 @@ class Page:
             rows = [row for group in groups for row in group.children]
             heights = [row.height for row in rows]
             self.found["tables"].append({"id": around, "element": id(box.element), "heights": heights})
+        if tag in ("p", "li") and kind == "BlockBox":
+            self.found["short"] += short_lines(box)
         one = block(box, around)
         if one:
             self.found["blocks"].append(one)

@@ -101,6 +101,7 @@ class Manual:
         self.fullness()
         self.tables_in_two()
         self.small_print()
+        self.short_lines()
         self.warnings()
         for chapter in self.context["chapters"]:
             for section in chapter["sections"]:
@@ -202,6 +203,10 @@ class Manual:
         for number, page in enumerate(self.layout, start=1):
             for size, sample in page["sizes"].items():
                 self.check(float(size) >= SMALLEST, f"page {number} has letters of {size} pt: {sample}")
+
+    def short_lines(self) -> None:
+        for number, page in enumerate(self.layout, start=1):
+            self.check(not page["short"], f"page {number} has lines that end early: {page['short'][:3]}")
 
     def warnings(self) -> None:
         """The overview leads from each warning to the page that it stands on."""
