@@ -5,8 +5,8 @@
 
 DOCS are directories with `manual.html` and `context.json`. WeasyPrint makes `manual.pdf` beside them, pdftotext reads it, and all that the
 context says has to stand there: titles on the page that the contents name, captions beside what they name, cells, texts, warnings. What lies
-where on its pages (`layout.py`) has to be readable: no small print, no heading at the foot of a page, no warning overleaf. WeasyPrint is
-installed below target/print. Needs Python with venv, Pango, and pdftotext of poppler-utils. Exit code 0: the manuals are as they must be; 1:
+where on its pages (`layout.py`) has to be readable: no small print, no heading at the foot of a page, no warning overleaf, no page that is
+nearly empty. WeasyPrint is installed below target/print. Needs Python with venv, Pango, and pdftotext of poppler-utils. Exit code 0: the manuals are as they must be; 1:
 they are not; 3: a program is missing or pip could not install, nothing was checked.
 """
 
@@ -23,6 +23,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 # The smallest letters that are read without effort, in points.
 SMALLEST = 7.0
+# How much of a page is used, where nothing says that what follows begins a page.
+FULL = 0.45
 CACHE = HERE.parent.parent / "target" / "print"
 
 
@@ -96,8 +98,10 @@ class Manual:
         self.numbers_of_pages()
         self.contents()
         self.breaks()
+        self.fullness()
         self.tables_in_two()
         self.small_print()
+        self.short_lines()
         self.warnings()
         for chapter in self.context["chapters"]:
             for section in chapter["sections"]:
@@ -174,6 +178,15 @@ class Manual:
                 self.check(is_empty or last["kind"] not in ("heading", "caption"), f"page {number} ends with: {last['text'][:80]}")
                 self.check(first["kind"] != "warning", f"page {number} begins with the warning: {first['text'][:80]}")
 
+    def fullness(self) -> None:
+        """No page is nearly empty, but at the end of a chapter or before what is as high as the rest of it."""
+        for number, (page, behind) in enumerate(zip(self.layout, self.layout[1:]), start=1):
+            # A caption and what leads to it go with their picture.
+            begins = [one["kind"] for one in behind["blocks"][:4]]
+            is_apart = behind["chapter"] or behind["height"] != page["height"] or "picture" in begins
+            share = page["bottom"] / page["height"]
+            self.check(is_apart or share >= FULL, f"page {number} is used to {share:.0%} only")
+
     def tables_in_two(self) -> None:
         """Of a table that goes on overleaf, no single row of usual height stands alone."""
         parts: dict[int, list[tuple[int, dict]]] = {}
@@ -190,6 +203,10 @@ class Manual:
         for number, page in enumerate(self.layout, start=1):
             for size, sample in page["sizes"].items():
                 self.check(float(size) >= SMALLEST, f"page {number} has letters of {size} pt: {sample}")
+
+    def short_lines(self) -> None:
+        for number, page in enumerate(self.layout, start=1):
+            self.check(not page["short"], f"page {number} has lines that end early: {page['short'][:3]}")
 
     def warnings(self) -> None:
         """The overview leads from each warning to the page that it stands on."""
