@@ -39,7 +39,7 @@ pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
 
-pub use artifact::{Artifact, OutputFile, SharedFile};
+pub use artifact::{Artifact, OutputFile, Pool, SharedFile};
 #[cfg(all(feature = "eds", feature = "json"))]
 pub use artifacts::{Selection, artifacts};
 #[cfg(feature = "format")]

@@ -1,6 +1,7 @@
 //! The files of a plant: for each machine the DCF and the concise DCF of its nodes and the list of them, and for all machines
 //! what differs where.
 
+mod messages;
 mod nodelist;
 mod overview;
 mod sheet;
@@ -13,7 +14,7 @@ use od_spec::diag::Diagnostic;
 use od_spec::plant::{Plant, PlantNode, Settled};
 use od_spec::rule_codes;
 
-use crate::artifact::SharedFile;
+use crate::artifact::{Pool, SharedFile};
 use crate::concise;
 use crate::eds::DcfPieces;
 
@@ -48,11 +49,11 @@ fn job(node: &PlantNode) -> Job {
     Job { class: node.class, position: node.position.clone() }
 }
 
-/// Does a job; the order is of no importance.
+/// Does a job; the order is of no importance. What it has in common with others is in memory once, in the pool.
 ///
 /// # Errors
 /// A value that no entry of the device can have, which rules have told before.
-pub fn make(plant: &Plant, settled: &[Settled], job: &Job) -> Result<Made, Box<Diagnostic>> {
+pub fn make(plant: &Plant, settled: &[Settled], job: &Job, pool: &Pool) -> Result<Made, Box<Diagnostic>> {
     let no_class = || {
         let message = format!("the plant has no class {}", job.class);
         Box::new(Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message))
@@ -68,7 +69,7 @@ pub fn make(plant: &Plant, settled: &[Settled], job: &Job) -> Result<Made, Box<D
         Box::new(Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message).help("correct the value"))
     })?;
     let file = format!("{}-{}.dcf", job.position, device.key);
-    let dcf = DcfPieces::new(&device.system, &device.dictionary, node, &file);
+    let dcf = DcfPieces::new(&device.system, &device.dictionary, node, &file, pool);
     Ok(Made { dcf, concise: concise::write(&writes).into() })
 }
 
