@@ -38,6 +38,8 @@ pub mod source;
 pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
+#[cfg(feature = "eds")]
+mod zip;
 
 pub use artifact::{Artifact, OutputFile, Pool, SharedFile};
 #[cfg(all(feature = "eds", feature = "json"))]

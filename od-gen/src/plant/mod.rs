@@ -4,8 +4,10 @@
 mod messages;
 mod nodelist;
 mod overview;
+mod rows;
 mod sheet;
 mod values;
+mod workbook;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -24,6 +26,8 @@ pub use values::{PlantValue, default_of, values};
 pub const OVERVIEW: &str = "overview.md";
 /// The name of the sheet.
 pub const SHEET: &str = "values.csv";
+/// The name of the workbook with the same table.
+pub const WORKBOOK: &str = "values.xlsx";
 
 /// What nodes have in common that are alike and stand at positions of one name: one piece of work.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,6 +85,8 @@ pub fn files(plant: &Plant, settled: &[Settled], jobs: &[Job], made: &[Made]) ->
         whole(OVERVIEW.to_owned(), overview::write(plant, settled)),
         whole(SHEET.to_owned(), sheet::write(plant, settled)),
     ];
+    let workbook = workbook::write(plant, settled);
+    files.extend(workbook.map(|bytes| SharedFile { path: WORKBOOK.to_owned(), pieces: vec![bytes.into()] }));
     for machine in &plant.machines {
         let folder = format!("{}/{}", plant.site_of(machine), machine.name);
         let nodes = plant.nodes.get(machine.nodes.clone()).unwrap_or_default();

@@ -24,11 +24,12 @@ pub(super) fn write(plant: &Plant, settled: &[Settled]) -> String {
     }
     let _ = write!(
         text,
-        "\n{} at {}, {} of {}. `{}` has a row for each value of each node.\n",
+        "\n{} at {}, {} of {}. `{}` and `{}` have a row for each value of each node.\n",
         counted(plant.machines.len(), "machine"),
         counted(plant.sites.len(), "site"),
         counted(plant.nodes.len(), "node"),
         counted(plant.classes.len(), "kind"),
+        super::WORKBOOK,
         super::SHEET,
     );
     types(&mut text, plant);

@@ -61,6 +61,6 @@ fn parameter_files_and_plants_are_laid_out_too() {
     let output = odgen(&scratch.0, &["fmt", "node.yaml", "plant.yaml"]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     let text = |name: &str| fs::read_to_string(scratch.0.join(name)).unwrap();
-    assert_eq!(text("node.yaml"), "od-parameters: 1\nparameters:\n  speed: 7                # of the fan\n");
+    assert_eq!(text("node.yaml"), "od-parameters: 1\nparameters:\n  speed: 7       # of the fan\n");
     assert_eq!(text("plant.yaml"), "od-plant: 1\ntypes:\n  T:\n    bit-rate: 500\n");
 }
