@@ -1,6 +1,7 @@
 //! What every backend gives: files, not yet written.
 
-use std::sync::Arc;
+use std::collections::HashSet;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,5 +52,25 @@ impl OutputFile for SharedFile {
 
     fn pieces(&self) -> Vec<&[u8]> {
         self.pieces.iter().map(AsRef::as_ref).collect()
+    }
+}
+
+/// Pieces of files, each once in memory, however many files have it.
+#[derive(Debug, Default)]
+pub struct Pool {
+    known: Mutex<HashSet<Arc<[u8]>>>,
+}
+
+impl Pool {
+    /// A piece with these contents.
+    pub fn piece(&self, contents: &[u8]) -> Arc<[u8]> {
+        // A set in which somebody stopped halfway is one without that piece.
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(piece) = known.get(contents) {
+            return Arc::clone(piece);
+        }
+        let piece: Arc<[u8]> = contents.into();
+        known.insert(Arc::clone(&piece));
+        piece
     }
 }

@@ -38,8 +38,10 @@ pub mod source;
 pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
+#[cfg(feature = "eds")]
+mod zip;
 
-pub use artifact::{Artifact, OutputFile, SharedFile};
+pub use artifact::{Artifact, OutputFile, Pool, SharedFile};
 #[cfg(all(feature = "eds", feature = "json"))]
 pub use artifacts::{Selection, artifacts};
 #[cfg(feature = "format")]

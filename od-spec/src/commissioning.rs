@@ -37,6 +37,8 @@ pub struct Commissioning {
     pub denotations: BTreeMap<Denoted, String>,
     /// The files of DOMAINs.
     pub files: BTreeMap<EntryId, DomainFiles>,
+    /// What people say about the node: the titles of parameter files, and more.
+    pub remarks: Vec<String>,
 }
 
 /// What has a name in the application: an object as a whole, or one of its entries.
@@ -107,6 +109,7 @@ impl Commissioning {
             unlocked: BTreeSet::new(),
             denotations: BTreeMap::new(),
             files: BTreeMap::new(),
+            remarks: Vec::new(),
         }
     }
 

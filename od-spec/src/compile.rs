@@ -14,11 +14,12 @@ use crate::files::{self, Loader};
 use crate::gaps;
 use crate::keys;
 use crate::model::System;
-use crate::parameters::of_node;
+use crate::parameters::{is_parameter_file, of_node};
 use crate::parts;
+use crate::plant::is_plant;
 use crate::resolve::{self, Resolved};
 use crate::shipped::LIBRARIES;
-use crate::source::{FileId, SourceMap, Spanned};
+use crate::source::{FileId, SourceFile, SourceMap, Span, Spanned};
 use crate::standard;
 use crate::visible::straight;
 use crate::xdd;
@@ -77,9 +78,33 @@ pub fn compile_as(
         compile_xdd(standard::rules(&list), sources, root, strictness)
     } else if eds::is_eds(file.name(), file.text()) {
         compile_eds(standard::rules(&list), sources, root, strictness)
+    } else if let Some(diagnostic) = no_specification(file, sources.whole(root)) {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(diagnostic);
+        Compiled::refused(diagnostics)
     } else {
         compile_with(standard::rules(&list), sources, root, loader)
     }
+}
+
+/// A file of this project that says nothing about what a device is, with the command that takes it.
+fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
+    let text = file.text();
+    let (what, key, help) = if is_parameter_file(text) {
+        let help = "name it behind the specification: `odgen dcf SPEC --params FILE`, with `--explain` to check it without writing anything";
+        ("a parameter file", keys::PARAMETERS_VERSION, help)
+    } else if is_plant(text) {
+        let help = "`odgen plant check FILE` checks it, `odgen plant build FILE` makes its files";
+        ("a plant file", keys::PLANT_VERSION, help)
+    } else {
+        return None;
+    };
+    let at = text.find(key)?;
+    let span = whole.part(at, at + key.len());
+    Some(
+        Diagnostic::new(codes::NO_SPECIFICATION, span, format!("this is {what}, expected a specification"))
+            .help(help),
+    )
 }
 
 /// Everything that there is to say about an EDS or DCF, as serious as the standard takes it.

@@ -12,6 +12,7 @@
 //! compiler's: whether names are known, whether values fit their types, and the ranges of numbers written as text.
 
 mod parameters;
+mod plants;
 
 use std::fmt::Write as _;
 
@@ -19,6 +20,7 @@ use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, PLANT, SPEC,
 use crate::model::{Access, DataType};
 
 pub use parameters::parameter_schema;
+pub use plants::{plant_schema, plant_schema_of};
 
 /// Prints the JSON Schema of specifications and libraries.
 pub fn json_schema() -> String {
@@ -28,23 +30,6 @@ pub fn json_schema() -> String {
     ];
     root.extend(file());
     let tables = reachable().into_iter().filter(|keys| !FILES.map(|file| file.name).contains(&keys.name));
-    let tables = tables.map(|keys| (slug(keys.name), object(members(keys))));
-    let scalars = SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
-    root.push(("definitions", Json::Object(tables.chain(scalars).collect())));
-    let mut out = String::new();
-    object(root).print(0, &mut out);
-    out.push('\n');
-    out
-}
-
-/// Prints the JSON Schema of plant files. Which entries a device has, it does not know.
-pub fn plant_schema() -> String {
-    let mut root = vec![
-        ("$schema", text("http://json-schema.org/draft-07/schema#")),
-        ("title", text("CANopen plant (od-plant)")),
-    ];
-    root.extend(members(&PLANT));
-    let tables = reachable_in_plants().into_iter().skip(1);
     let tables = tables.map(|keys| (slug(keys.name), object(members(keys))));
     let scalars = SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
     root.push(("definitions", Json::Object(tables.chain(scalars).collect())));

@@ -79,7 +79,7 @@ pub use explain::{all_codes, code, explanation};
 pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
 #[cfg(feature = "reference")]
-pub use json_schema::{json_schema, parameter_schema, plant_schema};
+pub use json_schema::{json_schema, parameter_schema, plant_schema, plant_schema_of};
 pub use layout::layout;
 pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use parameters::{

@@ -1,8 +1,9 @@
-"""Build a plant, and read every DCF of it with lely's dcfchk and python-canopen.
+"""Build a plant, and read every DCF of it with lely's dcfchk and python-canopen, and its workbook with openpyxl.
 
     plant.py --odgen FILE
 
-The values that python-canopen finds are compared with `values.csv`, and what it finds more is none that a level sets.
+The values that python-canopen finds are compared with `values.csv`, and what it finds more is none that a level sets. The
+cells of the workbook are those of `values.csv`, and none of them is a date.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import tempfile
 from pathlib import Path
 
 import canopen
+import openpyxl
 from canopen.objectdictionary import ODVariable
 
 from compare import Job
@@ -38,8 +40,8 @@ sites:
     type: T
     machines:
       1..4: {}
-      2: {parameters: {pmc: {EFC target position: 89.00 °}}}
-      3: {serial: n-3, positions: {B: {pmc: {node: 22, serial: 4711, parameters: {EFC target position: 88.00 °}}}}}
+      2: {serial: "1.10", comment: =2026-1-2, parameters: {pmc: {EFC target position: 89.00 °}}}
+      3: {serial: "0017", comment: '<5 & "6"', positions: {B: {pmc: {node: 22, serial: 4711, parameters: {EFC target position: 88.00 °}}}}}
 """
 
 
@@ -59,7 +61,7 @@ def main() -> int:
 def judge(out: Path) -> int:
     with (out / "values.csv").open(encoding="utf-8-sig", newline="") as text:
         rows = list(csv.DictReader(text, delimiter=";"))
-    complaints, nodes, values = [], 0, 0
+    complaints, nodes, values = workbook(out, rows), 0, 0
     for nodelist in sorted(out.glob("*/*/nodelist.cpj")):
         topology = configparser.ConfigParser(interpolation=None)
         topology.optionxform = str  # type: ignore[assignment]
@@ -86,6 +88,28 @@ def judge(out: Path) -> int:
         print(complaint)
     print(f"{nodes} DCF files of a plant, {values} values: {len(complaints)} complaints")
     return 1 if complaints or nodes != 24 or values == 0 else 0
+
+
+NUMBERS = ("node-ID", "bit rate", "node serial", "raw value")
+
+
+def workbook(out: Path, rows: list[dict[str, str]]) -> list[str]:
+    """What a spreadsheet sees: texts as texts, numbers as numbers, and the cells of the other table."""
+    complaints = []
+    sheet = openpyxl.load_workbook(out / "values.xlsx").active
+    titles, *cells = sheet.iter_rows()
+    names = [cell.value for cell in titles]
+    if names != list(rows[0]) or len(cells) != len(rows):
+        complaints.append(f"values.xlsx: {len(cells)} rows of {names}")
+    for row, expected in zip(cells, rows):
+        for name, cell in zip(names, row):
+            kind = int if name in NUMBERS else str
+            is_right = cell.value is None or isinstance(cell.value, kind) and (kind is int or cell.number_format == "@")
+            shown = "" if cell.value is None else str(cell.value)
+            # A text that looks like a formula has a mark in the other table.
+            if not is_right or cell.is_date or shown != expected[name].removeprefix("'"):
+                complaints.append(f"values.xlsx {cell.coordinate}: {cell.value!r}, expected {expected[name]!r}")
+    return complaints
 
 
 def set_values(od: canopen.ObjectDictionary) -> dict[str, int]:

@@ -8,8 +8,8 @@ use std::path::Path;
 use jsonschema::Validator;
 use od_gen::parameters::{About, write};
 use od_spec::model::{Dictionary, System, TypeKind, Value};
-use od_spec::{Commissioning, parameter_schema};
-use od_tests::{compile_clean, compile_with_sources};
+use od_spec::{Commissioning, parameter_schema, plant_schema_of};
+use od_tests::{compile_clean, compile_with_sources, root};
 
 #[path = "../shared/typed_yaml.rs"]
 mod typed_yaml;
@@ -89,6 +89,47 @@ fn every_notation_of_an_index_is_known() {
     }
     for key in ["0x2007.1", "2004.1", "2006.4", "2006.0", "0x1000", "8197.1", "temperature.measured"] {
         assert!(!says(key, "1"), "{key}");
+    }
+}
+
+/// The plant of the README, whose devices the schema knows, and what is wrong with it in an editor's eyes.
+#[test]
+fn the_schema_of_a_plant_knows_its_devices() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let (_, rest) = readme.split_once("<!-- plant -->\n```yaml\n").unwrap();
+    let plant = rest.split_once("```").unwrap().0;
+    let system = compile_clean("tests/readme/valve.od.yaml").unwrap();
+    let schema = plant_schema_of(&[("valve", &system, system.device("valve").unwrap())]);
+    let schema = serde_json::from_str(&schema).expect("JSON");
+    assert!(jsonschema::meta::is_valid(&schema));
+    let validator = jsonschema::draft7::new(&schema).expect("a schema");
+    assert_eq!(problems(&validator, plant), Vec::<String>::new());
+    let of_node = "right: {valve: {serial: 4711, parameters: {set pressure: 5.8 bar}}}";
+    for (right, wrong) in [
+        ("valve: {set pressure: 6.0 bar}", "valve: {set presure: 6.0 bar}"),
+        ("valve: {set pressure: 6.0 bar}", "valve: {set pressure: 6.0 V}"),
+        ("valve: {set pressure: 6.0 bar}", "valve: {0x2000: 161}"),
+        // Nobody sets an actual value.
+        ("valve: {set pressure: 6.0 bar}", "valve: {actual pressure: 6.0 bar}"),
+        ("valve: {set pressure: 6.0 bar}", "pump: {set pressure: 6.0 bar}"),
+        ("left: {valve: 1}", "left: {valve: 128}"),
+        ("left: {valve: 1}", "left: {pump: 1}"),
+        (of_node, "right: {valve: {serial: 4711, parameters: {set presure: 5.8 bar}}}"),
+        (of_node, "right: {valve: {serail: 4711}}"),
+        (of_node, "right: {pump: {serial: 4711}}"),
+        ("serial: \"2031-17\"", "serail: \"2031-17\""),
+    ] {
+        let changed = plant.replace(right, wrong);
+        assert!(changed != plant && !problems(&validator, &changed).is_empty(), "{wrong}");
+    }
+    for (right, other) in [
+        ("valve: {set pressure: 6.0 bar}", "valve: {0x2000: 160}"),
+        ("left: {valve: 1}", "left: {valve: {node: 1, comment: new}}"),
+        (of_node, "right: {valve: {unlock: [0x2000], parameters: {2000: 58}}}"),
+    ] {
+        let changed = plant.replace(right, other);
+        assert!(changed != plant, "{other}");
+        assert_eq!(problems(&validator, &changed), Vec::<String>::new(), "{other}");
     }
 }
 

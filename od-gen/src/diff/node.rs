@@ -1,4 +1,4 @@
-//! What two DCF files say of their nodes: where they are, and the values that they set.
+//! What two DCF files, or parameter files, say of their nodes: where they are, and the values that they set.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use super::change::{Change, Class, Place};
 use super::rules;
 use super::words;
 
-/// What differs in a node: its place in a network, and the values that its DCF sets.
+/// What differs in a node: its place in a network, and the values that are set for it.
 pub(super) fn changes(
     (old_device, old): (&Dictionary, &Commissioning),
     (new_device, new): (&Dictionary, &Commissioning),
@@ -71,7 +71,7 @@ pub(super) fn changes(
             (Place::Object(id.index), object.name.clone())
         };
         let (before, after) = (value(old_device, old, id), value(new_device, new, id));
-        let change = Change::of(place, Fact::Default, before, after)?.named(name).part("set by the DCF");
+        let change = Change::of(place, Fact::Default, before, after)?.named(name).part("set for the node");
         Some(match Role::of(id.index) {
             Role::PdoMapping => change.so(Class::Plc, "the bytes of the PDO mean something else"),
             _ => change.with(rules::default(id, entry)),

@@ -6,9 +6,9 @@ use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
 
 use super::writer::SectionWriter;
 
-/// `[DeviceComissioning]`, in the standard's spelling.
+/// `[DeviceComissioning]`, in the standard's spelling. What people say about the node stands above it.
 pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, commissioning: &Commissioning) {
-    let mut section = SectionWriter::new("DeviceComissioning", &[]);
+    let mut section = SectionWriter::new("DeviceComissioning", &commissioning.remarks);
     section.key("NodeID", commissioning.node);
     section.text("NodeName", &commissioning.node_name);
     section.key("Baudrate", commissioning.bit_rate);

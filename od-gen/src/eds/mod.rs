@@ -20,6 +20,8 @@ use od_spec::Commissioning;
 use od_spec::eds::Document;
 use od_spec::model::{Dictionary, System};
 
+use crate::artifact::Pool;
+
 /// The EDS of a device, as bytes of ASCII.
 ///
 /// ```
@@ -83,31 +85,71 @@ pub fn dcf_document(
     document
 }
 
-/// A DCF in pieces: nodes that are set to the same values differ in `[DeviceComissioning]` alone.
+/// A DCF in pieces: nodes that are set to the same values differ in `[DeviceComissioning]` alone, and those of a device with other
+/// values in the objects that these are of.
 #[derive(Debug, Clone)]
 pub struct DcfPieces {
     before: Arc<[u8]>,
-    after: Arc<[u8]>,
+    /// An object with its entries each.
+    after: Vec<Arc<[u8]>>,
 }
 
 impl DcfPieces {
-    /// What nodes with the values of this one have in common, in files of this name.
-    pub fn new(system: &System, device: &Dictionary, node: &Commissioning, file: &str) -> Self {
+    /// What nodes with the values of this one have in common, in files of this name. Pieces that others have too are those of the pool.
+    pub fn new(system: &System, device: &Dictionary, node: &Commissioning, file: &str, pool: &Pool) -> Self {
         let (mut before, mut after) = (Document::default(), Document::default());
         head(&mut before, system, device, file, Some(&format!("{}.eds", device.key)));
         objects::write(&mut after, system, device, Some(node));
         let mut before = before.to_bytes();
         before.extend_from_slice(BETWEEN_SECTIONS);
         let after = [BETWEEN_SECTIONS, &after.to_bytes()].concat();
-        Self { before: before.into(), after: after.into() }
+        Self {
+            before: pool.piece(&before),
+            after: by_object(&after).into_iter().map(|piece| pool.piece(piece)).collect(),
+        }
     }
 
     /// The DCF of a node, byte for byte what [`write_dcf`] gives.
     pub fn dcf(&self, device: &Dictionary, node: &Commissioning) -> Vec<Arc<[u8]>> {
         let mut own = Document::default();
         commissioning::write(&mut own, device, node);
-        vec![Arc::clone(&self.before), own.to_bytes().into(), Arc::clone(&self.after)]
+        let before = [Arc::clone(&self.before), own.to_bytes().into()];
+        before.into_iter().chain(self.after.iter().cloned()).collect()
     }
+}
+
+/// Divides sections before each that is an object's own.
+fn by_object(mut text: &[u8]) -> Vec<&[u8]> {
+    let mut pieces = Vec::new();
+    let mut end = 0;
+    while let Some(next) = end_of_section(&text[end..]) {
+        let is_object = header(&text[end + next..]).is_some_and(|name| name.len() == INDEX_DIGITS);
+        end += next;
+        if is_object {
+            let (piece, rest) = text.split_at(end);
+            pieces.push(piece);
+            (text, end) = (rest, 0);
+        }
+    }
+    pieces.push(text);
+    pieces
+}
+
+/// `1A00`, and not `1A00sub1`.
+const INDEX_DIGITS: usize = 4;
+
+/// Where the section behind the first blank line begins.
+fn end_of_section(text: &[u8]) -> Option<usize> {
+    let blank = text.windows(BLANK_LINE.len()).position(|window| window == BLANK_LINE)?;
+    Some(blank + BLANK_LINE.len())
+}
+
+const BLANK_LINE: &[u8] = b"\r\n\r\n";
+
+/// The name of the first section.
+fn header(text: &[u8]) -> Option<&[u8]> {
+    let line = text.split(|byte| *byte == b'\n').find(|line| line.first() == Some(&b'['))?;
+    line.strip_prefix(b"[")?.split(|byte| *byte == b']').next()
 }
 
 /// The blank line between two sections.

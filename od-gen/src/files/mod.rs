@@ -18,11 +18,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+pub use self::disk::Watch;
 pub use self::exchange::Recovered;
 pub use self::left::{left_over, left_over_of_folders, remove};
 pub use self::names::{clash, name_problem};
 
-use self::disk::{Disk, Real};
+use self::disk::{Disk, Real, Watched};
 use self::exchange::{Change, exchange};
 use self::journal::target;
 use self::lock::Lock;
@@ -142,6 +143,19 @@ pub fn write_set<F: OutputFile>(
     write_with(directory, artifacts, existing, &Real)
 }
 
+/// [`write_set`], for a set that takes a while: `watch` is told how many files are written.
+///
+/// # Errors
+/// As there.
+pub fn write_set_watched<F: OutputFile>(
+    directory: &Path,
+    artifacts: &[F],
+    existing: Existing,
+    watch: &Watch<'_>,
+) -> Result<Vec<Outcome>, WriteError> {
+    write_with(directory, artifacts, existing, &Watched { watch })
+}
+
 /// Replaces files by name, wherever they are. On an error all are as they were; a process that is killed leaves each file whole, and
 /// what else it leaves is removed by the next that writes there.
 ///
@@ -247,11 +261,17 @@ fn write_with<F: OutputFile>(
     Ok(outcomes)
 }
 
-/// The directories that are locked: each, or where there are more than a process may have open files, that of the set alone, in which
-/// every other such command begins.
+/// The directories that are locked: each, or where there are more than a process may have open files, that of the set, and those that
+/// links lead to outside of it. Whoever writes anywhere below waits for it, too: see [`Lock::take`].
 fn lockable(directories: &BTreeSet<PathBuf>, of_set: &Path) -> BTreeSet<PathBuf> {
     const MOST: usize = 200;
-    if directories.len() <= MOST { directories.clone() } else { BTreeSet::from([of_set.to_owned()]) }
+    if directories.len() <= MOST {
+        return directories.clone();
+    }
+    let top = fs::canonicalize(of_set).unwrap_or_else(|_| of_set.to_owned());
+    let is_outside =
+        |directory: &&PathBuf| !fs::canonicalize(directory).is_ok_and(|path| path.starts_with(&top));
+    directories.iter().filter(is_outside).cloned().chain([of_set.to_owned()]).collect()
 }
 
 /// No file has a name that leads elsewhere, or that some system does not take or takes for another's.

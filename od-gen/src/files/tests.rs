@@ -476,6 +476,50 @@ fn writers_of_one_directory_take_turns() {
     assert!(found.iter().all(|(_, text)| *text == found[0].1), "{found:?}");
 }
 
+/// A set with more directories than can be locked one by one holds what lies above them.
+#[test]
+fn a_large_set_and_whoever_writes_below_it_take_turns() {
+    let waits = |name: &str, held: &str, root: &str, files: &[String]| {
+        let scratch = Scratch::new(name);
+        fs::create_dir_all(scratch.0.join("north/1")).unwrap();
+        let lock = Lock::take(&BTreeSet::from([scratch.0.join(held)])).unwrap();
+        let set: Vec<Artifact> = files.iter().map(|path| artifact(path, "x")).collect();
+        let root = scratch.0.join(root);
+        let first = root.join(&files[0]);
+        std::thread::scope(|scope| {
+            let writer = scope.spawn(|| write_all(&root, &set).unwrap());
+            std::thread::sleep(std::time::Duration::from_millis(200));
+            let waited = !writer.is_finished() && !first.exists();
+            drop(lock);
+            writer.join().unwrap();
+            assert!(first.exists(), "{name}");
+            waited
+        })
+    };
+    let many: Vec<String> = (0..210).map(|machine| format!("north/{machine}/a.dcf")).collect();
+    let one = ["b.dcf".to_owned()];
+    assert!(waits("turns-above", "", "north/1", &one), "what is held above holds all");
+    assert!(waits("turns-below", "north/1", "", &many), "who writes below is waited for");
+    // Neither is above the other.
+    assert!(!waits("turns-beside", "north/1", "north/2", &one));
+}
+
+#[cfg(unix)]
+#[test]
+fn links_of_a_large_set_lead_to_directories_that_are_locked_too() {
+    let (scratch, other) = (Scratch::new("links-large"), Scratch::new("links-elsewhere"));
+    fs::create_dir_all(other.0.join("7")).unwrap();
+    fs::create_dir_all(&scratch.0).unwrap();
+    std::os::unix::fs::symlink(&other.0, scratch.0.join("south")).unwrap();
+    let directories: BTreeSet<PathBuf> = (0..300)
+        .map(|machine| scratch.0.join(format!("north/{machine}")))
+        .chain([scratch.0.join("south/7")])
+        .inspect(|directory| fs::create_dir_all(directory).unwrap())
+        .collect();
+    let locked = lockable(&directories, &scratch.0);
+    assert_eq!(locked, BTreeSet::from([scratch.0.clone(), scratch.0.join("south/7")]));
+}
+
 #[cfg(unix)]
 #[test]
 fn mode_owner_and_links_stay() {

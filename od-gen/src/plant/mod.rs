@@ -1,10 +1,13 @@
 //! The files of a plant: for each machine the DCF and the concise DCF of its nodes and the list of them, and for all machines
 //! what differs where.
 
+mod messages;
 mod nodelist;
 mod overview;
+mod rows;
 mod sheet;
 mod values;
+mod workbook;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,7 +16,7 @@ use od_spec::diag::Diagnostic;
 use od_spec::plant::{Plant, PlantNode, Settled};
 use od_spec::rule_codes;
 
-use crate::artifact::SharedFile;
+use crate::artifact::{Pool, SharedFile};
 use crate::concise;
 use crate::eds::DcfPieces;
 
@@ -23,6 +26,8 @@ pub use values::{PlantValue, default_of, values};
 pub const OVERVIEW: &str = "overview.md";
 /// The name of the sheet.
 pub const SHEET: &str = "values.csv";
+/// The name of the workbook with the same table.
+pub const WORKBOOK: &str = "values.xlsx";
 
 /// What nodes have in common that are alike and stand at positions of one name: one piece of work.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,11 +53,11 @@ fn job(node: &PlantNode) -> Job {
     Job { class: node.class, position: node.position.clone() }
 }
 
-/// Does a job; the order is of no importance.
+/// Does a job; the order is of no importance. What it has in common with others is in memory once, in the pool.
 ///
 /// # Errors
 /// A value that no entry of the device can have, which rules have told before.
-pub fn make(plant: &Plant, settled: &[Settled], job: &Job) -> Result<Made, Box<Diagnostic>> {
+pub fn make(plant: &Plant, settled: &[Settled], job: &Job, pool: &Pool) -> Result<Made, Box<Diagnostic>> {
     let no_class = || {
         let message = format!("the plant has no class {}", job.class);
         Box::new(Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message))
@@ -68,7 +73,7 @@ pub fn make(plant: &Plant, settled: &[Settled], job: &Job) -> Result<Made, Box<D
         Box::new(Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message).help("correct the value"))
     })?;
     let file = format!("{}-{}.dcf", job.position, device.key);
-    let dcf = DcfPieces::new(&device.system, &device.dictionary, node, &file);
+    let dcf = DcfPieces::new(&device.system, &device.dictionary, node, &file, pool);
     Ok(Made { dcf, concise: concise::write(&writes).into() })
 }
 
@@ -80,6 +85,8 @@ pub fn files(plant: &Plant, settled: &[Settled], jobs: &[Job], made: &[Made]) ->
         whole(OVERVIEW.to_owned(), overview::write(plant, settled)),
         whole(SHEET.to_owned(), sheet::write(plant, settled)),
     ];
+    let workbook = workbook::write(plant, settled);
+    files.extend(workbook.map(|bytes| SharedFile { path: WORKBOOK.to_owned(), pieces: vec![bytes.into()] }));
     for machine in &plant.machines {
         let folder = format!("{}/{}", plant.site_of(machine), machine.name);
         let nodes = plant.nodes.get(machine.nodes.clone()).unwrap_or_default();

@@ -7,6 +7,7 @@ use od_spec::eds::GENERATED;
 use od_spec::model::EntryId;
 use od_spec::plant::{Level, Plant, Settled};
 
+use super::messages::pdos;
 use super::values::{PlantValue, values};
 
 /// A value as one level gives it to some nodes.
@@ -15,7 +16,7 @@ struct Said<'a> {
     nodes: usize,
 }
 
-/// The overview: types with their nodes, sites with their machines, and each value that a level gives.
+/// The overview: types with their nodes, sites with their machines, each value that a level gives, and who sends which PDO to whom.
 pub(super) fn write(plant: &Plant, settled: &[Settled]) -> String {
     let mut text = format!("<!-- {GENERATED} -->\n\n# {}\n", plain(&plant.title));
     if let Some(about) = &plant.about {
@@ -23,16 +24,18 @@ pub(super) fn write(plant: &Plant, settled: &[Settled]) -> String {
     }
     let _ = write!(
         text,
-        "\n{} at {}, {} of {}. `{}` has a row for each value of each node.\n",
+        "\n{} at {}, {} of {}. `{}` and `{}` have a row for each value of each node.\n",
         counted(plant.machines.len(), "machine"),
         counted(plant.sites.len(), "site"),
         counted(plant.nodes.len(), "node"),
         counted(plant.classes.len(), "kind"),
+        super::WORKBOOK,
         super::SHEET,
     );
     types(&mut text, plant);
     sites(&mut text, plant);
     levels(&mut text, plant, settled);
+    pdos(&mut text, plant, settled);
     remarks(&mut text, plant);
     text
 }

@@ -171,8 +171,10 @@ const OVEN: &str = include_str!("../../../tests/shared/oven.od.yaml");
 const EVERYTHING: &str = include_str!("../../../tests/ui/parameters/ok_everything.yaml");
 
 /// The lines of a DCF but those that name files.
+/// The lines without those that a file has of its own: its names, and what its parameter files are called.
 fn without_names(text: &str) -> Vec<&str> {
-    text.lines().filter(|line| !line.starts_with("FileName") && !line.starts_with("LastEDS")).collect()
+    const OWN: [&str; 4] = ["FileName", "LastEDS", "; Oven in the bakery", "; The second one from the left."];
+    text.lines().filter(|line| OWN.iter().all(|own| !line.starts_with(own))).collect()
 }
 
 #[test]
@@ -239,6 +241,8 @@ fn a_parameter_file_gives_what_settings_give() {
     assert!(dcf("a.dcf").contains(serial));
     let without_serial = dcf("a.dcf").replace(serial, "LSS_SerialNumber=0x00000000");
     assert!(without_names(&without_serial) == without_names(&dcf("b.dcf")));
+    let about_it = "; Oven in the bakery\r\n; The second one from the left.\r\n[DeviceComissioning]\r\n";
+    assert!(dcf("a.dcf").contains(about_it) && !dcf("b.dcf").contains("bakery\r\n; "));
     // What is the default is left out on request.
     assert!(dcf("a.dcf").contains("ParameterValue=260"));
     let (code, said, _) = run(&["--params", "oven.yaml", "--since-default", "--out", "c.dcf"]);

@@ -56,19 +56,19 @@ fn nodes_and_their_values_are_compared() {
         [
             "new: ~ device, bit rate: node: 250 kbit/s -> 125 kbit/s [plc]",
             "new: ~ device, node-ID: node: 33 -> 34 [plc]",
-            "new: ~ 2000h Speed, set by the DCF: default: -5 -> 7 [behaviour]",
+            "new: ~ 2000h Speed, set for the node: default: -5 -> 7 [behaviour]",
         ]
     );
     scratch.file("unset.dcf", ROOF_FAN.replace("ParameterValue=-5\n", ""));
     let (differs, _) = short("old.dcf", "unset.dcf");
-    assert_eq!(differs, "unset: ~ 2000h Speed, set by the DCF: default: -5 -> none [behaviour]\n");
+    assert_eq!(differs, "unset: ~ 2000h Speed, set for the node: default: -5 -> none [behaviour]\n");
     scratch
         .file("named.dcf", ROOF_FAN.replace("ParameterValue=-5\n", "ParameterValue=-5\nDenotation=Roof\n"));
     let (differs, _) = short("old.dcf", "named.dcf");
     assert_eq!(differs, "named: ~ device, name of 2000h: node: none -> Roof [documents]\n");
     let (_, said) = short("old.dcf", "fan.eds");
     assert!(
-        said.contains("the 1 value that the DCF sets is not compared, as the other side is no DCF"),
+        said.contains("the 1 value set for the node is not compared, as the other side is about no node"),
         "{said}"
     );
     let human = stdout(&odgen(&scratch.0, &["diff", "old.dcf", "old.dcf"]));

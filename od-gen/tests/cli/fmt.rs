@@ -51,3 +51,16 @@ fn editors_send_a_text_and_get_it() {
     let output = odgen_with_input(&scratch.0, &["fmt", "-", "lamp.od.yaml"], CROOKED.as_bytes());
     assert_eq!(code(&output), 2);
 }
+
+/// What is laid out is the text, whichever of our files it is.
+#[test]
+fn parameter_files_and_plants_are_laid_out_too() {
+    let scratch = Scratch::new("fmt-others");
+    scratch.file("node.yaml", "od-parameters: 1\nparameters:\n    speed:   7   # of the fan\n");
+    scratch.file("plant.yaml", "od-plant: 1\ntypes:\n    T:\n        bit-rate:  500\n");
+    let output = odgen(&scratch.0, &["fmt", "node.yaml", "plant.yaml"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let text = |name: &str| fs::read_to_string(scratch.0.join(name)).unwrap();
+    assert_eq!(text("node.yaml"), "od-parameters: 1\nparameters:\n  speed: 7       # of the fan\n");
+    assert_eq!(text("plant.yaml"), "od-plant: 1\ntypes:\n  T:\n    bit-rate: 500\n");
+}

@@ -12,6 +12,7 @@ use crate::yaml::Node;
 pub(crate) struct ParameterFileDecl {
     pub device: Option<Name>,
     pub title: Option<Name>,
+    pub about: Option<Name>,
     pub node: Option<Spanned<u8>>,
     pub bit_rate: Option<Name>,
     pub node_name: Option<Name>,
@@ -28,6 +29,7 @@ pub(crate) fn parameter_file(root: &Node) -> ParameterFileDecl {
     ParameterFileDecl {
         device: reader.text("device"),
         title: reader.text("title"),
+        about: words(reader, "about"),
         node: reader.integer("node").and_then(within),
         bit_rate: reader.text("bit-rate"),
         node_name: reader.text("node-name"),
@@ -37,6 +39,12 @@ pub(crate) fn parameter_file(root: &Node) -> ParameterFileDecl {
         settings: root.get("parameters").map(settings).unwrap_or_default(),
         unlock: reader.texts("unlock"),
     }
+}
+
+/// A text, of one in several languages the English one.
+pub(super) fn words(reader: Reader<'_>, key: &str) -> Option<Name> {
+    let words = reader.words(key)?;
+    words.value.get("en").map(|text| Spanned::new(text.to_owned(), words.span))
 }
 
 /// The settings of a map.

@@ -1,7 +1,7 @@
 //! Plant files.
 
 use super::lexical;
-use super::parameters::{reader, settings, within};
+use super::parameters::{reader, settings, within, words};
 use super::read::{Reader, owned};
 use crate::plant::decl::{
     DeviceDecl, LevelDecl, MachineDecl, MasterDecl, NodeDecl, PlantDecl, PositionDecl, SiteDecl, TypeDecl,
@@ -19,11 +19,6 @@ pub(crate) fn plant(root: &Node) -> PlantDecl {
         types: reader.entries("types").map(|(name, r)| type_of_machines(name, r)).collect(),
         sites: reader.entries("sites").map(|(name, r)| site(name, r)).collect(),
     }
-}
-
-fn words(reader: Reader<'_>, key: &str) -> Option<Spanned<String>> {
-    let words = reader.words(key)?;
-    words.value.get("en").map(|text| Spanned::new(text.to_owned(), words.span))
 }
 
 fn device(key: Spanned<&str>, reader: Reader<'_>) -> Option<DeviceDecl> {

@@ -64,6 +64,8 @@ codes! {
         "A file named under `parts:` has `part-of:` at its top level, with the name of the specification. Whoever opens it, and every tool, can tell from this line that it is not whole, and where the rest is. A file of objects for several specifications is a library and stands under `uses:`."
     PART_ALONE Error "OD0119" "a part without its specification":
         "A file with `part-of:` holds sections of another file; units, types and devices that it refers to may stand there. Compile that file, which names its parts under `parts:`. `odgen` does so by itself when it is given a part and finds the specification."
+    NO_SPECIFICATION Error "OD0120" "a parameter or plant file in the place of a specification":
+        "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read beside the specification that does. `odgen dcf SPEC --params FILE --explain` checks a parameter file without writing anything, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":

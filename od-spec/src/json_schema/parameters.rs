@@ -46,7 +46,7 @@ pub fn parameter_schema(system: &System, device: &Dictionary) -> String {
                 let of_device = match key.as_str() {
                     "device" => object([("enum", texts([device.key.as_str()]))]),
                     "bit-rate" => bit_rates(device),
-                    "parameters" => parameters(device),
+                    "parameters" => parameters(ALONE, device),
                     "unlock" => unlock(device),
                     _ => continue,
                 };
@@ -61,14 +61,23 @@ pub fn parameter_schema(system: &System, device: &Dictionary) -> String {
     let is_used = |shape: &Shape| used.iter().any(|used| definition(*used) == definition(*shape));
     let scalars = SCALARS.iter().filter(|shape| is_used(shape));
     let scalars = scalars.filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
-    let entries = settable(device)
-        .map(|(id, object, entry)| (name_of(id), values::entry(id, object, entry, device, language)));
+    let entries = definitions(ALONE, device, language);
     root.push(("definitions", Json::Object(scalars.chain(entries).collect())));
     let mut out = String::new();
     object(root).print(0, &mut out);
     out.push('\n');
     out
 }
+
+/// A definition of an entry for each that may be set. Where a schema has several devices, `of` tells them apart.
+pub(super) fn definitions(of: &str, device: &Dictionary, language: &str) -> Vec<(String, Json)> {
+    let entries = settable(device)
+        .map(|(id, object, entry)| (name_of(of, id), values::entry(id, object, entry, device, language)));
+    entries.collect()
+}
+
+/// What definitions begin with in the schema of one device.
+const ALONE: &str = "";
 
 /// The entries that a parameter file may set: commands are none of them, locked ones are, as they can be unlocked.
 fn settable(device: &Dictionary) -> impl Iterator<Item = (EntryId, &Object, &Entry)> {
@@ -105,8 +114,8 @@ impl Members {
 }
 
 /// What the definition of an entry is called.
-fn name_of(id: EntryId) -> String {
-    format!("{:04X}.{}", id.index.0, id.sub)
+fn name_of(of: &str, id: EntryId) -> String {
+    format!("{of}{:04X}.{}", id.index.0, id.sub)
 }
 
 fn bit_rates(device: &Dictionary) -> Json {
@@ -117,29 +126,30 @@ fn bit_rates(device: &Dictionary) -> Json {
 }
 
 /// The entries by name, which an editor completes, and by index in every notation.
-fn parameters(device: &Dictionary) -> Json {
+pub(super) fn parameters(of: &str, device: &Dictionary) -> Json {
     let mut named = Members::default();
     let settable = by_object(device);
     for (index, entries) in &settable {
         let Some(object) = device.objects.get(index) else { continue };
-        let of_entry = |entry: &Entry| reference(&name_of(EntryId { index: *index, sub: entry.sub }));
+        let of_entry = |entry: &Entry| reference(&name_of(of, EntryId { index: *index, sub: entry.sub }));
         if !object.is_structured() {
             for entry in entries {
                 named.add(object.name.clone(), of_entry(entry));
             }
             continue;
         }
-        named.add(object.name.clone(), whole(object, entries));
+        named.add(object.name.clone(), whole(of, object, entries));
         for entry in entries {
             named.add(format!("{}.{}", object.name, entry.name), of_entry(entry));
         }
     }
     let Spellings { exact, patterns } = keys::spellings(device);
     for (key, ids) in exact {
-        let of_ids: Vec<Json> = ids.into_iter().map(|of| of.schema(device, &settable)).collect();
+        let of_ids: Vec<Json> = ids.into_iter().map(|named| named.schema(of, device, &settable)).collect();
         named.add(key, any_of(of_ids));
     }
-    let patterns = patterns.into_iter().map(|(pattern, of)| (pattern, of.schema(device, &settable)));
+    let patterns =
+        patterns.into_iter().map(|(pattern, named)| (pattern, named.schema(of, device, &settable)));
     object([
         ("type", texts(["object", "null"])),
         ("properties", Json::Object(named.list)),
@@ -149,16 +159,16 @@ fn parameters(device: &Dictionary) -> Json {
 }
 
 /// An object with values of its entries below it.
-fn whole(of: &Object, settable: &[&Entry]) -> Json {
+fn whole(of: &str, whole: &Object, settable: &[&Entry]) -> Json {
     let mut properties = Members::default();
     for entry in settable {
-        let schema = || reference(&name_of(EntryId { index: of.index, sub: entry.sub }));
+        let schema = || reference(&name_of(of, EntryId { index: whole.index, sub: entry.sub }));
         for name in [entry.name.clone(), entry.sub.to_string(), format!("0x{:02X}", entry.sub.0)] {
             properties.add(name, schema());
         }
     }
     object([
-        ("description", text(format!("{} {}, with entries below it", of.index, of.name))),
+        ("description", text(format!("{} {}, with entries below it", whole.index, whole.name))),
         ("type", text("object")),
         ("properties", Json::Object(properties.list)),
         ("additionalProperties", Json::Bool(false)),
@@ -166,7 +176,7 @@ fn whole(of: &Object, settable: &[&Entry]) -> Json {
 }
 
 /// The locked entries by name, and anything that looks like an index.
-fn unlock(device: &Dictionary) -> Json {
+pub(super) fn unlock(device: &Dictionary) -> Json {
     let locked: Vec<EntryId> =
         device.entries().filter(|(.., entry)| entry.locked).map(|(id, ..)| id).collect();
     let names: Vec<String> = locked.iter().filter_map(|id| device.entry_name(*id)).collect();
@@ -186,12 +196,12 @@ enum Named {
 }
 
 impl Named {
-    fn schema(self, device: &Dictionary, settable: &ByObject<'_>) -> Json {
+    fn schema(self, of: &str, device: &Dictionary, settable: &ByObject<'_>) -> Json {
         match self {
-            Named::Entry(id) => reference(&name_of(id)),
+            Named::Entry(id) => reference(&name_of(of, id)),
             Named::Object(index) => {
                 let object = device.objects.get(&index).zip(settable.get(&index));
-                object.map_or_else(|| super::object([]), |(object, entries)| whole(object, entries))
+                object.map_or_else(|| super::object([]), |(object, entries)| whole(of, object, entries))
             }
         }
     }

@@ -19,6 +19,8 @@ pub struct ParameterFile {
     pub device: Option<Name>,
     /// What the values are for.
     pub title: Option<Name>,
+    /// More about it.
+    pub about: Option<Name>,
     /// Node-ID.
     pub node: Option<Spanned<u8>>,
     /// Bit rate, as it is written.
@@ -82,6 +84,7 @@ pub fn parameter_file(
     Some(ParameterFile {
         device: decl.device,
         title: decl.title,
+        about: decl.about,
         node: decl.node,
         bit_rate: decl.bit_rate,
         node_name: decl.node_name,
@@ -173,6 +176,7 @@ impl ParameterFile {
         if let Some(number) = self.net_number {
             node.net_number = number.value;
         }
+        node.remarks.extend([&self.title, &self.about].into_iter().flatten().map(|text| text.value.clone()));
         if let Some(number) = self.serial_number {
             node.serial_number = Some(number.value);
         }

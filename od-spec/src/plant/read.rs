@@ -20,6 +20,8 @@ use crate::yaml::{self, Document};
 pub struct PlantFile {
     /// The plant; there is one exactly when no error is among the diagnostics, those about the devices' files included.
     pub plant: Option<Plant>,
+    /// The devices that could be read, whatever is wrong with the plant.
+    pub devices: Vec<PlantDevice>,
     /// What is wrong with the plant file, before its values are looked at.
     pub diagnostics: Diagnostics,
     /// The files of the devices, with what is to be said about each.
@@ -52,7 +54,8 @@ pub fn plant(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader) -> 
         None => false,
     };
     let is_right = !diagnostics.has_errors() && files.iter().all(is_usable);
-    PlantFile { plant: plant.filter(|_| is_right), diagnostics, files }
+    let devices = plant.as_ref().map(|plant| plant.devices.clone()).unwrap_or_default();
+    PlantFile { plant: plant.filter(|_| is_right), devices, diagnostics, files }
 }
 
 fn read(

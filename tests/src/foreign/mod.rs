@@ -1,4 +1,4 @@
-//! Takes an EDS or DCF that others wrote through everything that the project does with one, and tells what went wrong.
+//! Takes an EDS, DCF, XDD or XDC that others wrote through everything that the project does with one, and tells what went wrong.
 
 mod comparing;
 mod exceptions;
@@ -11,7 +11,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use facts::{Difference, Stated, differences};
-pub use files::find;
+pub use files::{EDS, XDD, find};
 
 /// What is done with a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,6 +34,14 @@ impl Step {
     /// All steps in order.
     pub const ALL: [Self; 6] =
         [Self::Bytes, Self::Reading, Self::Import, Self::Again, Self::Fixing, Self::Comparing];
+
+    /// Whether it is taken with an XDD: the others are about the lines of an EDS.
+    const fn is_for_xdd(self) -> bool {
+        match self {
+            Self::Reading | Self::Import | Self::Again => true,
+            Self::Bytes | Self::Fixing | Self::Comparing => false,
+        }
+    }
 }
 
 impl fmt::Display for Step {
@@ -93,10 +101,11 @@ impl Checked {
     }
 }
 
-/// Takes a file through everything. A panic is a problem of the step that it is in.
+/// Takes a file through everything that there is for its kind. A panic is a problem of the step that it is in.
 pub fn check(name: &str, bytes: &[u8]) -> Checked {
     let mut checked = Checked::default();
-    for step in Step::ALL {
+    let is_xdd = files::is_xdd(name);
+    for step in Step::ALL.into_iter().filter(|step| !is_xdd || step.is_for_xdd()) {
         guarded(step, &mut checked, |checked| steps::run(step, name, bytes, checked));
     }
     checked

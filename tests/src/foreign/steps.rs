@@ -1,5 +1,7 @@
 //! The steps that a file is taken through.
 
+use std::path::Path;
+
 use od_gen::eds::write_eds;
 use od_gen::import::{Imported, import};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
@@ -11,6 +13,7 @@ use od_spec::{Compiled, NoFiles, Strictness, add_source, compile, compile_as, fi
 
 use super::comparing;
 use super::exceptions::except;
+use super::files::is_xdd;
 use super::{Checked, Findings, Step, differences};
 
 pub(super) fn run(step: Step, name: &str, bytes: &[u8], checked: &mut Checked) {
@@ -136,6 +139,8 @@ fn facts_stay(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), Str
 fn import_again(name: &str, bytes: &[u8]) -> Result<(), String> {
     // What the libraries say about an object comes with the first import, and what its EDS says of that with the second.
     let first = turn(name, bytes)?;
+    let of_xdd = is_xdd(name).then(|| Path::new(name).with_extension("eds").to_string_lossy().into_owned());
+    let name = of_xdd.as_deref().unwrap_or(name);
     let second = turn(name, &first.eds)?;
     let third = turn(name, &second.eds)?;
     match other_line(&second.imported.text, &third.imported.text) {

@@ -16,17 +16,19 @@ mod shrink;
 mod specifications;
 mod templates;
 mod values;
+mod xdd;
 
 pub use bounds::{Meter, Used};
 pub use eds::EdsFiles;
 pub use hunt::{Caught, Hunt, Outcome, hunt};
 pub use mutate::{Seed, mutant};
-pub use notation::{EDS, Layout, Notation, SETTINGS, TEMPLATES, YAML};
+pub use notation::{EDS, Layout, Notation, SETTINGS, TEMPLATES, XDD, YAML};
 pub use random::Random;
 pub use settings::Settings;
 pub use shrink::shrink;
 pub use specifications::Specifications;
 pub use templates::TemplateFiles;
+pub use xdd::XddFiles;
 
 /// A demand that a text does not meet.
 #[derive(Debug, Clone, PartialEq, Eq)]

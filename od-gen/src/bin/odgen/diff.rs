@@ -107,7 +107,7 @@ fn configured(path: &Path, args: &DiffArgs, report: &Report) -> Result<Used, u8>
     Ok(Used { system: used.system, node: Some(node), stated_node_id, device })
 }
 
-/// The nodes of two DCF files. Values of one alone cannot be compared, which is said.
+/// The nodes of two DCF or parameter files. Values of one alone cannot be compared, which is said.
 fn nodes(old: &Used, new: &Used, report: &Report) -> Option<(Commissioning, Commissioning)> {
     match (&old.node, &new.node) {
         (Some(before), Some(after)) => {
@@ -122,7 +122,7 @@ fn nodes(old: &Used, new: &Used, report: &Report) -> Option<(Commissioning, Comm
                 let number = one.values.len();
                 let (values, are) = if number == 1 { ("value", "is") } else { ("values", "are") };
                 report.note(&format!(
-                    "the {number} {values} that the DCF sets {are} not compared, as the other side is no DCF"
+                    "the {number} {values} set for the node {are} not compared, as the other side is about no node"
                 ));
             }
             None

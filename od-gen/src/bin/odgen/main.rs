@@ -112,8 +112,8 @@ fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 
 }
 
 fn schema(args: &args::SchemaArgs, report: &report::Report) -> u8 {
-    if args.plant {
-        return report::print(&od_spec::plant_schema());
+    if let Some(files) = &args.plant {
+        return plant::schema(files, report);
     }
     let Some(spec) = &args.params else { return report::print(&od_spec::json_schema()) };
     let Some(system) = report.compile(spec) else { return ERRORS };

@@ -1,17 +1,21 @@
 //! `odgen plant`.
 
+mod schema;
 mod show;
 
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
-use od_gen::files::{Existing, Outcome, left_over_of_folders, remove, write_set};
+use od_gen::files::{Existing, Outcome, WriteError, left_over_of_folders, remove, write_set_watched};
 use od_gen::plant::{Job, files, jobs, make};
 use od_gen::source::{FileLoader, open};
-use od_gen::{SharedFile, condensed};
+use od_gen::{Pool, SharedFile, condensed};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::SystemSource;
 use od_spec::plant::{Plant, Settled, plant};
 use od_spec::source::SourceMap;
+
+pub(crate) use schema::schema;
 
 use super::ERRORS;
 use super::args::{PlantArgs, PlantBuildArgs, PlantCommand};
@@ -94,10 +98,11 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
     let Read { plant, settled, files: read, .. } = read(&args.plant, report)?;
     let jobs = jobs(&plant);
     let mut progress = Progress::new("made", "kinds of nodes", jobs.len(), report.audience());
+    let pool = Pool::default();
     let (mut made, mut refused) = (Vec::with_capacity(jobs.len()), Diagnostics::new());
     in_order(
         &jobs,
-        |job: &Job| make(&plant, &settled, job),
+        |job: &Job| make(&plant, &settled, job, &pool),
         |finished, results| {
             for result in results {
                 match result {
@@ -121,8 +126,7 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
                 .help("build into another directory, with `--out`"),
         ));
     }
-    let outcomes = write_set(&args.out, &set, forced(args.force, Existing::Generated))
-        .map_err(|error| report.refuse(not_written(&error)))?;
+    let outcomes = written(args, &set, report).map_err(|error| report.refuse(not_written(&error)))?;
     let changed = outcomes.iter().filter(|outcome| **outcome == Outcome::Changed).count();
     let size: usize = set.iter().flat_map(|file| &file.pieces).map(|piece| piece.len()).sum();
     let text = format!(
@@ -136,8 +140,26 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
     let left = left_from_before(args, &set).map_err(|error| report.refuse(not_written(&error)))?;
     let code = print(&(text + &left));
     // The process ends next: taking everything apart would only cost the user time.
-    std::mem::forget((plant, settled, set, made));
+    std::mem::forget((plant, settled, set, made, pool));
     Ok(code)
+}
+
+/// Writes the files, and says on a terminal how far it is.
+fn written(args: &PlantBuildArgs, set: &[SharedFile], report: &Report) -> Result<Vec<Outcome>, WriteError> {
+    let progress: Mutex<Option<Progress>> = Mutex::new(None);
+    let with = |act: &dyn Fn(&mut Option<Progress>)| {
+        act(&mut progress.lock().unwrap_or_else(PoisonError::into_inner));
+    };
+    let watch = |written: usize, of: usize| {
+        with(&|progress| {
+            let new = || Progress::new("wrote", "files", of, report.audience());
+            progress.get_or_insert_with(new).show(written);
+        });
+    };
+    let existing = forced(args.force, Existing::Generated);
+    let outcomes = write_set_watched(&args.out, set, existing, &watch);
+    with(&|progress| progress.iter_mut().for_each(Progress::clear));
+    outcomes
 }
 
 /// `3 machines at 1 site, 18 nodes`.
@@ -170,7 +192,7 @@ fn overwritten(out: &Path, set: &[SharedFile], read: &[PathBuf]) -> Option<Strin
 }
 
 /// Names what an earlier build made for nodes that are no more, and removes it if that is wanted.
-fn left_from_before(args: &PlantBuildArgs, set: &[SharedFile]) -> Result<String, od_gen::files::WriteError> {
+fn left_from_before(args: &PlantBuildArgs, set: &[SharedFile]) -> Result<String, WriteError> {
     /// So many files are named.
     const NAMED: usize = 5;
     let left = left_over_of_folders(&args.out, set)?;

@@ -7,17 +7,20 @@ use std::time::Duration;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Texts {
     Eds,
+    Xdd,
     Specifications,
     Settings,
     Templates,
 }
 
 impl Texts {
-    pub(crate) const ALL: [Texts; 4] = [Texts::Eds, Texts::Specifications, Texts::Settings, Texts::Templates];
+    pub(crate) const ALL: [Texts; 5] =
+        [Texts::Eds, Texts::Xdd, Texts::Specifications, Texts::Settings, Texts::Templates];
 
     pub(crate) const fn word(self) -> &'static str {
         match self {
             Texts::Eds => "eds",
+            Texts::Xdd => "xdd",
             Texts::Specifications => "specifications",
             Texts::Settings => "settings",
             Texts::Templates => "templates",
@@ -27,9 +30,9 @@ impl Texts {
     /// Of all the time, so many hundredths are for these: there is more to break in some than in others.
     pub(crate) const fn share(self) -> u32 {
         match self {
-            Texts::Eds => 45,
-            Texts::Specifications => 35,
-            Texts::Settings | Texts::Templates => 10,
+            Texts::Eds => 40,
+            Texts::Specifications => 30,
+            Texts::Xdd | Texts::Settings | Texts::Templates => 10,
         }
     }
 }
@@ -76,9 +79,9 @@ pub(crate) fn parse(arguments: &[String]) -> Result<Options, String> {
         }
     }
     match options.texts {
-        Some(Texts::Eds | Texts::Specifications) => Ok(options),
+        Some(Texts::Eds | Texts::Xdd | Texts::Specifications) => Ok(options),
         _ if options.paths.is_empty() => Ok(options),
-        _ => Err("files go with `--of eds` or `--of specifications`".to_owned()),
+        _ => Err("files go with `--of eds`, `--of xdd` or `--of specifications`".to_owned()),
     }
 }
 
@@ -125,7 +128,10 @@ mod tests {
         assert_eq!(options, Ok(expected));
         assert_eq!(parsed(&["--sed", "7"]).unwrap_err(), "`fuzz` does not take `--sed`");
         assert_eq!(parsed(&["--seed"]).unwrap_err(), "`--seed` wants a number");
-        assert_eq!(parsed(&["a.eds"]).unwrap_err(), "files go with `--of eds` or `--of specifications`");
+        assert_eq!(
+            parsed(&["a.eds"]).unwrap_err(),
+            "files go with `--of eds`, `--of xdd` or `--of specifications`"
+        );
         assert!(parsed(&["--of", "xml"]).unwrap_err().ends_with("`settings`, `templates`"));
         assert_eq!(Texts::ALL.map(Texts::share).iter().sum::<u32>(), 100);
         assert_eq!(parsed(&["--seed", "x"]).unwrap_err(), "`--seed` wants a number, not `x`");

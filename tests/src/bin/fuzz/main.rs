@@ -1,4 +1,4 @@
-//! Tries mutants of EDS and DCF files, specifications, settings and templates: `cargo xtask help fuzz`.
+//! Tries mutants of EDS, DCF, XDD and XDC files, specifications, settings and templates: `cargo xtask help fuzz`.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 
@@ -13,7 +13,8 @@ use std::time::Duration;
 
 use arguments::{Options, Texts};
 use od_tests::fuzz::{
-    Caught, EdsFiles, Hunt, Outcome, Seed, Settings, Specifications, Subject, TemplateFiles, Used, hunt,
+    Caught, EdsFiles, Hunt, Outcome, Seed, Settings, Specifications, Subject, TemplateFiles, Used, XddFiles,
+    hunt,
 };
 use od_tests::{Failure, root};
 
@@ -53,6 +54,7 @@ fn run(options: &Options) -> Result<(), Failure> {
 fn hunted(texts: Texts, time: Duration, options: &Options) -> Result<usize, Failure> {
     let (subject, seeds): (Box<dyn Subject>, Vec<Seed>) = match texts {
         Texts::Eds => (Box::new(EdsFiles::new(meter)), seeds::eds(&options.paths)?),
+        Texts::Xdd => (Box::new(XddFiles), seeds::xdd(&options.paths)?),
         Texts::Specifications => {
             (Box::new(Specifications::new(meter)?), seeds::specifications(&options.paths)?)
         }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use od_tests::foreign::find;
-use od_tests::fuzz::Seed;
+use od_tests::foreign::{self, find};
+use od_tests::fuzz::{Seed, XddFiles};
 use od_tests::shipped::in_one_file;
 use od_tests::{Failure, root};
 
@@ -17,9 +17,19 @@ const SHIPPED: [&str; 2] = ["pitch-control-system", "fullmo-drive"];
 /// Every EDS and DCF of the repository, and of the files and directories that are named, in the order of their names.
 pub(crate) fn eds(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
     read(&EDS, more, |directory, paths| {
-        find(directory, paths)?;
+        find(directory, foreign::EDS, paths)?;
         Ok(())
     })
+}
+
+/// Every XDD and XDC of the repository, those of the shipped devices, and those that are named.
+pub(crate) fn xdd(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
+    let mut seeds = read(&EDS, more, |directory, paths| find(directory, foreign::XDD, paths))?;
+    seeds.extend(XddFiles::shipped()?);
+    // As they are, and with every attribute on a line of its own.
+    let lines = seeds.iter().map(XddFiles::in_lines).collect::<Vec<_>>();
+    seeds.extend(lines);
+    Ok(seeds)
 }
 
 /// The same for specifications and libraries.

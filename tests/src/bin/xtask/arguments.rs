@@ -19,7 +19,7 @@ pub(crate) enum Task {
     Package,
     /// Take a directory of foreign EDS and DCF files through everything.
     Corpus(String),
-    /// Try mutants of EDS and DCF files, with the arguments of the program `fuzz`.
+    /// Try mutants of files, with the arguments of the program `fuzz`.
     Fuzz(Vec<String>),
     /// Measure beside other tools, with the arguments of tests/bench/run.py.
     Bench(Vec<String>),
@@ -55,7 +55,7 @@ cargo xtask TASK
   browser             the part of `test` that reads the documents in Chromium
   generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
   package             package the crates that users depend on, and compile each from its package
-  corpus DIR          take the EDS and DCF files of a directory through everything
+  corpus DIR          take the EDS, DCF, XDD and XDC files of a directory through everything
   fuzz [--of TEXTS] [--seconds N] [--seed N] [FILE|DIR…]
                       change files by chance, and see whether anything breaks
   bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
@@ -105,10 +105,10 @@ lacks its README, a licence text or a fact that a registry shows.
 const CORPUS: &str = "\
 cargo xtask corpus DIR
 
-Takes every EDS and DCF below a directory through everything, and prints a line for each problem and a table of the rest:
+Takes every EDS, DCF, XDD and XDC below a directory through everything, and prints a line for each problem and a table of the rest:
 bytes to text and back, reading it as it is and as the standard wants it, importing it, the EDS of the import, the import of
 that, and putting it right. Facts that do not come back are problems, but for those with a reason in
-tests/src/foreign/exceptions.rs.
+tests/src/foreign/exceptions.rs. Of an XDD or XDC it leaves out what is about lines: bytes, putting right, comparing.
 
 Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong command line.
 ";
@@ -121,6 +121,7 @@ place of a finding is in the file; findings read well in every format; memory st
   eds             EDS and DCF files: their bytes come back; a model comes out; what is put right says the same, has no more errors than
                   before and is not changed by a second time; an import compiles and has the same facts, but for those with a
                   reason in tests/src/foreign/exceptions.rs
+  xdd             XDD and XDC files: there is a model or an error; an XDD and an EDS of the model are read again; an import as of an EDS
   specifications  specifications and libraries: there is a model or an error with a place; the EDS and DCF of a model keep the
                   standard and have its objects; its Rust is Rust, its JSON is JSON, its documents are printed
   settings        settings of a node: the DCF of what is accepted keeps the standard, and has every value

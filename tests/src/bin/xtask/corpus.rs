@@ -1,4 +1,4 @@
-//! Takes a directory of foreign EDS and DCF files through everything that the project does with one.
+//! Takes a directory of foreign EDS, DCF, XDD and XDC files through everything that the project does with one.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -7,19 +7,19 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use od_tests::Failure;
-use od_tests::foreign::{Checked, Step, check, find};
+use od_tests::foreign::{Checked, EDS, Step, XDD, check, find};
 
 /// Most problems of one file and step that are told.
 const MOST_TOLD: usize = 5;
 
-/// Checks every EDS and DCF below a directory; a line for each problem, and what became of all of them.
+/// Checks every EDS, DCF, XDD and XDC below a directory; a line for each problem, and what became of all of them.
 pub(crate) fn corpus(directory: &str) -> Result<(), Failure> {
     let directory = Path::new(directory);
     let mut paths = Vec::new();
-    find(directory, &mut paths)?;
+    find(directory, &[EDS, XDD].concat(), &mut paths)?;
     paths.sort();
     if paths.is_empty() {
-        return Err(format!("{} has no EDS and no DCF", directory.display()).into());
+        return Err(format!("{} has no EDS, DCF, XDD or XDC", directory.display()).into());
     }
     // What panics is told with its file; the usual report would stand between the lines.
     std::panic::set_hook(Box::new(|_| {}));

@@ -3,11 +3,13 @@
 mod eds;
 mod settings;
 mod templates;
+mod xdd;
 mod yaml;
 
 pub use eds::EDS;
 pub use settings::SETTINGS;
 pub use templates::TEMPLATES;
+pub use xdd::XDD;
 pub use yaml::YAML;
 
 /// What a text is made of.
@@ -36,6 +38,8 @@ pub enum Layout {
     Indented,
     /// A section begins with an instruction: `{% … %}`.
     Instructed,
+    /// A section is an object or a parameter, with what is in it; what these lie in are sections, too.
+    Elements,
     /// All lines are alike.
     Plain,
 }
@@ -50,6 +54,7 @@ impl Notation {
                 !name.starts_with([' ', '#', '-', '\n', '\r'])
             }
             Layout::Instructed => line.starts_with("{%"),
+            Layout::Elements => xdd::is_item(line) || xdd::is_around(line),
             Layout::Plain => false,
         }
     }
@@ -58,6 +63,7 @@ impl Notation {
     pub(super) fn is_frame(&self, line: &str) -> bool {
         match self.layout {
             Layout::Indented => !line.starts_with([' ', '#']),
+            Layout::Elements => xdd::is_around(line),
             Layout::Bracketed | Layout::Instructed | Layout::Plain => false,
         }
     }
@@ -68,6 +74,7 @@ impl Notation {
             Layout::Bracketed => format!("[{name}]"),
             Layout::Indented => format!("{name}:"),
             Layout::Instructed => format!("{{% {name} %}}"),
+            Layout::Elements => format!("<{name}"),
             Layout::Plain => name.to_owned(),
         }
     }
@@ -82,7 +89,8 @@ impl Notation {
                 let rest = text.split_once(self.sign).map_or("", |(_, rest)| rest);
                 format!("  0x{index:04X}:{rest}{line_break}")
             }
-            Layout::Instructed | Layout::Plain => header.to_owned(),
+            // The index stands among the attributes.
+            Layout::Elements | Layout::Instructed | Layout::Plain => header.to_owned(),
         }
     }
 
@@ -92,6 +100,7 @@ impl Notation {
             Layout::Bracketed => 1,
             Layout::Indented => header.len() - header.trim_start_matches(' ').len(),
             Layout::Instructed => 2,
+            Layout::Elements => header.find('<').map_or(0, |at| at + 1),
             Layout::Plain => 0,
         }
         .min(header.len())

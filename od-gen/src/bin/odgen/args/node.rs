@@ -115,7 +115,7 @@ pub(crate) struct SchemaArgs {
     #[arg(long, value_name = "KEY", requires = "params")]
     pub device: Option<String>,
 
-    /// The schema of plant files
-    #[arg(long, conflicts_with = "params")]
-    pub plant: bool,
+    /// The schema of plant files; of a plant, or of specifications, EDS and DCF files, with what their devices have
+    #[arg(long, conflicts_with = "params", num_args = 0.., value_name = "PLANT|SPEC")]
+    pub plant: Option<Vec<PathBuf>>,
 }
