@@ -48,6 +48,12 @@ impl Sender {
         if open { self.start.checked_add(SEGMENT * u32::from(self.sent)) } else { None }
     }
 
+    /// Bytes that were sent, each counted once.
+    #[cfg(feature = "sdo-client")]
+    pub(crate) const fn length(&self) -> u32 {
+        self.summed
+    }
+
     /// The next segment, with the data from [`offset`](Self::offset) on.
     pub(crate) fn segment(&mut self, piece: Piece) -> BlockSegment {
         if self.offset() == Some(self.summed) {

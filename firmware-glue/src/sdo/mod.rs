@@ -5,6 +5,7 @@
 //!
 //! - [`SdoServer`] (feature `sdo-server`) serves any dictionary: expedited and segmented transfers, and with the feature
 //!   `sdo-block` blocks with checksums.
+//! - [`SdoClient`] (feature `sdo-client`) reads and writes the dictionary of another node the same ways.
 //! - [`codec`] has the frames.
 
 mod channel;
@@ -12,18 +13,35 @@ pub mod codec;
 
 #[cfg(feature = "sdo-block")]
 mod block;
+#[cfg(feature = "sdo-client")]
+mod client;
 #[cfg(feature = "sdo-block")]
 mod crc;
+#[cfg(feature = "sdo-client")]
+mod data;
 #[cfg(feature = "sdo-server")]
 mod download;
+mod piece;
+#[cfg(feature = "sdo-client")]
+mod read;
 #[cfg(feature = "sdo-server")]
 mod server;
 #[cfg(feature = "sdo-server")]
 mod upload;
+#[cfg(feature = "sdo-client")]
+mod write;
 
 pub use channel::Channel;
+#[cfg(feature = "sdo-client")]
+pub use client::{Failure, SdoClient, Step, Way};
+#[cfg(feature = "sdo-client")]
+pub use data::{Filled, Sink, Source};
+#[cfg(feature = "sdo-client")]
+pub use read::SdoRead;
 #[cfg(feature = "sdo-server")]
 pub use server::SdoServer;
+#[cfg(feature = "sdo-client")]
+pub use write::SdoWrite;
 
 /// Microseconds without a frame of the other side, after which a transfer ends with
 /// [`AbortCode::TIMEOUT`](crate::AbortCode::TIMEOUT), unless something else is asked for: a second.

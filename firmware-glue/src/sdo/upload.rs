@@ -2,6 +2,7 @@
 
 use super::codec::Piece;
 use super::download::is_domain;
+use super::piece::gather;
 use crate::abort::AbortCode;
 use crate::application::Application;
 use crate::dictionary::Dictionary;
@@ -72,23 +73,12 @@ impl Upload {
     }
 }
 
-/// A piece of a DOMAIN. One byte more than it takes is asked for, as that tells whether it is the last.
+/// A piece of a DOMAIN.
 fn domain_piece<'t, D: Dictionary<'t>, A: Application<D>>(
     EntryId { index, sub }: EntryId,
     offset: u32,
     dictionary: &mut D,
     application: &mut A,
 ) -> Result<Piece, AbortCode> {
-    let mut data = [0; 8];
-    let mut length = 0;
-    while let Some(room) = data.get_mut(length..).filter(|room| !room.is_empty()) {
-        let from = u32::try_from(length).ok().and_then(|length| offset.checked_add(length));
-        let Some(from) = from else { break };
-        let most = room.len();
-        match dictionary.upload_domain(index, sub, from, room, application)? {
-            0 => break,
-            read => length += read.min(most),
-        }
-    }
-    Ok(Piece::first_of(data.get(..length).unwrap_or_default()))
+    gather(offset, |from, room| dictionary.upload_domain(index, sub, from, room, application))
 }
