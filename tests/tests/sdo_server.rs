@@ -1,4 +1,4 @@
-//! The small SDO server of the tests, with values of every length.
+//! The SDO server with values of every length, and a buffer as large as the largest.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -36,7 +36,7 @@ fn download<'t, const BUFFER: usize>(
     server: &mut Server<impl Dictionary<'t>, (), BUFFER>,
     value: &[u8],
 ) -> Option<AbortCode> {
-    let mut aborted = code(server.answer([0x21, 0, 0x20, 0, 0, 0, 0, 0]).unwrap());
+    let mut aborted = code(server.answer([0x20, 0, 0x20, 0, 0, 0, 0, 0]).unwrap());
     for (number, segment) in value.chunks(7).enumerate() {
         let last = (number + 1) * 7 >= value.len();
         let (toggle, unused) =

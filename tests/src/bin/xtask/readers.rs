@@ -140,7 +140,7 @@ fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     None
 }
 
-/// A client that others wrote, against the generated Rust.
+/// A client that others wrote, against the generated Rust; and the client of firmware-glue against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let server = std::env::current_exe()?.with_file_name("sdo-server");
@@ -149,5 +149,7 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
         let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--server"];
         runner.run(Command::new(&python).arg("tests/readers/sdo_client.py").args(arguments).arg(&server))?;
     }
-    Ok(())
+    let client = std::env::current_exe()?.with_file_name("sdo-client");
+    let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
+    runner.run(Command::new(&python).args(arguments).arg(&client))
 }
