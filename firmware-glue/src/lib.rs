@@ -26,6 +26,7 @@ mod alias;
 mod application;
 mod check;
 mod checked;
+pub mod clock;
 mod cob_id;
 mod communication;
 mod constraint;
