@@ -17,6 +17,7 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
+//! - `node`: the services of a CANopen node besides SDO ([`nmt`]); frames in, frames out, time passed in
 
 #![no_std]
 #![warn(clippy::missing_errors_doc)]
@@ -45,7 +46,12 @@ pub mod image;
 mod info;
 mod mapping;
 pub mod named;
+#[cfg(feature = "node")]
+pub mod nmt;
+mod node_id;
 mod number;
+#[cfg(feature = "node")]
+mod parameters;
 pub mod pdo;
 mod pdo_parameters;
 pub mod quantity;
@@ -57,6 +63,8 @@ mod stand_in;
 mod stored;
 pub mod table;
 mod table_dictionary;
+#[cfg(all(test, feature = "node"))]
+mod test_table;
 pub mod text;
 mod time;
 mod value;
@@ -79,6 +87,7 @@ pub use image::{
 };
 pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
+pub use node_id::NodeId;
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]
 pub use shared::Shared;
