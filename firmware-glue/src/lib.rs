@@ -17,7 +17,7 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
-//! - `node`: the services of a CANopen node besides SDO ([`nmt`]); frames in, frames out, time passed in
+//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`); frames in, frames out, time passed in
 
 #![no_std]
 #![warn(clippy::missing_errors_doc)]
@@ -35,6 +35,8 @@ mod data_type;
 mod dictionary;
 mod directory;
 mod effect;
+#[cfg(feature = "node")]
+pub mod emcy;
 mod entries;
 mod fault;
 mod flags;
@@ -48,11 +50,14 @@ mod mapping;
 pub mod named;
 #[cfg(feature = "node")]
 pub mod nmt;
+#[cfg(feature = "node")]
 mod node_id;
 mod number;
 #[cfg(feature = "node")]
 mod parameters;
 pub mod pdo;
+#[cfg(feature = "node")]
+pub mod pdo_engine;
 mod pdo_parameters;
 pub mod quantity;
 mod rows;
@@ -72,7 +77,7 @@ mod value;
 pub use abort::AbortCode;
 pub use alias::{Outside, Rounding, View};
 pub use application::Application;
-pub use constraint::{Constrained, Constraint, unpack_consistent};
+pub use constraint::{Consistent, Constrained, Constraint, unpack_consistent};
 pub use data_type::DataType;
 #[cfg(feature = "defmt")]
 pub use defmt;
@@ -87,6 +92,7 @@ pub use image::{
 };
 pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
+#[cfg(feature = "node")]
 pub use node_id::NodeId;
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]

@@ -25,6 +25,13 @@ pub(crate) struct TestValue {
     storage: Storage,
 }
 
+impl TestValue {
+    /// Where it is.
+    pub(crate) fn id(&self) -> (u16, u8) {
+        (self.index, self.sub)
+    }
+}
+
 /// An entry that is not stored.
 pub(crate) fn value(index: u16, sub: u8, size: u16, factory: u32) -> TestValue {
     stored(index, sub, size, factory, Storage::No)
