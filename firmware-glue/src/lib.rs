@@ -18,6 +18,7 @@
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 //! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`); frames in, frames out, time passed in
+//! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
 
 #![no_std]
 #![warn(clippy::missing_errors_doc)]
@@ -50,7 +51,7 @@ mod mapping;
 pub mod named;
 #[cfg(feature = "node")]
 pub mod nmt;
-#[cfg(feature = "node")]
+#[cfg(any(feature = "node", feature = "storage"))]
 mod node_id;
 mod number;
 #[cfg(feature = "node")]
@@ -65,10 +66,12 @@ mod rows;
 mod shared;
 mod special;
 mod stand_in;
+#[cfg(feature = "storage")]
+pub mod storage;
 mod stored;
 pub mod table;
 mod table_dictionary;
-#[cfg(all(test, feature = "node"))]
+#[cfg(all(test, any(feature = "node", feature = "storage")))]
 mod test_table;
 pub mod text;
 mod time;
@@ -92,7 +95,7 @@ pub use image::{
 };
 pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
-#[cfg(feature = "node")]
+#[cfg(any(feature = "node", feature = "storage"))]
 pub use node_id::NodeId;
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]
