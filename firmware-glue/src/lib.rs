@@ -17,7 +17,7 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
-//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`); frames in, frames out, time passed in
+//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`); frames in, frames out, time passed in
 //! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
 
 #![no_std]
@@ -47,6 +47,8 @@ pub mod generated_for_layout_2;
 mod id;
 pub mod image;
 mod info;
+#[cfg(feature = "node")]
+pub mod lss;
 mod mapping;
 pub mod named;
 #[cfg(feature = "node")]
