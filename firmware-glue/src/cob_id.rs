@@ -1,6 +1,8 @@
 //! COB-IDs in communication objects (CiA 301 9.6.3).
 
 use crate::abort::AbortCode;
+#[cfg(feature = "node")]
+use crate::frame::CanId;
 
 /// Bit 31 of COB-ID entries: the message does not exist.
 pub(crate) const NOT_VALID: u32 = 1 << 31;
@@ -49,4 +51,13 @@ fn check_usable(cob_id: u32) -> Result<(), AbortCode> {
         0x000..=0x07F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0 | 0x701..=0x77F | 0x780..=0x7FF
     );
     if cob_id & EXTENDED != 0 || restricted { Err(AbortCode::INVALID_VALUE) } else { Ok(()) }
+}
+
+/// The identifier in a COB-ID, whatever else it says; `None` of one with 29 bits, which the services do not use.
+#[cfg(feature = "node")]
+pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
+    if cob_id & EXTENDED != 0 {
+        return None;
+    }
+    CanId::new(u16::try_from(cob_id & CAN_ID).ok()?)
 }

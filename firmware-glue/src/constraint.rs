@@ -39,7 +39,7 @@ pub trait Constrained: Dictionary<'static> + 'static {
         data: &[u8],
         application: &mut A,
     ) -> Result<Self::Entry, AbortCode> {
-        self.write(index, sub, data, &mut Guard(application))
+        self.write(index, sub, data, &mut Consistent(application))
     }
 }
 
@@ -54,13 +54,18 @@ pub fn unpack_consistent<D: Constrained, A: Application<D>>(
     data: &[u8],
     application: &mut A,
 ) -> Result<Received<D::Entry>, PdoError> {
-    pdo::unpack(dictionary, number, data, &mut Guard(application))
+    pdo::unpack(dictionary, number, data, &mut Consistent(application))
 }
 
-/// Tries a value before the application sees it.
-struct Guard<'a, A>(&'a mut A);
+/// An application that sees no value with which a condition breaks that held before: a service that is given it in place of
+/// the application, an SDO server or the PDO engine, refuses such values as [`AbortCode::INCOMPATIBLE`].
+#[derive(Debug)]
+pub struct Consistent<'a, A>(
+    /// The application.
+    pub &'a mut A,
+);
 
-impl<D: Constrained, A: Application<D>> Application<D> for Guard<'_, A> {
+impl<D: Constrained, A: Application<D>> Application<D> for Consistent<'_, A> {
     fn is_unlocked(&self) -> bool {
         self.0.is_unlocked()
     }
@@ -78,6 +83,27 @@ impl<D: Constrained, A: Application<D>> Application<D> for Guard<'_, A> {
 
     fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {
         self.0.changed(dictionary, entry);
+    }
+
+    fn read_domain(
+        &mut self,
+        dictionary: &mut D,
+        entry: D::Entry,
+        offset: u32,
+        buffer: &mut [u8],
+    ) -> Result<usize, AbortCode> {
+        self.0.read_domain(dictionary, entry, offset, buffer)
+    }
+
+    fn write_domain(
+        &mut self,
+        dictionary: &mut D,
+        entry: D::Entry,
+        offset: u32,
+        data: &[u8],
+        last: bool,
+    ) -> Result<(), AbortCode> {
+        self.0.write_domain(dictionary, entry, offset, data, last)
     }
 }
 

@@ -18,6 +18,8 @@
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 //! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
+//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`); frames in, frames out, time passed in
+//! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
 
 #![no_std]
 #![warn(clippy::missing_errors_doc)]
@@ -27,6 +29,7 @@ mod alias;
 mod application;
 mod check;
 mod checked;
+pub mod clock;
 mod cob_id;
 mod communication;
 mod constraint;
@@ -34,6 +37,8 @@ mod data_type;
 mod dictionary;
 mod directory;
 mod effect;
+#[cfg(feature = "node")]
+pub mod emcy;
 mod entries;
 mod fault;
 mod flags;
@@ -43,10 +48,20 @@ pub mod generated_for_layout_2;
 mod id;
 pub mod image;
 mod info;
+#[cfg(feature = "node")]
+pub mod lss;
 mod mapping;
 pub mod named;
+#[cfg(feature = "node")]
+pub mod nmt;
+#[cfg(any(feature = "node", feature = "storage"))]
+mod node_id;
 mod number;
+#[cfg(feature = "node")]
+mod parameters;
 pub mod pdo;
+#[cfg(feature = "node")]
+pub mod pdo_engine;
 mod pdo_parameters;
 pub mod quantity;
 mod rows;
@@ -56,9 +71,13 @@ pub mod sdo;
 mod shared;
 mod special;
 mod stand_in;
+#[cfg(feature = "storage")]
+pub mod storage;
 mod stored;
 pub mod table;
 mod table_dictionary;
+#[cfg(all(test, any(feature = "node", feature = "storage")))]
+mod test_table;
 pub mod text;
 mod time;
 mod value;
@@ -66,7 +85,7 @@ mod value;
 pub use abort::AbortCode;
 pub use alias::{Outside, Rounding, View};
 pub use application::Application;
-pub use constraint::{Constrained, Constraint, unpack_consistent};
+pub use constraint::{Consistent, Constrained, Constraint, unpack_consistent};
 pub use data_type::DataType;
 #[cfg(feature = "defmt")]
 pub use defmt;
@@ -81,6 +100,8 @@ pub use image::{
 };
 pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
+#[cfg(any(feature = "node", feature = "storage"))]
+pub use node_id::NodeId;
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]
 pub use shared::Shared;

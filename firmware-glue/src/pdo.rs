@@ -158,14 +158,7 @@ pub fn unpack<'t, D: Dictionary<'t>, A: Application<D>>(
     application: &mut A,
 ) -> Result<Received<D::Entry>, PdoError> {
     let mapping = Mapping::of(dictionary, RECEIVE, number)?;
-    let mut length = 0;
-    for at in 0..mapping.count {
-        length += mapping.bits(dictionary, at)?;
-    }
-    let bytes = usize::try_from(length.div_ceil(8)).unwrap_or(usize::MAX);
-    if length > FRAME_BITS {
-        return Err(PdoError::NotMapped);
-    }
+    let bytes = mapping.length(dictionary)?;
     if data.len() < bytes {
         return Err(PdoError::TooShort);
     }
@@ -185,6 +178,25 @@ pub fn unpack<'t, D: Dictionary<'t>, A: Application<D>>(
         }
     }
     Ok(received)
+}
+
+/// Bytes that the data of an RPDO, 1 to 512, has to have by its present mapping.
+///
+/// # Errors
+/// [`PdoError`], of what does not depend on data and values.
+#[cfg(feature = "node")]
+pub(crate) fn received_length<'t, D: Dictionary<'t>>(dictionary: &D, number: u16) -> Result<usize, PdoError> {
+    Mapping::of(dictionary, RECEIVE, number)?.length(dictionary)
+}
+
+/// Whether a TPDO, 1 to 512, carries an entry or a view of it.
+#[cfg(feature = "node")]
+pub(crate) fn carries<'t, D: Dictionary<'t>>(dictionary: &D, number: u16, row: Row) -> bool {
+    let Ok(mapping) = Mapping::of(dictionary, TRANSMIT, number) else { return false };
+    (0..mapping.count).any(|at| {
+        let found = mapping.field(dictionary, at).ok().and_then(|field| field.found);
+        found.is_some_and(|found| dictionary.table().holder(found.row) == row)
+    })
 }
 
 /// The bits of a PDO's data, from a bit on: what generated code does with values that fill no whole bytes.
@@ -277,6 +289,19 @@ impl<'t> Mapping<'t> {
         }
         let found = self.table.lookup(mapped.index, mapped.sub).map_err(|_| PdoError::NotMapped)?;
         Ok(Field { found: Some(found), bits: mapped.bits })
+    }
+
+    /// Bytes of all that is mapped.
+    #[inline(always)]
+    fn length<D: Dictionary<'t>>(self, dictionary: &D) -> Result<usize, PdoError> {
+        let mut bits = 0;
+        for at in 0..self.count {
+            bits += self.bits(dictionary, at)?;
+        }
+        if bits > FRAME_BITS {
+            return Err(PdoError::NotMapped);
+        }
+        Ok(usize::try_from(bits.div_ceil(8)).unwrap_or(usize::MAX))
     }
 
     /// The bits of what is mapped at a position.

@@ -1,0 +1,520 @@
+//! Emergencies: errors that a node has, tells and remembers (CiA 301 9.2.5 and 9.6.3, 1001h, 1003h, 1014h, 1015h).
+//!
+//! ```
+//! use firmware_glue::emcy::{Emergency, ErrorRegister};
+//!
+//! let emergency = Emergency::new(0x4210).with_details([1, 0, 0, 0, 0]);
+//! assert_eq!(emergency.register(), ErrorRegister::GENERIC.with(ErrorRegister::TEMPERATURE));
+//! ```
+
+use crate::clock::{Duration, Instant};
+use crate::cob_id::{NOT_VALID, can_id};
+use crate::dictionary::Dictionary;
+use crate::frame::{CanId, Frame};
+use crate::parameters::{Parameters, set};
+
+/// Kinds of errors, one bit each: 1001h (CiA 301 table 48).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ErrorRegister(u8);
+
+impl ErrorRegister {
+    /// No error.
+    pub const NONE: Self = Self(0);
+    /// Any error; set with every other.
+    pub const GENERIC: Self = Self(1 << 0);
+    /// Current.
+    pub const CURRENT: Self = Self(1 << 1);
+    /// Voltage.
+    pub const VOLTAGE: Self = Self(1 << 2);
+    /// Temperature.
+    pub const TEMPERATURE: Self = Self(1 << 3);
+    /// Communication: overrun, error state.
+    pub const COMMUNICATION: Self = Self(1 << 4);
+    /// What the device profile says.
+    pub const PROFILE: Self = Self(1 << 5);
+    /// What the manufacturer says.
+    pub const MANUFACTURER: Self = Self(1 << 7);
+
+    /// The bits of a number; the reserved bit 6 is left out.
+    #[must_use]
+    pub const fn from_bits(bits: u8) -> Self {
+        Self(bits & !(1 << 6))
+    }
+
+    /// The bits as a number.
+    #[must_use]
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
+    /// These kinds and more.
+    #[must_use]
+    pub const fn with(self, more: Self) -> Self {
+        Self(self.0 | more.0)
+    }
+
+    /// The kind that an error code belongs to by its class (CiA 301 table 21), and the generic bit; none of an "error reset".
+    #[must_use]
+    pub const fn of_code(code: u16) -> Self {
+        let kind = match code >> 8 {
+            0x00 => return Self::NONE,
+            0x20..=0x2F => Self::CURRENT,
+            0x30..=0x3F => Self::VOLTAGE,
+            0x40..=0x4F => Self::TEMPERATURE,
+            0x81..=0x82 => Self::COMMUNICATION,
+            0xFF => Self::MANUFACTURER,
+            _ => Self::NONE,
+        };
+        kind.with(Self::GENERIC)
+    }
+}
+
+/// An error of the device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Emergency {
+    code: u16,
+    register: ErrorRegister,
+    details: [u8; 5],
+}
+
+impl Emergency {
+    /// A protocol error: PDO not processed, because it was too short.
+    pub const PDO_LENGTH: Self = Self::new(0x8210);
+    /// A protocol error: a PDO was longer than its mapping.
+    pub const PDO_TOO_LONG: Self = Self::new(0x8220);
+    /// A protocol error: a SYNC with an unexpected length.
+    pub const SYNC_LENGTH: Self = Self::new(0x8240);
+    /// A protocol error: an RPDO has not come in time.
+    pub const RPDO_TIMEOUT: Self = Self::new(0x8250);
+    /// A communication error: a heartbeat or the guarding has stayed away.
+    pub const HEARTBEAT: Self = Self::new(0x8130);
+    /// A communication error: recovered from bus off.
+    pub const BUS_OFF_RECOVERED: Self = Self::new(0x8140);
+
+    /// An error by its code: constants of `errors` in generated code, or those of CiA 301 table 21. It sets the bits of 1001h that its class says.
+    #[must_use]
+    pub const fn new(code: u16) -> Self {
+        Self { code, register: ErrorRegister::of_code(code), details: [0; 5] }
+    }
+
+    /// With other bits of 1001h than the class of its code says; the generic bit is always set.
+    #[must_use]
+    pub const fn with_register(self, register: ErrorRegister) -> Self {
+        Self { register: register.with(ErrorRegister::GENERIC), ..self }
+    }
+
+    /// With bytes that the manufacturer gives a meaning; the first two stand in the error history, too.
+    #[must_use]
+    pub const fn with_details(self, details: [u8; 5]) -> Self {
+        Self { details, ..self }
+    }
+
+    /// Its code.
+    #[must_use]
+    pub const fn code(self) -> u16 {
+        self.code
+    }
+
+    /// The bits that it sets in 1001h.
+    #[must_use]
+    pub const fn register(self) -> ErrorRegister {
+        self.register
+    }
+
+    /// The manufacturer's bytes.
+    #[must_use]
+    pub const fn details(self) -> [u8; 5] {
+        self.details
+    }
+
+    /// The emergency that a frame carries, as another node's consumer reads it: with the whole error register of the
+    /// sender. `None` of a frame without eight bytes.
+    #[must_use]
+    pub fn from_frame(frame: &Frame) -> Option<Self> {
+        let [low, high, register, details @ ..] = <[u8; 8]>::try_from(frame.bytes()?).ok()?;
+        Some(Self { code: u16::from_le_bytes([low, high]), register: ErrorRegister(register), details })
+    }
+}
+
+/// A message that waits to be sent: code, error register at the time, the manufacturer's bytes.
+#[derive(Debug, Clone, Copy)]
+struct Message([u8; 8]);
+
+impl Message {
+    const EMPTY: Self = Self([0; 8]);
+
+    fn new(code: u16, register: ErrorRegister, details: [u8; 5]) -> Self {
+        let mut bytes = [0; 8];
+        let [low, high] = code.to_le_bytes();
+        for (byte, value) in bytes.iter_mut().zip([low, high, register.0].into_iter().chain(details)) {
+            *byte = value;
+        }
+        Self(bytes)
+    }
+}
+
+/// What became of an error that was raised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Raised {
+    /// It is new: it stands in 1001h and 1003h, and a message waits to be sent.
+    New,
+    /// It was there already; nothing is done again.
+    Present,
+    /// There are more errors than the producer has room for: it stands in 1003h and its message waits to be sent, but it cannot
+    /// be cleared. Its bits stay in 1001h until [`EmergencyProducer::clear_all`].
+    NotKept,
+}
+
+/// The errors that are present, up to `N` at once, and the messages that wait, as many: `N` had better be the number of codes that the
+/// device has.
+///
+/// A message waits while its identifier (1014h) is switched off, until the inhibit time (1015h) has passed, and in states without emergencies. When more wait than there is
+/// room for, the oldest is dropped: 1001h and 1003h are complete all the same.
+#[derive(Debug, Clone)]
+pub struct EmergencyProducer<const N: usize> {
+    present: [Option<Emergency>; N],
+    /// Bits of errors that there was no room for.
+    others: ErrorRegister,
+    waiting: [Message; N],
+    waits: usize,
+    sent: Option<Instant>,
+    dropped: u32,
+}
+
+impl<const N: usize> Default for EmergencyProducer<N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<const N: usize> EmergencyProducer<N> {
+    /// Without errors.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            present: [None; N],
+            others: ErrorRegister::NONE,
+            waiting: [Message::EMPTY; N],
+            waits: 0,
+            sent: None,
+            dropped: 0,
+        }
+    }
+
+    /// An error occurs. One that is present already, by its code, is not told again.
+    pub fn raise<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) -> Raised {
+        if self.is_present(emergency.code) {
+            return Raised::Present;
+        }
+        let raised = match self.present.iter_mut().find(|place| place.is_none()) {
+            Some(place) => {
+                *place = Some(emergency);
+                Raised::New
+            }
+            None => {
+                self.others = self.others.with(emergency.register);
+                Raised::NotKept
+            }
+        };
+        self.tell(dictionary, emergency);
+        raised
+    }
+
+    /// Tells of something that is over as soon as it has happened, such as a PDO of a wrong length: a message and a line in
+    /// the history, and nothing that stays present.
+    pub fn report<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
+        self.tell(dictionary, emergency);
+    }
+
+    fn tell<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
+        let register = self.register();
+        set(dictionary, 0x1001, 0, register.0.into());
+        remember(dictionary, emergency);
+        self.wait(Message::new(emergency.code, register.with(emergency.register), emergency.details));
+    }
+
+    /// An error is gone. A message says so with the code 0000h and the bits of errors that remain. `false` if it was not
+    /// present.
+    pub fn clear<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, code: u16) -> bool {
+        let is_it = |place: &&mut Option<Emergency>| place.is_some_and(|present| present.code == code);
+        let Some(place) = self.present.iter_mut().find(is_it) else { return false };
+        *place = None;
+        self.reset_told(dictionary);
+        true
+    }
+
+    /// Every error is gone. `false` if there was none.
+    pub fn clear_all<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) -> bool {
+        if self.register() == ErrorRegister::NONE {
+            return false;
+        }
+        self.present = [None; N];
+        self.others = ErrorRegister::NONE;
+        self.reset_told(dictionary);
+        true
+    }
+
+    fn reset_told<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) {
+        let register = self.register();
+        set(dictionary, 0x1001, 0, register.0.into());
+        self.wait(Message::new(0, register, [0; 5]));
+    }
+
+    /// Whether an error is present, by its code.
+    #[must_use]
+    pub fn is_present(&self, code: u16) -> bool {
+        self.present.iter().flatten().any(|present| present.code == code)
+    }
+
+    /// The errors that are present.
+    pub fn present(&self) -> impl Iterator<Item = Emergency> {
+        self.present.iter().flatten().copied()
+    }
+
+    /// The bits of all errors that are present: 1001h.
+    #[must_use]
+    pub fn register(&self) -> ErrorRegister {
+        self.present.iter().flatten().fold(self.others, |bits, present| bits.with(present.register))
+    }
+
+    /// Messages that were dropped because too many waited.
+    #[must_use]
+    pub const fn dropped(&self) -> u32 {
+        self.dropped
+    }
+
+    /// The message that is to be sent now; to be asked in states that have emergencies only, and until there is none.
+    pub fn poll<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, now: Instant) -> Option<Frame> {
+        let id = identifier(dictionary)?;
+        if now < self.next_deadline(dictionary)? {
+            return None;
+        }
+        let Message(bytes) = *self.waiting.first()?;
+        self.waiting.rotate_left(1);
+        self.waits = self.waits.saturating_sub(1);
+        self.sent = Some(now);
+        Some(Frame::full(id, bytes))
+    }
+
+    /// When the next message can be sent.
+    pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
+        if self.waits == 0 || identifier(dictionary).is_none() {
+            return None;
+        }
+        let inhibit = Duration::from_tenth_millis(Parameters::of(dictionary).word(0x1015, 0).into());
+        Some(self.sent.map_or(Instant::ZERO, |sent| sent + inhibit))
+    }
+
+    fn wait(&mut self, message: Message) {
+        if self.waits == N {
+            self.dropped = self.dropped.saturating_add(1);
+            if N == 0 {
+                return;
+            }
+            self.waiting.rotate_left(1);
+            self.waits = self.waits.saturating_sub(1);
+        }
+        if let Some(place) = self.waiting.get_mut(self.waits) {
+            *place = message;
+            self.waits += 1;
+        }
+    }
+}
+
+/// 1014h, if it is switched on.
+fn identifier<'t, D: Dictionary<'t>>(dictionary: &D) -> Option<CanId> {
+    let cob_id = Parameters::of(dictionary).number(0x1014, 0)?;
+    if cob_id & NOT_VALID == 0 { can_id(cob_id) } else { None }
+}
+
+/// Puts an error at the top of the history (1003h): the newest is sub-index 1, the oldest is lost when there is no room. A client
+/// clears it by writing 0 to the number of errors.
+fn remember<'t, D: Dictionary<'t>>(dictionary: &mut D, emergency: Emergency) {
+    let Ok(rows) = dictionary.table().object(0x1003) else { return };
+    let room = u8::try_from(rows.len().saturating_sub(1)).unwrap_or(u8::MAX);
+    let filled = Parameters::of(dictionary).byte(0x1003, 0).saturating_add(1).min(room);
+    for sub in (2..=filled).rev() {
+        let newer = Parameters::of(dictionary).number(0x1003, sub - 1).unwrap_or_default();
+        set(dictionary, 0x1003, sub, newer);
+    }
+    let [a, b, ..] = emergency.details;
+    let [low, high] = emergency.code.to_le_bytes();
+    set(dictionary, 0x1003, 1, u32::from_le_bytes([low, high, a, b]));
+    set(dictionary, 0x1003, 0, filled.into());
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use std::vec::Vec;
+
+    use super::*;
+    use crate::abort::AbortCode;
+    use crate::test_table::{TestDictionary, dictionary, value};
+
+    fn device() -> TestDictionary {
+        dictionary(&[
+            value(0x1001, 0, 1, 0),
+            value(0x1003, 0, 1, 0),
+            value(0x1003, 1, 4, 0),
+            value(0x1003, 2, 4, 0),
+            value(0x1003, 3, 4, 0),
+            value(0x1014, 0, 4, 0x85),
+            value(0x1015, 0, 2, 100),
+        ])
+    }
+
+    fn at(millis: u64) -> Instant {
+        Instant::from_millis(millis)
+    }
+
+    fn sent<const N: usize>(
+        producer: &mut EmergencyProducer<N>,
+        device: &TestDictionary,
+        now: u64,
+    ) -> Option<[u8; 8]> {
+        let frame = producer.poll(device, at(now))?;
+        assert_eq!(frame.id().get(), 0x85);
+        frame.bytes().and_then(|bytes| <[u8; 8]>::try_from(bytes).ok())
+    }
+
+    fn read(device: &TestDictionary, index: u16, sub: u8) -> Result<u32, AbortCode> {
+        let value = device.read(index, sub)?;
+        Ok(value.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte)))
+    }
+
+    #[test]
+    fn an_error_is_told_remembered_and_reset() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<4>::new());
+        let hot = Emergency::new(0x4210).with_details([1, 2, 3, 4, 5]);
+        assert_eq!(producer.raise(&mut device, hot), Raised::New);
+        assert_eq!(producer.raise(&mut device, hot), Raised::Present);
+        assert_eq!(sent(&mut producer, &device, 0), Some([0x10, 0x42, 0x09, 1, 2, 3, 4, 5]));
+        assert_eq!(producer.raise(&mut device, Emergency::new(0x3210)), Raised::New);
+        assert_eq!((read(&device, 0x1001, 0), read(&device, 0x1003, 0)), (Ok(0x0D), Ok(2)));
+        assert_eq!((read(&device, 0x1003, 1), read(&device, 0x1003, 2)), (Ok(0x3210), Ok(0x0201_4210)));
+        assert_eq!(read(&device, 0x1003, 3), Err(AbortCode::NO_DATA));
+        assert!(producer.clear(&mut device, 0x4210));
+        assert!(!producer.clear(&mut device, 0x4210));
+        assert_eq!(read(&device, 0x1001, 0), Ok(0x05));
+        assert!(producer.clear(&mut device, 0x3210));
+        assert_eq!(read(&device, 0x1001, 0), Ok(0));
+        let rest: Vec<_> = (1..10).filter_map(|turn| sent(&mut producer, &device, turn * 10)).collect();
+        assert_eq!(rest, [[0x10, 0x32, 0x0D, 0, 0, 0, 0, 0], [0, 0, 0x05, 0, 0, 0, 0, 0], [0; 8]]);
+        assert_eq!(read(&device, 0x1003, 0), Ok(2), "the history keeps what is gone");
+    }
+
+    #[test]
+    fn the_inhibit_time_lies_between_messages() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<4>::new());
+        producer.raise(&mut device, Emergency::new(0x1000));
+        producer.clear(&mut device, 0x1000);
+        assert!(sent(&mut producer, &device, 5).is_some());
+        assert_eq!(producer.next_deadline(&device), Some(at(15)));
+        assert_eq!(sent(&mut producer, &device, 14), None);
+        assert!(sent(&mut producer, &device, 15).is_some());
+        assert_eq!(producer.next_deadline(&device), None);
+        producer.raise(&mut device, Emergency::new(0x1000));
+        set(&mut device, 0x1015, 0, 0);
+        assert!(sent(&mut producer, &device, 15).is_some());
+    }
+
+    #[test]
+    fn the_history_is_cleared_by_writing_0_and_holds_the_newest() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<8>::new());
+        for code in 0x1001..0x1006 {
+            producer.raise(&mut device, Emergency::new(code));
+        }
+        let history = |device: &TestDictionary| [0, 1, 2, 3].map(|sub| read(device, 0x1003, sub));
+        assert_eq!(history(&device), [Ok(3), Ok(0x1005), Ok(0x1004), Ok(0x1003)]);
+        assert_eq!(device.write(0x1003, 0, &[1], &mut ()), Err(AbortCode::INVALID_VALUE));
+        device.write(0x1003, 0, &[0], &mut ()).expect("0 clears");
+        let empty = Err(AbortCode::NO_DATA);
+        assert_eq!(history(&device), [Ok(0), empty, empty, empty]);
+        producer.raise(&mut device, Emergency::new(0x2000));
+        assert_eq!(history(&device), [Ok(1), Ok(0x2000), empty, empty]);
+    }
+
+    #[test]
+    fn without_an_identifier_messages_wait() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<2>::new());
+        set(&mut device, 0x1014, 0, 0x8000_0085);
+        producer.raise(&mut device, Emergency::new(0x1000));
+        assert_eq!((sent(&mut producer, &device, 0), producer.next_deadline(&device)), (None, None));
+        set(&mut device, 0x1014, 0, 0x85);
+        assert!(sent(&mut producer, &device, 0).is_some());
+    }
+
+    #[test]
+    fn more_errors_than_there_is_room_for_stay_in_the_register() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<2>::new());
+        set(&mut device, 0x1015, 0, 0);
+        assert_eq!(producer.raise(&mut device, Emergency::new(0x2000)), Raised::New);
+        assert_eq!(producer.raise(&mut device, Emergency::new(0x3000)), Raised::New);
+        assert_eq!(producer.raise(&mut device, Emergency::new(0x4000)), Raised::NotKept);
+        assert_eq!((producer.dropped(), producer.register().bits()), (1, 0x0F));
+        assert_eq!(
+            sent(&mut producer, &device, 0).map(|bytes| bytes[1]),
+            Some(0x30),
+            "the oldest was dropped"
+        );
+        assert_eq!(
+            sent(&mut producer, &device, 0).map(|bytes| bytes[..3].to_vec()),
+            Some([0, 0x40, 0x0F].to_vec())
+        );
+        producer.clear(&mut device, 0x2000);
+        assert_eq!(producer.register().bits(), 0x0D);
+        producer.clear(&mut device, 0x3000);
+        assert_eq!(producer.register().bits(), 0x09, "whether 4000h is gone, nobody knows");
+        assert!(!producer.clear(&mut device, 0x4000));
+        assert!(producer.clear_all(&mut device));
+        assert_eq!((producer.register(), read(&device, 0x1001, 0)), (ErrorRegister::NONE, Ok(0)));
+    }
+
+    #[test]
+    fn what_is_over_at_once_stays_in_the_history_only() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<2>::new());
+        producer.report(&mut device, Emergency::PDO_LENGTH);
+        assert_eq!(sent(&mut producer, &device, 0), Some([0x10, 0x82, 0x11, 0, 0, 0, 0, 0]));
+        assert_eq!((read(&device, 0x1001, 0), read(&device, 0x1003, 1)), (Ok(0), Ok(0x8210)));
+        assert_eq!(sent(&mut producer, &device, 100), None);
+    }
+
+    #[test]
+    fn a_device_without_the_objects_tells_nothing_and_breaks_nothing() {
+        let mut device = dictionary(&[value(0x1000, 0, 4, 0)]);
+        let mut none = EmergencyProducer::<0>::new();
+        assert_eq!(none.raise(&mut device, Emergency::new(0x1000)), Raised::NotKept);
+        assert!(none.poll(&device, at(1)).is_none());
+        assert!(none.clear_all(&mut device));
+        assert!(!none.clear_all(&mut device));
+    }
+
+    #[test]
+    fn classes_of_codes_have_their_bits() {
+        for code in 0..=u16::MAX {
+            let bits = ErrorRegister::of_code(code).bits();
+            assert_eq!(bits & 1 == 0, code < 0x0100, "{code:04X}h");
+            assert_eq!(bits & 1 << 6, 0);
+        }
+        let of = |code| ErrorRegister::of_code(code).bits();
+        assert_eq!(
+            [0x2310, 0x3220, 0x4310, 0x8130, 0x8611, 0xFF01, 0x5530].map(of),
+            [3, 5, 9, 0x11, 1, 0x81, 1]
+        );
+    }
+
+    #[test]
+    fn a_consumer_reads_what_a_producer_sends() {
+        let (mut device, mut producer) = (device(), EmergencyProducer::<2>::new());
+        let emergency = Emergency::new(0x5530).with_details([9, 8, 7, 6, 5]);
+        producer.raise(&mut device, emergency);
+        let frame = producer.poll(&device, at(0)).expect("a message");
+        assert_eq!(Emergency::from_frame(&frame), Some(emergency));
+        assert_eq!(Emergency::from_frame(&Frame::data(frame.id(), &[0; 7]).expect("seven bytes")), None);
+    }
+}

@@ -1,0 +1,474 @@
+//! Parameters that outlive a power failure: 1010h and 1011h (CiA 301 9.6.3) over any flash of the crate `embedded-storage`.
+//!
+//! The flash has two slots, each with a record of everything that is stored. A record is written as a whole, and counts once
+//! its checksum stands behind it; first into the slot that does not count, then, as a copy, into the other. So
+//!
+//! - whenever power fails, the next start finds the values of before or those of after, of all groups together;
+//! - a bit that flips, or a whole slot that is lost, costs nothing, as the other slot has the same;
+//! - values that are not as they were written are never taken: where both slots are lost, the factory's values remain.
+//!
+//! "Restore defaults" writes a record without the group, and so takes effect when the values are loaded the next time, after a reset, as
+//! CiA 301 says. Values of another layout (of a firmware with other entries) are not taken, either.
+//!
+//! ```ignore
+//! let mut store = ParameterStore::<_, 64>::new(flash, 0x0800_C000, 2048)?;
+//! let loaded = store.load(&mut od, node, &store::ALL); // at power-on, and at "reset node"
+//!
+//! impl Application<Pmc> for Drive {
+//!     fn accept(&mut self, od: &mut Pmc, entry: Entry, _: &[u8]) -> Result<(), AbortCode> {
+//!         match Command::of(od.info(entry).id()) {
+//!             Some(command) => self.store.command(od, command).map(drop).map_err(AbortCode::from),
+//!             None => Ok(()),
+//!         }
+//!     }
+//! }
+//! ```
+
+mod crc;
+mod record;
+#[cfg(test)]
+mod tests;
+
+use core::fmt;
+
+use embedded_storage::nor_flash::NorFlash;
+
+use crate::abort::AbortCode;
+use crate::dictionary::Dictionary;
+use crate::id::EntryId;
+use crate::node_id::NodeId;
+use crate::storage::record::{
+    EMPTY_RECORD, Part, Reader, SECTION, STORED, Section, Slot, Unreadable, Writer,
+};
+use crate::table::{Region, Storage};
+
+/// The groups that a client stores: those of sub-index 1.
+pub const ALL: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
+
+/// Parameters in two slots of a flash, read and written `CHUNK` bytes at a time: a multiple of the sizes that the flash reads and writes.
+#[derive(Debug)]
+pub struct ParameterStore<F, const CHUNK: usize> {
+    flash: F,
+    slots: [Slot; 2],
+}
+
+/// Why a part of a flash cannot be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum BadArea {
+    /// The start or the size of a slot is no multiple of what the flash erases.
+    EraseSize,
+    /// `CHUNK` is 0, or no multiple of what the flash reads or writes, or a slot is no multiple of it.
+    ChunkSize,
+    /// The flash ends before the slots do.
+    Capacity,
+}
+
+/// Why parameters were not stored; those of before are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum StoreError<E> {
+    /// What the flash says.
+    Flash(E),
+    /// The record is larger than a slot.
+    TooLarge,
+    /// What was written is not what is read.
+    NotVerified,
+}
+
+/// A store that failed is a hardware error (CiA 301 9.6.3, 1010h).
+impl<E> From<StoreError<E>> for AbortCode {
+    fn from(_: StoreError<E>) -> Self {
+        Self::HARDWARE
+    }
+}
+
+impl<E: fmt::Debug> fmt::Display for StoreError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Flash(error) => write!(f, "flash: {error:?}"),
+            Self::TooLarge => f.write_str("the parameters are larger than a slot"),
+            Self::NotVerified => f.write_str("the parameters are not as they were written"),
+        }
+    }
+}
+
+impl<E: fmt::Debug> core::error::Error for StoreError<E> {}
+
+/// In how many slots the newest record is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Copies {
+    /// None: nothing was stored, or everything is lost.
+    None,
+    /// One; [`ParameterStore::repair`] makes it two.
+    One,
+    /// Both.
+    Both,
+}
+
+/// What became of a storage group at loading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Outcome {
+    /// It has the factory's values: it was not stored, or is to be.
+    Defaults,
+    /// It has its stored values.
+    Restored,
+    /// It has the factory's values, because the stored ones are of another layout.
+    OtherLayout,
+}
+
+/// What was loaded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Loaded {
+    /// Where the values were.
+    pub copies: Copies,
+    outcomes: [Outcome; STORED.len()],
+}
+
+impl Loaded {
+    /// What became of a group.
+    pub fn outcome(&self, storage: Storage) -> Outcome {
+        let at = STORED.iter().position(|stored| *stored == storage);
+        at.and_then(|at| self.outcomes.get(at)).copied().unwrap_or(Outcome::Defaults)
+    }
+
+    fn set(&mut self, storage: Storage, outcome: Outcome) {
+        let outcomes = STORED.iter().zip(&mut self.outcomes);
+        outcomes.filter(|(stored, _)| **stored == storage).for_each(|(_, place)| *place = outcome);
+    }
+}
+
+/// What a client tells by a signature in 1010h or 1011h.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Command {
+    /// Store the values of now (1010h), by sub-index.
+    Save(u8),
+    /// The factory's values, from the next reset on (1011h), by sub-index.
+    Restore(u8),
+}
+
+impl Command {
+    /// The command of an entry, if it is one.
+    #[must_use]
+    pub const fn of(entry: EntryId) -> Option<Self> {
+        match (entry.index, entry.sub) {
+            (0x1010, sub @ 1..=127) => Some(Self::Save(sub)),
+            (0x1011, sub @ 1..=127) => Some(Self::Restore(sub)),
+            _ => None,
+        }
+    }
+
+    /// The groups that it is about (CiA 301 9.6.3, 1010h): sub-index 1 all, 2 communication, 3 application, others the manufacturer's.
+    #[must_use]
+    pub const fn groups(self) -> &'static [Storage] {
+        let (Self::Save(sub) | Self::Restore(sub)) = self;
+        match sub {
+            1 => &ALL,
+            2 => &[Storage::Communication],
+            3 => &[Storage::Application],
+            4..=127 => &[Storage::Manufacturer],
+            _ => &[],
+        }
+    }
+}
+
+/// The newest record.
+#[derive(Debug, Clone, Copy)]
+struct Newest {
+    slot: Slot,
+    number: u32,
+    copies: Copies,
+}
+
+impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
+    /// A store in two slots of a size, from an offset in the flash on.
+    ///
+    /// # Errors
+    /// [`BadArea`].
+    pub fn new(flash: F, start: u32, slot_size: u32) -> Result<Self, BadArea> {
+        let size_of = |bytes: usize| u32::try_from(bytes).ok().filter(|bytes| *bytes > 0);
+        let erase = size_of(F::ERASE_SIZE).ok_or(BadArea::EraseSize)?;
+        if slot_size == 0 || !start.is_multiple_of(erase) || !slot_size.is_multiple_of(erase) {
+            return Err(BadArea::EraseSize);
+        }
+        let chunk = size_of(CHUNK).ok_or(BadArea::ChunkSize)?;
+        let fits = CHUNK.is_multiple_of(F::WRITE_SIZE.max(1)) && CHUNK.is_multiple_of(F::READ_SIZE.max(1));
+        if !fits || !slot_size.is_multiple_of(chunk) {
+            return Err(BadArea::ChunkSize);
+        }
+        let middle = start.checked_add(slot_size).ok_or(BadArea::Capacity)?;
+        let end = middle.checked_add(slot_size).ok_or(BadArea::Capacity)?;
+        if usize::try_from(end).map_or(true, |end| end > flash.capacity()) {
+            return Err(BadArea::Capacity);
+        }
+        Ok(Self { flash, slots: [Slot { start, end: middle }, Slot { start: middle, end }] })
+    }
+
+    /// The flash.
+    pub fn into_inner(self) -> F {
+        self.flash
+    }
+
+    /// Puts groups to the values that hold after a reset: the stored ones, else the factory's for the node-ID. At power-on and
+    /// "reset node" that is all groups, at "reset communication" [`Storage::Communication`].
+    pub fn load<'t, D: Dictionary<'t>>(
+        &mut self,
+        dictionary: &mut D,
+        node: NodeId,
+        groups: &[Storage],
+    ) -> Loaded {
+        let none = Loaded { copies: Copies::None, outcomes: [Outcome::Defaults; STORED.len()] };
+        // The newest first; what turns out not to be intact after all leaves the other one.
+        let mut lost = None;
+        while let Some(newest) = self.newest(lost) {
+            reset(dictionary, node, groups);
+            let mut loaded = Loaded { copies: newest.copies, ..none };
+            if self.load_record(newest.slot, dictionary, groups, &mut loaded).is_ok() {
+                return loaded;
+            }
+            if lost.replace(newest.slot).is_some() {
+                break;
+            }
+        }
+        reset(dictionary, node, groups);
+        none
+    }
+
+    fn load_record<'t, D: Dictionary<'t>>(
+        &mut self,
+        slot: Slot,
+        dictionary: &mut D,
+        groups: &[Storage],
+        loaded: &mut Loaded,
+    ) -> Result<(), Unreadable> {
+        let (mut reader, _) = Reader::<CHUNK>::open(&mut self.flash, slot)?;
+        let table = dictionary.table();
+        while let Part::Section(section) = reader.part(&mut self.flash)? {
+            let Section { storage, length, .. } = section;
+            let region = table.region(storage).filter(|region| is_of(section, region));
+            let place = region.and_then(|region| dictionary.image_mut().get_mut(region.range()));
+            match place.filter(|_| groups.contains(&storage)) {
+                Some(place) => {
+                    for byte in place {
+                        *byte = reader.byte(&mut self.flash)?;
+                    }
+                    loaded.set(storage, Outcome::Restored);
+                }
+                None => {
+                    reader.skip(&mut self.flash, length)?;
+                    if groups.contains(&storage) {
+                        loaded.set(storage, Outcome::OtherLayout);
+                    }
+                }
+            }
+        }
+        reader.is_intact(&mut self.flash)
+    }
+
+    /// Carries out a command of a client.
+    ///
+    /// # Errors
+    /// [`StoreError`]; what was stored before is kept.
+    pub fn command<'t, D: Dictionary<'t>>(
+        &mut self,
+        dictionary: &D,
+        command: Command,
+    ) -> Result<Copies, StoreError<F::Error>> {
+        match command {
+            Command::Save(_) => self.save(dictionary, command.groups()),
+            Command::Restore(_) => self.forget(dictionary, command.groups()),
+        }
+    }
+
+    /// Stores the values of now of some groups; those of others stay as they are stored.
+    ///
+    /// # Errors
+    /// [`StoreError`]; what was stored before is kept. [`Copies::One`] if it is stored, but the second copy failed.
+    pub fn save<'t, D: Dictionary<'t>>(
+        &mut self,
+        dictionary: &D,
+        groups: &[Storage],
+    ) -> Result<Copies, StoreError<F::Error>> {
+        self.write(dictionary, groups, groups)
+    }
+
+    /// Forgets the stored values of some groups: the next [`load`](Self::load) gives the factory's.
+    ///
+    /// # Errors
+    /// As [`save`](Self::save).
+    pub fn forget<'t, D: Dictionary<'t>>(
+        &mut self,
+        dictionary: &D,
+        groups: &[Storage],
+    ) -> Result<Copies, StoreError<F::Error>> {
+        self.write(dictionary, groups, &[])
+    }
+
+    /// Makes a second copy where there is one only, as after a power failure or when bits have flipped.
+    ///
+    /// # Errors
+    /// [`StoreError`]; the one copy is kept.
+    pub fn repair(&mut self) -> Result<Copies, StoreError<F::Error>> {
+        match self.newest(None) {
+            Some(newest) if newest.copies == Copies::One => {
+                self.copy(newest.slot, self.other(newest.slot), newest.number)?;
+                Ok(Copies::Both)
+            }
+            Some(newest) => Ok(newest.copies),
+            None => Ok(Copies::None),
+        }
+    }
+
+    /// Writes a record: what is stored, without the groups `but`, and the present values of the groups `with`.
+    fn write<'t, D: Dictionary<'t>>(
+        &mut self,
+        dictionary: &D,
+        but: &[Storage],
+        with: &[Storage],
+    ) -> Result<Copies, StoreError<F::Error>> {
+        let [first, _] = self.slots;
+        if largest(dictionary) > usize::try_from(first.end - first.start).unwrap_or(0) {
+            return Err(StoreError::TooLarge);
+        }
+        let newest = self.newest(None);
+        let slot = newest.map_or(first, |newest| self.other(newest.slot));
+        let number = newest.map_or(0, |newest| newest.number.wrapping_add(1));
+        let mut writer = Writer::<CHUNK>::begin(&mut self.flash, slot, number)?;
+        if let Some(newest) = newest {
+            self.keep(&mut writer, newest.slot, dictionary, but)?;
+        }
+        for storage in STORED.into_iter().filter(|storage| with.contains(storage)) {
+            if let Some(region) = dictionary.table().region(storage) {
+                writer.section(&mut self.flash, section_of(region))?;
+                writer.bytes(&mut self.flash, dictionary.stored(storage))?;
+            }
+        }
+        writer.finish(&mut self.flash)?;
+        self.verify(slot)?;
+        // From here on, the new values are stored.
+        match self.copy(slot, self.other(slot), number) {
+            Ok(()) => Ok(Copies::Both),
+            Err(_) => Ok(Copies::One),
+        }
+    }
+
+    /// Copies the sections of groups that are not written anew, as far as they are of the present layout.
+    fn keep<'t, D: Dictionary<'t>>(
+        &mut self,
+        writer: &mut Writer<CHUNK>,
+        from: Slot,
+        dictionary: &D,
+        but: &[Storage],
+    ) -> Result<(), StoreError<F::Error>> {
+        let (mut reader, _) = Reader::<CHUNK>::open(&mut self.flash, from).map_err(not_verified)?;
+        while let Part::Section(section) = reader.part(&mut self.flash).map_err(not_verified)? {
+            let region = dictionary.table().region(section.storage);
+            let is_kept =
+                !but.contains(&section.storage) && region.is_some_and(|region| is_of(section, region));
+            if is_kept {
+                writer.section(&mut self.flash, section)?;
+            }
+            for _ in 0..section.length {
+                let byte = reader.byte(&mut self.flash).map_err(not_verified)?;
+                if is_kept {
+                    writer.bytes(&mut self.flash, &[byte])?;
+                }
+            }
+        }
+        // What was copied is what was stored: else the new record is never finished.
+        reader.is_intact(&mut self.flash).map_err(not_verified)
+    }
+
+    /// Copies an intact record.
+    fn copy(&mut self, from: Slot, to: Slot, number: u32) -> Result<(), StoreError<F::Error>> {
+        let mut writer = Writer::<CHUNK>::begin(&mut self.flash, to, number)?;
+        let (mut reader, _) = Reader::<CHUNK>::open(&mut self.flash, from).map_err(not_verified)?;
+        while let Part::Section(section) = reader.part(&mut self.flash).map_err(not_verified)? {
+            writer.section(&mut self.flash, section)?;
+            for _ in 0..section.length {
+                let byte = reader.byte(&mut self.flash).map_err(not_verified)?;
+                writer.bytes(&mut self.flash, &[byte])?;
+            }
+        }
+        reader.is_intact(&mut self.flash).map_err(not_verified)?;
+        writer.finish(&mut self.flash)?;
+        self.verify(to)
+    }
+
+    fn verify(&mut self, slot: Slot) -> Result<(), StoreError<F::Error>> {
+        self.check(slot).map(drop).map_err(not_verified)
+    }
+
+    /// The number of a record, if it is intact.
+    fn check(&mut self, slot: Slot) -> Result<u32, Unreadable> {
+        let (mut reader, number) = Reader::<CHUNK>::open(&mut self.flash, slot)?;
+        while let Part::Section(section) = reader.part(&mut self.flash)? {
+            reader.skip(&mut self.flash, section.length)?;
+        }
+        reader.is_intact(&mut self.flash)?;
+        Ok(number)
+    }
+
+    /// The newest intact record, but for a slot.
+    fn newest(&mut self, but: Option<Slot>) -> Option<Newest> {
+        let [first, second] = self.slots;
+        let mut number = |slot| if but == Some(slot) { None } else { self.check(slot).ok() };
+        let one = |slot, number| Newest { slot, number, copies: Copies::One };
+        match (number(first), number(second)) {
+            (Some(number), Some(other)) if number == other => {
+                Some(Newest { copies: Copies::Both, ..one(first, number) })
+            }
+            // Numbers count on beyond their end.
+            (Some(number), Some(other)) if number.wrapping_sub(other) > u32::MAX / 2 => {
+                Some(one(second, other))
+            }
+            (Some(number), _) => Some(one(first, number)),
+            (None, Some(other)) => Some(one(second, other)),
+            (None, None) => None,
+        }
+    }
+
+    fn other(&self, slot: Slot) -> Slot {
+        let [first, second] = self.slots;
+        if slot == first { second } else { first }
+    }
+}
+
+/// A record that was intact a moment ago.
+fn not_verified<E>(_: Unreadable) -> StoreError<E> {
+    StoreError::NotVerified
+}
+
+fn reset<'t, D: Dictionary<'t>>(dictionary: &mut D, node: NodeId, groups: &[Storage]) {
+    for storage in groups {
+        dictionary.reset_stored(*storage, node.get());
+    }
+}
+
+/// The section of a region.
+fn section_of(region: &Region) -> Section {
+    Section {
+        storage: region.storage,
+        layout: region.layout,
+        length: region.end.saturating_sub(region.start),
+    }
+}
+
+/// Whether the values of a section are those of a region.
+fn is_of(section: Section, region: &Region) -> bool {
+    section == section_of(region)
+}
+
+/// Bytes of a record with all groups of a dictionary.
+fn largest<'t, D: Dictionary<'t>>(dictionary: &D) -> usize {
+    dictionary
+        .table()
+        .parts()
+        .regions
+        .iter()
+        .fold(EMPTY_RECORD, |sum, region| sum + SECTION + region.range().len())
+}
