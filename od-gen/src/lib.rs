@@ -32,6 +32,8 @@ pub mod parameters;
 mod plan;
 #[cfg(feature = "eds")]
 pub mod plant;
+#[cfg(feature = "runtime")]
+pub mod runtime;
 pub mod rust;
 pub mod source;
 #[cfg(feature = "xdd")]
