@@ -35,7 +35,11 @@ pub mod plant;
 #[cfg(feature = "runtime")]
 pub mod runtime;
 pub mod rust;
+#[cfg(feature = "runtime")]
+pub mod slcan;
 pub mod source;
+#[cfg(feature = "runtime")]
+pub mod trace;
 #[cfg(feature = "xdd")]
 pub mod xdd;
 #[cfg(feature = "yaml")]
