@@ -17,6 +17,7 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
+//! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
 
 #![no_std]
 #![warn(clippy::missing_errors_doc)]
@@ -49,6 +50,8 @@ pub mod pdo;
 mod pdo_parameters;
 pub mod quantity;
 mod rows;
+#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
+pub mod sdo;
 #[cfg(feature = "critical-section")]
 mod shared;
 mod special;

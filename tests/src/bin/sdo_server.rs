@@ -1,6 +1,7 @@
 //! A generated dictionary behind an SDO server, for clients that others wrote: `sdo-server fullmo|pmc|pmm NODE`.
 //!
-//! Every line of standard input is one request of eight bytes in hexadecimal; every line of standard output, one answer.
+//! Every line of standard input is one request of eight bytes in hexadecimal; for each, standard output has the frames that it is
+//! answered with, one a line, and an empty line.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 
@@ -35,8 +36,12 @@ fn serve<const BUFFER: usize>(dictionary: impl Dictionary<'static>) {
             eprintln!("not eight bytes: {line}");
             continue;
         };
-        let answer = server.answer(request).unwrap_or_default();
-        println!("{}", answer.map(|byte| format!("{byte:02x}")).concat());
+        let mut answer = server.answer(request);
+        while let Some(bytes) = answer {
+            println!("{}", bytes.map(|byte| format!("{byte:02x}")).concat());
+            answer = server.next();
+        }
+        println!();
     }
 }
 
