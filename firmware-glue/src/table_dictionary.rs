@@ -2,10 +2,13 @@
 
 use core::fmt;
 
+use crate::abort::AbortCode;
 use crate::dictionary::Dictionary;
 use crate::entries::Entries;
 use crate::id::EntryId;
+use crate::stored::value_of;
 use crate::table::{Row, Table};
+use crate::value::Value;
 
 /// A table, and values in bytes of any kind (`Vec<u8>`, `[u8; N]`, `&mut [u8]`): what a host program serves for a device that
 /// it knows from a file. Entries are named by index and sub-index.
@@ -50,6 +53,15 @@ impl<'t, I: AsRef<[u8]> + AsMut<[u8]>> TableDictionary<'t, I> {
         let mut dictionary = Self { table, image };
         dictionary.reset(node_id);
         Ok(dictionary)
+    }
+
+    /// The value in a row, whatever its access: what conditions between entries are about.
+    ///
+    /// # Errors
+    /// [`AbortCode::UNSUPPORTED_ACCESS`] for a DOMAIN and a row that nothing has, what an alias says about a value that it
+    /// cannot show.
+    pub fn held(&self, row: Row) -> Result<Value<'_>, AbortCode> {
+        value_of(self.table, self.image.as_ref(), self.table.found(row))
     }
 }
 

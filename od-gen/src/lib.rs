@@ -32,8 +32,14 @@ pub mod parameters;
 mod plan;
 #[cfg(feature = "eds")]
 pub mod plant;
+#[cfg(feature = "runtime")]
+pub mod runtime;
 pub mod rust;
+#[cfg(feature = "runtime")]
+pub mod slcan;
 pub mod source;
+#[cfg(feature = "runtime")]
+pub mod trace;
 #[cfg(feature = "xdd")]
 pub mod xdd;
 #[cfg(feature = "yaml")]

@@ -11,6 +11,8 @@ mod reading;
 pub use fault::Fault;
 #[cfg(feature = "json")]
 pub use listing::Listing;
+#[cfg(feature = "runtime")]
+pub(crate) use reading::words;
 pub use reading::{Reading, Remark, Values, reading, values};
 
 use od_spec::model::{EntryId, Index, SubIndex, Write};

@@ -119,7 +119,7 @@ pub fn reading(device: &Dictionary, node: Option<u8>, record: &Record<'_>) -> Re
 }
 
 /// A value in words, with the bits that it sets.
-fn words(object: &Object, entry: &Entry, value: &Value) -> String {
+pub(crate) fn words(object: &Object, entry: &Entry, value: &Value) -> String {
     let wording = Wording::english(Notation::Diagnostic);
     let text = wording.value(Some(object.index), entry, value);
     let named = entry.named_type.as_ref().map(|named| &named.kind);

@@ -22,18 +22,22 @@ pub(crate) fn decided<'a>(
 ) -> Cow<'a, Dictionary> {
     match system.source {
         SystemSource::Specification => Cow::Borrowed(device),
-        SystemSource::Eds => {
-            let mut device = device.clone();
-            names::tell_apart(&mut device, language);
-            for entry in device.objects.values_mut().flat_map(|object| &mut object.entries) {
-                if let Some(capacity) = capacity(entry).filter(|_| entry.capacity.is_none()) {
-                    entry.capacity = Some(capacity);
-                    entry.facts.state(Fact::Capacity, Statement::derived(entry.span));
-                }
-            }
-            Cow::Owned(device)
+        SystemSource::Eds => Cow::Owned(decided_anyhow(device, language)),
+    }
+}
+
+/// The device with names that differ and with capacities, whatever it was read from: where nobody will see a name, nobody is
+/// asked for one.
+pub(crate) fn decided_anyhow(device: &Dictionary, language: &dyn Language) -> Dictionary {
+    let mut device = device.clone();
+    names::tell_apart(&mut device, language);
+    for entry in device.objects.values_mut().flat_map(|object| &mut object.entries) {
+        if let Some(capacity) = capacity(entry).filter(|_| entry.capacity.is_none()) {
+            entry.capacity = Some(capacity);
+            entry.facts.state(Fact::Capacity, Statement::derived(entry.span));
         }
     }
+    device
 }
 
 /// The capacity of a text or of bytes: as long as the default, and at least [`LEAST_CAPACITY`]. A constant has its own length,

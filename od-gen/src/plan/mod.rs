@@ -29,8 +29,12 @@ use od_spec::start_of_code;
 pub(crate) use self::condition::{Compare, Condition, Sum};
 pub(crate) use self::directory::{Block, Directory};
 pub(crate) use self::foreign::decided;
+#[cfg(feature = "runtime")]
+pub(crate) use self::foreign::decided_anyhow;
 pub(crate) use self::groups::Groups;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
+#[cfg(feature = "runtime")]
+pub(crate) use self::layout::Region;
 pub(crate) use self::layout::{Layout, Place, lay_out};
 use self::names::Scope;
 pub(crate) use self::names::Words;

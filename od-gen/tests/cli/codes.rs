@@ -6,7 +6,7 @@ use crate::provoked::PROVOKED;
 use crate::{Scratch, odgen, stderr};
 
 /// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
-/// refuses for something, two files that are no concise DCF, three that are no XDD, and an XDD with a fault of
+/// refuses for something, two files that are no concise DCF, a trace with a bad line, three that are no XDD, and an XDD with a fault of
 /// each kind.
 const FILES: &[(&str, &str)] = &[
     (
@@ -18,6 +18,7 @@ const FILES: &[(&str, &str)] = &[
     ("readers.eds", include_str!("eds/readers.eds")),
     ("cut.bin", "\u{1}"),
     ("long.bin", "\0\0\0\0\u{1}"),
+    ("bad.log", "can0 18x#\n"),
     ("open.xdd", "<a>"),
     ("typed.xdd", "<!DOCTYPE a><a/>"),
     ("other.xdd", "<a/>"),

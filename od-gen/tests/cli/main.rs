@@ -10,6 +10,7 @@ mod check_readers;
 mod codes;
 mod concise;
 mod dcf;
+mod decode;
 mod diff;
 mod docs;
 mod files;

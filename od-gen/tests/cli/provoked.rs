@@ -31,6 +31,10 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "OD0711", arguments: &["docs", "lamp.od.yaml", "--templates", "templates"] },
     Provocation { code: "OD0712", arguments: &["concise", "show", "cut.bin", "lamp.od.yaml"] },
     Provocation { code: "OD0713", arguments: &["concise", "show", "long.bin", "lamp.od.yaml"] },
+    Provocation {
+        code: "OD0714",
+        arguments: &["decode", "lamp.od.yaml", "--node", "5", "--trace", "bad.log"],
+    },
     Provocation { code: "OD0811", arguments: &["check", "lamp.od.yaml", "--notes"] },
     Provocation { code: "XDD101", arguments: &["check", "open.xdd"] },
     Provocation { code: "XDD102", arguments: &["check", "typed.xdd"] },

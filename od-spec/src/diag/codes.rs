@@ -172,6 +172,8 @@ codes! {
         "A concise DCF (CiA 302-3, object 1F22h) is the number of its records, 4 bytes, and then the records: index, sub-index, number of bytes, the bytes. The file ends within its number, within the head of a record or within a value; or it has fewer records than it says. A master stops at such a place, after it has written what stands before. Make the file again; a frequent cause are generators that write values of 24, 40, 48 or 56 bits with more bytes than they count."
     CONCISE_TOO_LONG Error "OD0713" "a concise DCF with more than its records":
         "Behind as many records as a concise DCF says it has, the file goes on. A master never sees that part. Either the number at the beginning is too small, or the file is none of this kind."
+    BAD_TRACE_LINE Error "OD0714" "a line of a trace that cannot be read":
+        "A trace has a frame on each line, in one of three notations: as `candump -L` logs it, `(1700000000.123456) can0 181#0102`; as `candump` prints it, `can0  181   [2]  01 02`; or as an adapter with SLCAN sends it, `t18120102`. Empty lines and those that begin with `#` or `;` are left out. Every other line is read or reported, so that no frame is missed in silence; the lines behind it are read all the same."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
         "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
     UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":

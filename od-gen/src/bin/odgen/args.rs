@@ -1,5 +1,6 @@
 //! The command line.
 
+mod bus;
 mod node;
 mod plant;
 
@@ -9,6 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
 use od_spec::eds::readers::Reader;
 
+pub(crate) use bus::{DecodeArgs, NodesArgs};
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, ShowFormat};
 
@@ -100,6 +102,7 @@ impl Cli {
             Command::Build(args) => args.messages.format,
             Command::Check(args) => args.format.map(CheckFormat::of_messages),
             Command::Dcf(args) => args.messages.format,
+            Command::Decode(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
             Command::Import(args) => args.messages.format,
@@ -155,6 +158,8 @@ pub(crate) enum Command {
     Concise(ConciseArgs),
     /// Make the DCF of one node, with parameter values of your own
     Dcf(DcfArgs),
+    /// Tell what the frames of a recorded trace say: services, entries and values in units, states, errors
+    Decode(DecodeArgs),
     /// Tell what differs between two dictionaries, and what each change breaks
     Diff(DiffArgs),
     /// Print the resolved model as JSON

@@ -2,9 +2,11 @@
 
 mod args;
 mod build;
+mod bus_nodes;
 mod check;
 mod concise;
 mod dcf;
+mod decode;
 mod diff;
 mod docs;
 mod errata;
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         }
         Command::Concise(args) => concise::run(&args, directory, &report),
         Command::Dcf(args) => dcf::run(&args, directory, &report),
+        Command::Decode(args) => decode::run(&args, directory, &report),
         Command::Diff(args) => diff::run(&args, cli.color, &report),
         Command::Docs(args) => docs::run(&args, directory, &report),
         Command::Dump(args) => dump(&args, directory, &report),

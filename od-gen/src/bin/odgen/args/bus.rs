@@ -1,0 +1,36 @@
+//! Arguments of the commands that are about nodes on a bus.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Messages;
+
+/// Which nodes there are, and by which specifications.
+#[derive(Debug, Args)]
+pub(crate) struct NodesArgs {
+    /// Specifications, EDS, DCF, XDD or XDC files of the nodes [default: the only `*.od.yaml` of the current directory]
+    #[arg(value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+
+    /// A node: its node-ID, or `ID=KEY` with the key of its device; can be given several times [default: those of the DCFs]
+    #[arg(long, value_name = "ID[=KEY]")]
+    pub node: Vec<String>,
+
+    /// Key of the device of nodes that name none [default: the only one]
+    #[arg(long, value_name = "KEY")]
+    pub device: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DecodeArgs {
+    #[command(flatten)]
+    pub nodes: NodesArgs,
+
+    /// The trace: what `candump` prints or logs, or lines of SLCAN; can be given several times [default: standard input]
+    #[arg(long, value_name = "FILE")]
+    pub trace: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}

@@ -1,0 +1,115 @@
+//! The nodes that a command line names.
+
+use std::path::Path;
+
+use od_spec::diag::{Diagnostic, codes};
+use od_spec::model::{Dictionary, System};
+use od_spec::visible::visible;
+
+use super::args::NodesArgs;
+use super::report::{Report, node_id};
+use super::{ERRORS, specs};
+
+/// Nodes, and what their devices belong to.
+pub(crate) struct BusNodes {
+    systems: Vec<System>,
+    nodes: Vec<BusNode>,
+}
+
+struct BusNode {
+    id: u8,
+    /// Position of its system.
+    system: usize,
+    /// Its device; of a DCF with the values of the node as defaults.
+    device: Dictionary,
+}
+
+impl BusNodes {
+    /// The nodes, each with its node-ID, its system and its device.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u8, &System, &Dictionary)> {
+        self.nodes.iter().filter_map(|node| Some((node.id, self.systems.get(node.system)?, &node.device)))
+    }
+
+    /// Reads the specifications of a command line and finds its nodes in them; the exit code after a message when it cannot.
+    pub(crate) fn read(args: &NodesArgs, directory: &Path, report: &Report) -> Result<Self, u8> {
+        let paths = if args.specs.is_empty() {
+            vec![specs::one(None, directory, report)?]
+        } else {
+            specs::all(&args.specs, directory, report)?
+        };
+        let (mut systems, mut configured) = (Vec::new(), Vec::new());
+        for path in &paths {
+            let (used, _) = report.compile_with_sources(path).ok_or(ERRORS)?;
+            configured.push(used.stated_node());
+            systems.push(used.system);
+        }
+        let mut found = Self { systems, nodes: Vec::new() };
+        let mut named: Vec<(u8, Option<&str>)> = Vec::new();
+        for text in &args.node {
+            let (id, key) = match text.split_once('=') {
+                Some((id, key)) => (id, Some(key.trim())),
+                None => (text.as_str(), args.device.as_deref()),
+            };
+            named.push((node_id(id).map_err(|diagnostic| report.refuse(diagnostic))?, key));
+        }
+        for (id, key) in named {
+            let (system, device) = found.device(key, report)?;
+            // A DCF says what its own node is set to; another node of the device has the defaults.
+            let node = configured.get(system).and_then(Option::as_ref).filter(|node| node.node == id);
+            let device = node.map_or_else(|| device.clone(), |node| node.configured(device));
+            found.push(BusNode { id, system, device }, report)?;
+        }
+        if args.node.is_empty() {
+            for (system, node) in configured.iter().enumerate() {
+                let Some(node) = node else { continue };
+                let Some(device) = found.systems.get(system).and_then(|system| system.devices.first()) else {
+                    continue;
+                };
+                let device = node.configured(device);
+                found.push(BusNode { id: node.node, system, device }, report)?;
+            }
+        }
+        if found.nodes.is_empty() {
+            let message = "no node is named, and no DCF states one";
+            return Err(report.refuse(Diagnostic::without_place(codes::BAD_NODE_ID, message).help(
+                "add `--node ID=KEY` for each node: its node-ID, 1 to 127, and the key of its device",
+            )));
+        }
+        Ok(found)
+    }
+
+    /// The device with a key in any of the specifications, or the only one; with the position of its system.
+    fn device(&self, key: Option<&str>, report: &Report) -> Result<(usize, &Dictionary), u8> {
+        let all = || {
+            let systems = self.systems.iter().enumerate();
+            systems.flat_map(|(at, system)| system.devices.iter().map(move |device| (at, device)))
+        };
+        if let Some(key) = key {
+            let found = all().find(|(_, device)| device.key == key);
+            return found.ok_or_else(|| report.unknown_device(self.systems.iter(), key));
+        }
+        let mut devices = all();
+        if let (Some(only), None) = (devices.next(), devices.next()) {
+            return Ok(only);
+        }
+        let keys: Vec<String> = all().map(|(_, device)| format!("`{}`", device.key)).collect();
+        let message = format!("a node names no device, and the specifications have {}", keys.len());
+        let help = match keys.as_slice() {
+            [] => "name a specification that describes devices, not a library".to_owned(),
+            keys => format!("write `--node ID=KEY`, or add `--device KEY`: {}", keys.join(", ")),
+        };
+        Err(report.refuse(Diagnostic::without_place(codes::UNKNOWN_DEVICE, message).help(help)))
+    }
+
+    fn push(&mut self, node: BusNode, report: &Report) -> Result<(), u8> {
+        if self.nodes.iter().any(|other| other.id == node.id) {
+            let message = format!("two nodes have the node-ID {}", node.id);
+            return Err(report.refuse(
+                Diagnostic::without_place(codes::BAD_NODE_ID, message)
+                    .help(format!("give `{}` a node-ID of its own", visible(&node.device.key))),
+            ));
+        }
+        self.nodes.push(node);
+        Ok(())
+    }
+}
