@@ -2,6 +2,8 @@
 
 mod entry;
 mod pdos;
+pub(crate) mod plant;
+mod setting;
 
 use std::ops::RangeInclusive;
 
@@ -22,6 +24,9 @@ pub(crate) use entry::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SpecialDec
 pub(crate) use pdos::{
     MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };
+
+pub(crate) use setting::Reference;
+pub use setting::SettingDecl;
 
 pub(crate) type Words = Option<Spanned<Text>>;
 pub(crate) type Name = Spanned<String>;

@@ -1,10 +1,10 @@
 //! Notations inside scalars: indices, entries, bits, dates, access, patterns.
 
+use crate::ast::plant::MachineKey;
 use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange, NumberRange, SubIndexRange};
 use crate::model::{
     Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
 };
-use crate::plant::decl::MachineKey;
 use crate::scalar;
 
 /// An entry by index.

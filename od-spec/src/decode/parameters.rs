@@ -3,7 +3,7 @@
 use super::entry::default;
 use super::read::{Reader, owned};
 use crate::ast::Name;
-use crate::parameters::SettingDecl;
+use crate::ast::SettingDecl;
 use crate::source::Spanned;
 use crate::yaml::Node;
 

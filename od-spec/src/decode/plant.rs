@@ -3,7 +3,7 @@
 use super::lexical;
 use super::parameters::{reader, settings, within, words};
 use super::read::{Reader, owned};
-use crate::plant::decl::{
+use crate::ast::plant::{
     DeviceDecl, LevelDecl, MachineDecl, MasterDecl, NodeDecl, PlantDecl, PositionDecl, SiteDecl, TypeDecl,
 };
 use crate::source::Spanned;

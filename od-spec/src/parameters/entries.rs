@@ -1,7 +1,7 @@
 //! The entries of a device, as settings name them.
 
-use super::decl::Reference;
 use crate::ast::Name;
+use crate::ast::Reference;
 use crate::diag::{Diagnostic, Suggestions, codes, shorten};
 use crate::model::{Dictionary, Entry, EntryId, Index, Object, SubIndex};
 use crate::resolve::{self, NotFound};

@@ -1,8 +1,8 @@
 //! Parameter files: what is settled for one node, as a person writes and keeps it.
 
-use super::decl::SettingDecl;
 use super::layers::Layer;
 use crate::ast::Name;
+use crate::ast::SettingDecl;
 use crate::commissioning::{self, Commissioning, TextOfNode};
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};

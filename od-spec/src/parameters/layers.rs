@@ -3,10 +3,10 @@
 use std::borrow::Borrow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::decl::SettingDecl;
 use super::entries::Entries;
 use super::{Setting, overlay, read};
 use crate::ast::Name;
+use crate::ast::SettingDecl;
 use crate::check;
 use crate::commissioning::ParameterValues;
 use crate::diag::{Diagnostic, Diagnostics, codes};

@@ -1,14 +1,14 @@
 //! Parameter values for one device: what a DCF carries beyond the defaults. Settings are read here and laid over the model;
 //! whether the result is right is for the rules to say, the same ones as for a specification.
 
-mod decl;
+mod assignment;
 mod entries;
 mod file;
 mod layers;
 mod overlay;
 mod read;
 
-pub use decl::SettingDecl;
+pub use crate::ast::SettingDecl;
 pub use file::{ParameterFile, is_parameter_file, parameter_file, settings_of_map};
 pub use layers::{Assigned, Layer, Origin, assign_layers};
 pub(crate) use layers::{Laid, lay_over};
@@ -103,7 +103,7 @@ pub(crate) fn assign_with(
 pub fn settings(assignments: &[Assignment], diagnostics: &mut Diagnostics) -> Vec<SettingDecl> {
     let mut settings = Vec::new();
     for assignment in assignments {
-        match SettingDecl::of_assignment(assignment) {
+        match assignment::setting(assignment) {
             Ok(setting) => settings.push(setting),
             Err(diagnostic) => diagnostics.push(diagnostic),
         }

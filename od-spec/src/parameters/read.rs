@@ -1,9 +1,9 @@
 //! One setting: which entry, and which value of its type.
 
 use super::Setting;
-use super::decl::SettingDecl;
 use super::entries::Entries;
 use crate::ast::DefaultDecl;
+use crate::ast::SettingDecl;
 use crate::diag::{Diagnostic, Diagnostics, Suggestions, codes};
 use crate::model::{Alias, DataType, Dictionary, Entry, EntryId, NamedType, Ratio, TypeKind, Value};
 use crate::resolve::{bit_values, consumers, values};

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::decl::{LevelDecl, PlantDecl, TypeDecl};
 use crate::ast::Name;
+use crate::ast::plant::{LevelDecl, PlantDecl, TypeDecl};
 use crate::decode::is_device_key;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::decl::{LevelDecl, MachineDecl, MachineKey, NodeDecl, PlantDecl, SiteDecl, TypeDecl};
 use super::{Level, Machine, Plant, PlantLayer, PlantNode};
 use crate::ast::Name;
+use crate::ast::plant::{LevelDecl, MachineDecl, MachineKey, NodeDecl, PlantDecl, SiteDecl, TypeDecl};
 use crate::commissioning::TextOfNode;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::NODES_OF_PLANT;

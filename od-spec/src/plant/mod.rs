@@ -8,7 +8,6 @@
 
 mod bus;
 mod classes;
-pub(crate) mod decl;
 mod findings;
 mod levels;
 mod machines;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::decl::{DeviceDecl, PlantDecl};
 use super::{MachineType, Master, Plant, PlantDevice, Site, classes, levels, machines};
+use crate::ast::plant::{DeviceDecl, PlantDecl};
 use crate::compile::{Compiled, compile};
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};

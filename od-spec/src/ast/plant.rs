@@ -1,7 +1,6 @@
 //! A plant as it is written: every leaf has its place.
 
-use crate::ast::Name;
-use crate::parameters::SettingDecl;
+use super::{Name, SettingDecl};
 use crate::source::{Span, Spanned};
 
 /// A plant file.

@@ -1,0 +1,52 @@
+//! Settings as they are written: in a text, or as the entries of a YAML map.
+
+use super::{DefaultDecl, Name};
+use crate::source::{Span, Spanned};
+
+/// A setting as it is written: which entry, and its value.
+#[derive(Debug, Clone)]
+pub struct SettingDecl {
+    /// The entry.
+    pub(crate) reference: Reference,
+    /// The value.
+    pub(crate) value: Spanned<DefaultDecl>,
+    /// Where the setting stands.
+    pub(crate) span: Span,
+}
+
+/// How a setting names its entry.
+#[derive(Debug, Clone)]
+pub(crate) enum Reference {
+    /// In one text: `607D.2`, `position limits.upper`.
+    Whole(Name),
+    /// An object, and one of its entries below it.
+    Member {
+        /// The object, by index or name.
+        object: Name,
+        /// The entry, by sub-index or name.
+        entry: Name,
+    },
+}
+
+impl SettingDecl {
+    /// A key of a YAML map with its value. What stands below the name of an object are values of its entries.
+    pub(crate) fn of_key(key: &Name, value: &Spanned<DefaultDecl>) -> Vec<Self> {
+        let one = |reference, key: &Name, value: &Spanned<DefaultDecl>| Self {
+            reference,
+            value: value.clone(),
+            span: key.span.to(value.span),
+        };
+        match &value.value {
+            DefaultDecl::ByDevice(members) => members
+                .iter()
+                .map(|(entry, value)| {
+                    let reference = Reference::Member { object: key.clone(), entry: entry.clone() };
+                    one(reference, entry, value)
+                })
+                .collect(),
+            DefaultDecl::One(_) | DefaultDecl::Each(_) => {
+                vec![one(Reference::Whole(key.clone()), key, value)]
+            }
+        }
+    }
+}
