@@ -1,6 +1,6 @@
 //! What every backend gives: files, not yet written.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A file to be written.
@@ -58,7 +58,7 @@ impl OutputFile for SharedFile {
 /// Pieces of files, each once in memory, however many files have it.
 #[derive(Debug, Default)]
 pub struct Pool {
-    known: Mutex<HashSet<Arc<[u8]>>>,
+    known: Mutex<BTreeSet<Arc<[u8]>>>,
 }
 
 impl Pool {

@@ -3,7 +3,7 @@
 //!
 //! It is as little of the format as spreadsheets need: a sheet, its texts, and three styles.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use od_spec::plant::{Plant, Settled};
@@ -48,7 +48,7 @@ struct Book {
     /// The rows of each sheet, and how many there are.
     sheets: Vec<(String, usize)>,
     /// Each text with its number.
-    texts: HashMap<String, usize>,
+    texts: BTreeMap<String, usize>,
     /// The texts in the order of their numbers, as elements.
     elements: String,
     is_full: bool,
@@ -56,7 +56,13 @@ struct Book {
 
 impl Book {
     fn new(most_rows: usize) -> Self {
-        Self { most_rows, sheets: Vec::new(), texts: HashMap::new(), elements: String::new(), is_full: false }
+        Self {
+            most_rows,
+            sheets: Vec::new(),
+            texts: BTreeMap::new(),
+            elements: String::new(),
+            is_full: false,
+        }
     }
 
     /// A row below those before it; the next sheet begins with the titles, too.
