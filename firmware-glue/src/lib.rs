@@ -17,6 +17,7 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
+//! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
 //! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
 
 #![no_std]
@@ -33,6 +34,8 @@ mod constraint;
 mod data_type;
 mod dictionary;
 mod directory;
+#[cfg(feature = "embedded-can")]
+mod driver;
 mod effect;
 mod entries;
 mod fault;
@@ -90,3 +93,8 @@ pub use table_dictionary::{TableDictionary, WrongSize};
 pub use text::{NoFit, Utf16};
 pub use time::Time;
 pub use value::Value;
+
+/// What the README shows compiles.
+#[cfg(all(doctest, feature = "sdo-server"))]
+#[doc = include_str!("../README.md")]
+struct Readme;
