@@ -133,11 +133,17 @@ pub trait Dictionary<'t>: Entries {
         't: 'v,
     {
         let table = self.table();
-        let row = table.find(index, sub)?;
-        if let (Some(entry), true) = (self.entry(row), table.attributes(row).flags.has(Flags::READ)) {
-            application.refresh(self, self.entry(table.holder(row)).unwrap_or(entry));
+        let found = table.lookup(index, sub)?;
+        if !found.shared.flags.has(Flags::READ) {
+            return Err(AbortCode::WRITE_ONLY);
         }
-        self.read(index, sub)
+        if let Some(entry) = self.entry(found.row) {
+            application.refresh(self, self.entry(table.holder(found.row)).unwrap_or(entry));
+        }
+        if index == 0x1003 && sub > 0 {
+            communication::history_has(table, self.image(), sub)?;
+        }
+        value_of(table, self.image(), found)
     }
 
     /// Writes an entry as an SDO client does. The checks come in the order of CiA 301's servers: the entry exists, its

@@ -17,6 +17,7 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
+//! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
 //! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
 //! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`); frames in, frames out, time passed in
 //! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
@@ -36,6 +37,8 @@ mod constraint;
 mod data_type;
 mod dictionary;
 mod directory;
+#[cfg(feature = "embedded-can")]
+mod driver;
 mod effect;
 #[cfg(feature = "node")]
 pub mod emcy;
@@ -111,3 +114,8 @@ pub use table_dictionary::{TableDictionary, WrongSize};
 pub use text::{NoFit, Utf16};
 pub use time::Time;
 pub use value::Value;
+
+/// What the README shows compiles.
+#[cfg(all(doctest, feature = "sdo-server"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -7,7 +7,8 @@
 A NAME picks a program from either folder. Nothing is skipped: what is missing on the machine is named.
 
 `sizes` has the sections of every program and what it links of the parts of core that make firmware
-large, with their callers. All programs but `baseline` are one server of lookups, reads and checked
+large, with their callers. `sdo` is the SDO server of firmware-glue with the PMC. All
+other programs but `baseline` are one server of lookups, reads and checked
 writes (firmware/src/shared), over the PMC and over the model of tests/bench/runtime/scaled.py with
 10 (the fewest that it has), 150 and 2,000 objects, which the crate `scaled` generates when it is
 built. From these three come the bytes that one more entry costs, and of what they are made. An
@@ -18,6 +19,7 @@ entry is what has a sub-index of its own, sub-index 0 of an array or record too.
     hello     a firmware starts and reports
     access    every case of tests/tests/access.rs; firmware/build.rs makes them from the JSON dump
     alias     16-bit aliases of the PMC at the ends of their range
+    sdo-instructions   how many instructions the SDO server takes for a request
 
 The target's core library is taken from the first that there is of
 
@@ -54,6 +56,7 @@ TARGET = "thumbv7em-none-eabi"
 LINKER = "arm-none-eabi-ld"
 QEMU = "qemu-system-arm"
 BOARD = ["-machine", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"]
+COUNTED = {"sdo-instructions": ["-icount", "shift=0"]}  # the clock goes by instructions
 SEMIHOSTING = ["-semihosting-config", "enable=on,target=native"]
 SYSTEM = Path("/usr/bin")  # where a distribution has its Rust
 SECTIONS = [".vector_table", ".text", ".rodata", ".data", ".bss"]
@@ -400,7 +403,7 @@ def lookup(elf: Elf) -> tuple[str, list[str]]:
 
 def passes(name: str, program: Path, timeout: float) -> bool:
     print(f"== {name}", flush=True)
-    command = [QEMU, *BOARD, *SEMIHOSTING, "-kernel", str(program)]
+    command = [QEMU, *BOARD, *COUNTED.get(name, []), *SEMIHOSTING, "-kernel", str(program)]
     try:
         code = subprocess.run(command, check=False, stdin=subprocess.DEVNULL, timeout=timeout).returncode
     except subprocess.TimeoutExpired:
