@@ -17,8 +17,10 @@
 //!
 //! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
-//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`); frames in, frames out, time passed in
+//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`), and all together (`Node`); frames in, frames out,
+//!   time passed in
 //! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
+//! - `sdo-server`: the server of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
 
 #![no_std]
 #![warn(clippy::missing_errors_doc)]
@@ -53,6 +55,8 @@ mod mapping;
 pub mod named;
 #[cfg(feature = "node")]
 pub mod nmt;
+#[cfg(feature = "node")]
+pub mod node;
 #[cfg(any(feature = "node", feature = "storage"))]
 mod node_id;
 mod number;
@@ -64,6 +68,8 @@ pub mod pdo_engine;
 mod pdo_parameters;
 pub mod quantity;
 mod rows;
+#[cfg(feature = "sdo-server")]
+pub mod sdo;
 #[cfg(feature = "critical-section")]
 mod shared;
 mod special;
@@ -97,6 +103,8 @@ pub use image::{
 };
 pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
+#[cfg(feature = "node")]
+pub use node::Node;
 #[cfg(any(feature = "node", feature = "storage"))]
 pub use node_id::NodeId;
 pub use quantity::Quantity;

@@ -3,6 +3,7 @@
 //! The machine changes nothing by itself: it says what the master wants ([`LssEvent`]), and the firmware answers what it could do.
 
 use crate::clock::{Duration, Instant};
+use crate::constraint::Consistent;
 use crate::dictionary::Dictionary;
 use crate::frame::{CanId, Frame};
 use crate::node_id::NodeId;
@@ -127,6 +128,23 @@ pub trait LssHandler {
     fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
         let _ = (node, rate);
         Reply::NotSupported
+    }
+}
+
+/// Cannot switch and cannot store.
+impl LssHandler for () {
+    fn has_bit_rate(&self, _: BitRate) -> bool {
+        false
+    }
+}
+
+impl<A: LssHandler> LssHandler for Consistent<'_, A> {
+    fn has_bit_rate(&self, rate: BitRate) -> bool {
+        self.0.has_bit_rate(rate)
+    }
+
+    fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
+        self.0.store(node, rate)
     }
 }
 

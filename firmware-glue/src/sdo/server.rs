@@ -1,0 +1,361 @@
+//! The server.
+
+#[cfg(feature = "sdo-block")]
+mod blocks;
+
+use super::Channel;
+#[cfg(feature = "sdo-block")]
+use super::block::{Receiver, Sender};
+use super::codec::{Aborted, Answer, Expedited, Request, Segment};
+use super::download::{Download, write_expedited};
+use super::upload::Upload;
+use crate::abort::AbortCode;
+use crate::application::Application;
+use crate::dictionary::Dictionary;
+use crate::frame::Frame;
+use crate::id::EntryId;
+
+/// The server of one SDO channel (CiA 301 7.2.4). A node with several channels has one for each.
+///
+/// The buffer holds the value of a transfer that does not fit into one frame: `[u8; N]`, `&mut [u8]` or `Vec<u8>`, of `LARGEST_VALUE`
+/// bytes for every value of a generated dictionary; a longer value is refused with [`AbortCode::OUT_OF_MEMORY`]. What is
+/// read is copied when the transfer begins, so that its segments belong to one value; what is written is gathered, and
+/// written when it is complete and valid. DOMAINs go to and come from the application in pieces and need no buffer:
+/// what an application got of a DOMAIN does not count before the piece that is the last, and an offset of 0 begins anew.
+///
+/// ```
+/// use firmware_glue::frame::Frame;
+/// use firmware_glue::sdo::{Channel, SdoServer};
+/// # use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place};
+/// # use firmware_glue::{DataType, Storage, Table, TableDictionary};
+/// # const NUMBER: Attributes = Attributes {
+/// #     data_type: DataType::Unsigned16, flags: Flags::READ.with(Flags::WRITE), place: Place::Image,
+/// #     storage: Storage::No, page: 0, size: 2, limits: NONE, values: NONE, condition: NONE,
+/// # };
+/// # let (mut blocks, mut seeds, mut order) = ([Block::FREE; 1], [0; 1], [0; 1]);
+/// # let table = Table::checked(Parts {
+/// #     directory: Directory::arrange(&[0x2000], &mut blocks, &mut seeds, &mut order).ok_or("no room")?,
+/// #     objects: &[0, 1], entries: &[EntryRow { attributes: 0, place: 0 }], attributes: &[NUMBER],
+/// #     factory: &[0x19, 0], ..Parts::EMPTY
+/// # })?;
+/// # let mut dictionary = TableDictionary::new(&table, [0; 2], 1)?;
+/// # let mut application = ();
+/// let channel = Channel::predefined(5).ok_or("1 to 127")?;
+/// let mut server = SdoServer::new(channel, [0; 64]);
+///
+/// // For every frame that comes, with the time in microseconds:
+/// let request = Frame::full(channel.request, [0x40, 0x00, 0x20, 0, 0, 0, 0, 0]);
+/// let answer = server.handle(&request, &mut dictionary, &mut application, 1_000);
+/// assert_eq!(answer, Some(Frame::full(channel.answer, [0x4B, 0x00, 0x20, 0, 0x19, 0, 0, 0])));
+/// // Again and again, until there is nothing to send: segments of blocks, and the end of a transfer that takes too long.
+/// assert_eq!(server.poll(&mut dictionary, &mut application, 2_000), None);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SdoServer<B> {
+    channel: Channel,
+    timeout: u32,
+    #[cfg(feature = "sdo-block")]
+    block_size: u8,
+    /// When the transfer was last seen to go on.
+    heard: u32,
+    transfer: Transfer,
+    buffer: B,
+}
+
+/// What goes on.
+#[derive(Debug, Clone, Copy)]
+enum Transfer {
+    None,
+    Upload {
+        upload: Upload,
+        offset: u32,
+        toggle: bool,
+    },
+    Download {
+        download: Download,
+        toggle: bool,
+    },
+    #[cfg(feature = "sdo-block")]
+    BlockUpload {
+        upload: Upload,
+        sender: Sender,
+        crc: bool,
+        phase: Phase,
+    },
+    #[cfg(feature = "sdo-block")]
+    BlockDownload {
+        download: Download,
+        receiver: Receiver,
+        crc: bool,
+    },
+}
+
+/// Where an upload in blocks is.
+#[cfg(feature = "sdo-block")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// The client has to ask for the first block.
+    Announced,
+    /// Blocks are sent.
+    Sending,
+    /// All came; the client has to say that it knows.
+    Ended,
+}
+
+/// Of an abort when no transfer goes on.
+const NO_ENTRY: EntryId = EntryId { index: 0, sub: 0 };
+
+impl Transfer {
+    fn id(&self) -> EntryId {
+        match self {
+            Self::None => NO_ENTRY,
+            Self::Upload { upload, .. } => upload.id,
+            Self::Download { download, .. } => download.id,
+            #[cfg(feature = "sdo-block")]
+            Self::BlockUpload { upload, .. } => upload.id,
+            #[cfg(feature = "sdo-block")]
+            Self::BlockDownload { download, .. } => download.id,
+        }
+    }
+}
+
+impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
+    /// A server on a channel.
+    pub const fn new(channel: Channel, buffer: B) -> Self {
+        Self {
+            channel,
+            timeout: super::DEFAULT_TIMEOUT,
+            #[cfg(feature = "sdo-block")]
+            block_size: super::DEFAULT_BLOCK_SIZE,
+            heard: 0,
+            transfer: Transfer::None,
+            buffer,
+        }
+    }
+
+    /// Sets after how many microseconds without a request a transfer is given up.
+    pub const fn set_timeout(&mut self, microseconds: u32) {
+        self.timeout = microseconds;
+    }
+
+    /// Sets how many segments a client may send at once in a block, 1 to 127: no more than the CAN driver keeps while the program
+    /// does something else.
+    #[cfg(feature = "sdo-block")]
+    pub fn set_block_size(&mut self, segments: u8) {
+        self.block_size = segments.clamp(1, 127);
+    }
+
+    /// The channel that is served.
+    pub const fn channel(&self) -> Channel {
+        self.channel
+    }
+
+    /// Serves another channel from now on; what goes on ends without a word.
+    pub fn set_channel(&mut self, channel: Channel) {
+        self.channel = channel;
+        self.reset();
+    }
+
+    /// Ends what goes on without a word: after a reset, or when the node is stopped.
+    pub fn reset(&mut self) {
+        self.transfer = Transfer::None;
+    }
+
+    /// Whether a transfer goes on.
+    pub const fn is_busy(&self) -> bool {
+        !matches!(self.transfer, Transfer::None)
+    }
+
+    /// Takes a frame that was received, at a time in microseconds, and gives the one to be sent. Frames with other identifiers,
+    /// remote frames and frames that do not have eight bytes are none of the server's business.
+    ///
+    /// Call it with everything that comes while the node is pre-operational or operational.
+    #[inline]
+    pub fn handle<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        frame: &Frame,
+        dictionary: &mut D,
+        application: &mut A,
+        now: u32,
+    ) -> Option<Frame> {
+        if frame.id() != self.channel.request {
+            return None;
+        }
+        let bytes: [u8; 8] = frame.bytes()?.try_into().ok()?;
+        self.heard = now;
+        let answer = self.take(bytes, dictionary, application)?;
+        Some(Frame::full(self.channel.answer, answer))
+    }
+
+    /// What is to be sent without being asked: segments of a block, one in each call, and
+    /// [`AbortCode::TIMEOUT`] to a client that says nothing.
+    pub fn poll<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+        now: u32,
+    ) -> Option<Frame> {
+        if !self.is_busy() {
+            return None;
+        }
+        #[cfg(feature = "sdo-block")]
+        if let Some(segment) = self.next_of_block(dictionary, application) {
+            self.heard = now;
+            return Some(Frame::full(self.channel.answer, segment));
+        }
+        let _ = (dictionary, application);
+        if now.wrapping_sub(self.heard) < self.timeout {
+            return None;
+        }
+        let id = self.transfer.id();
+        Some(Frame::full(self.channel.answer, self.abort(id, AbortCode::TIMEOUT)))
+    }
+
+    /// The answer to eight bytes.
+    fn take<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        bytes: [u8; 8],
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Option<[u8; 8]> {
+        #[cfg(feature = "sdo-block")]
+        if self.is_taking_blocks() {
+            return self.take_segment(bytes, dictionary, application);
+        }
+        let (id, outcome) = match Request::decode(bytes) {
+            Some(Request::Upload { id }) => (id, self.begin_upload(id, dictionary, application)),
+            Some(Request::DownloadExpedited { id, value }) => {
+                self.transfer = Transfer::None;
+                let written = write_expedited(id, value, dictionary, application);
+                (id, written.map(|()| Answer::Download { id }))
+            }
+            Some(Request::Abort(_)) => {
+                self.transfer = Transfer::None;
+                return None;
+            }
+            #[cfg(feature = "sdo-block")]
+            Some(
+                request @ (Request::BlockDownload { .. }
+                | Request::BlockDownloadEnd { .. }
+                | Request::BlockUpload { .. }
+                | Request::BlockUploadStart
+                | Request::BlockUploadReceived(_)
+                | Request::BlockUploadEnd),
+            ) => return self.take_block(request, dictionary, application),
+            other => return Some(self.take_other(other, dictionary, application)),
+        };
+        Some(match outcome {
+            Ok(answer) => answer.encode(),
+            Err(code) => self.abort(id, code),
+        })
+    }
+
+    /// The answer to what belongs to a transfer in segments. A function of its own, as it is rare and has much to keep.
+    #[inline(never)]
+    fn take_other<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        request: Option<Request>,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> [u8; 8] {
+        let mut id = self.transfer.id();
+        let outcome = match request {
+            Some(Request::Download { id: begun, size }) => {
+                id = begun;
+                self.begin_download(id, size, dictionary)
+            }
+            Some(Request::UploadSegment { toggle }) => self.upload_segment(toggle, dictionary, application),
+            Some(Request::DownloadSegment(segment)) => {
+                self.download_segment(segment, dictionary, application)
+            }
+            // What has no meaning here, or none at all.
+            Some(_) | None => Err(AbortCode::COMMAND),
+        };
+        match outcome {
+            Ok(answer) => answer.encode(),
+            Err(code) => self.abort(id, code),
+        }
+    }
+
+    /// Ends the transfer.
+    #[cold]
+    fn abort(&mut self, id: EntryId, code: AbortCode) -> [u8; 8] {
+        self.transfer = Transfer::None;
+        Aborted { id, code }.encode()
+    }
+
+    fn begin_upload<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        id: EntryId,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<Answer, AbortCode> {
+        self.transfer = Transfer::None;
+        let upload = match dictionary.upload(id.index, id.sub, application) {
+            Ok(value) => match Expedited::new(&value) {
+                Some(value) => return Ok(Answer::UploadExpedited { id, value }),
+                None => Upload::of_value(id, &value, self.buffer.as_mut()),
+            },
+            Err(code) => Err(code),
+        };
+        let upload = upload.or_else(|code| Upload::of_refused(id, code, dictionary, application))?;
+        self.transfer = Transfer::Upload { upload, offset: 0, toggle: false };
+        Ok(Answer::Upload { id, size: upload.size() })
+    }
+
+    fn upload_segment<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        asked: bool,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<Answer, AbortCode> {
+        let Transfer::Upload { upload, offset, toggle } = &mut self.transfer else {
+            return Err(AbortCode::COMMAND);
+        };
+        if asked != *toggle {
+            return Err(AbortCode::TOGGLE_BIT);
+        }
+        let piece = upload.piece(*offset, self.buffer.as_ref(), dictionary, application)?;
+        *offset = offset.checked_add(u32::from(7 - piece.unused())).ok_or(AbortCode::TOO_LONG)?;
+        *toggle = !asked;
+        if piece.last {
+            self.transfer = Transfer::None;
+        }
+        Ok(Answer::UploadSegment(Segment { toggle: asked, piece }))
+    }
+
+    fn begin_download<'t, D: Dictionary<'t>>(
+        &mut self,
+        id: EntryId,
+        size: Option<u32>,
+        dictionary: &D,
+    ) -> Result<Answer, AbortCode> {
+        let download = Download::begin(id, size, self.buffer.as_ref(), dictionary)?;
+        self.transfer = Transfer::Download { download, toggle: false };
+        Ok(Answer::Download { id })
+    }
+
+    fn download_segment<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        Segment { toggle: sent, piece }: Segment,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<Answer, AbortCode> {
+        let Transfer::Download { download, toggle } = &mut self.transfer else {
+            return Err(AbortCode::COMMAND);
+        };
+        if sent != *toggle {
+            return Err(AbortCode::TOGGLE_BIT);
+        }
+        download.put(piece.bytes(), piece.last, self.buffer.as_mut(), dictionary, application)?;
+        *toggle = !sent;
+        if piece.last {
+            self.transfer = Transfer::None;
+        }
+        Ok(Answer::DownloadSegment { toggle: sent })
+    }
+}
+
+#[cfg(test)]
+mod tests;

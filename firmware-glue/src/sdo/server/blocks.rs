@@ -1,0 +1,174 @@
+//! The server's side of block transfers (CiA 301 7.2.4.2.9 to 7.2.4.2.16).
+
+use super::super::block::{Receiver, Sender};
+use super::super::codec::{Answer, BlockSegment, Received, Request};
+use super::super::download::Download;
+use super::super::upload::Upload;
+use super::{Phase, SdoServer, Transfer};
+use crate::abort::AbortCode;
+use crate::application::Application;
+use crate::dictionary::Dictionary;
+use crate::id::EntryId;
+
+impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
+    /// Whether what comes is a segment of a block.
+    pub(super) const fn is_taking_blocks(&self) -> bool {
+        matches!(&self.transfer, Transfer::BlockDownload { receiver, .. } if !receiver.is_complete())
+    }
+
+    /// The answer to a segment of a block: at the end of the block, or when something is wrong.
+    #[inline(never)]
+    pub(super) fn take_segment<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        bytes: [u8; 8],
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Option<[u8; 8]> {
+        let Transfer::BlockDownload { download, receiver, .. } = &mut self.transfer else { return None };
+        let id = download.id;
+        let Ok(segment) = BlockSegment::decode(bytes) else {
+            self.transfer = Transfer::None;
+            return None;
+        };
+        let taken = receiver.take(segment).and_then(|taken| {
+            if let Some(bytes) = taken.bytes {
+                download.put(&bytes, false, self.buffer.as_mut(), dictionary, application)?;
+            }
+            Ok(taken.received)
+        });
+        match taken {
+            Ok(received) => Some(Answer::BlockDownloadReceived(received?).encode()),
+            Err(code) => Some(self.abort(id, code)),
+        }
+    }
+
+    /// The answer to a request about blocks.
+    #[inline(never)]
+    pub(super) fn take_block<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        request: Request,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Option<[u8; 8]> {
+        let mut id = self.transfer.id();
+        match self.answer_block(request, &mut id, dictionary, application) {
+            Ok(answer) => answer,
+            Err(code) => Some(self.abort(id, code)),
+        }
+    }
+
+    /// The same; the entry is changed to the one that a request names.
+    fn answer_block<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        request: Request,
+        id: &mut EntryId,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<Option<[u8; 8]>, AbortCode> {
+        match request {
+            Request::BlockDownload { id: begun, crc, size } => {
+                *id = begun;
+                let download = Download::begin(begun, size, self.buffer.as_ref(), dictionary)?;
+                let receiver = Receiver::new(self.block_size);
+                self.transfer = Transfer::BlockDownload { download, receiver, crc };
+                Ok(Some(Answer::BlockDownload { id: begun, crc: true, block_size: self.block_size }.encode()))
+            }
+            Request::BlockDownloadEnd { unused, crc: sum } => {
+                let Transfer::BlockDownload { download, receiver, crc } = &mut self.transfer else {
+                    return Err(AbortCode::COMMAND);
+                };
+                let piece = receiver.finish(unused, crc.then_some(sum))?;
+                download.put(piece.bytes(), true, self.buffer.as_mut(), dictionary, application)?;
+                self.transfer = Transfer::None;
+                Ok(Some(Answer::BlockDownloadEnd.encode()))
+            }
+            Request::BlockUpload { id: begun, crc, block_size, threshold } => {
+                *id = begun;
+                self.begin_block_upload(begun, crc, block_size, threshold, dictionary, application)
+                    .map(|answer| Some(answer.encode()))
+            }
+            Request::BlockUploadStart => {
+                let Transfer::BlockUpload { phase: phase @ Phase::Announced, .. } = &mut self.transfer else {
+                    return Err(AbortCode::COMMAND);
+                };
+                *phase = Phase::Sending;
+                Ok(self.next_of_block(dictionary, application))
+            }
+            Request::BlockUploadReceived(received) => self.block_received(received, dictionary, application),
+            Request::BlockUploadEnd => {
+                let Transfer::BlockUpload { phase: Phase::Ended, .. } = self.transfer else {
+                    return Err(AbortCode::COMMAND);
+                };
+                self.transfer = Transfer::None;
+                Ok(None)
+            }
+            Request::DownloadExpedited { .. }
+            | Request::Download { .. }
+            | Request::DownloadSegment(_)
+            | Request::Upload { .. }
+            | Request::UploadSegment { .. }
+            | Request::Abort(_) => Err(AbortCode::INTERNAL),
+        }
+    }
+
+    fn begin_block_upload<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        id: EntryId,
+        crc: bool,
+        block_size: u8,
+        threshold: u8,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<Answer, AbortCode> {
+        let sender = Sender::new(block_size)?;
+        self.transfer = Transfer::None;
+        let upload = match dictionary.upload(id.index, id.sub, application) {
+            Ok(value) if threshold > 0 && value.len() <= usize::from(threshold) => {
+                return self.begin_upload(id, dictionary, application);
+            }
+            Ok(value) => Upload::of_value(id, &value, self.buffer.as_mut()),
+            Err(code) => Err(code),
+        };
+        let upload = upload.or_else(|code| Upload::of_refused(id, code, dictionary, application))?;
+        self.transfer = Transfer::BlockUpload { upload, sender, crc, phase: Phase::Announced };
+        Ok(Answer::BlockUpload { id, crc: true, size: upload.size() })
+    }
+
+    fn block_received<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        received: Received,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<Option<[u8; 8]>, AbortCode> {
+        let Transfer::BlockUpload { sender, crc, phase: phase @ Phase::Sending, .. } = &mut self.transfer
+        else {
+            return Err(AbortCode::COMMAND);
+        };
+        match sender.received(received)? {
+            Some(end) => {
+                *phase = Phase::Ended;
+                let sum = if *crc { end.crc } else { 0 };
+                Ok(Some(Answer::BlockUploadEnd { unused: end.unused, crc: sum }.encode()))
+            }
+            None => Ok(self.next_of_block(dictionary, application)),
+        }
+    }
+
+    /// The next segment of the block that is being sent, or what went wrong with it.
+    pub(super) fn next_of_block<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Option<[u8; 8]> {
+        let Transfer::BlockUpload { upload, sender, phase: Phase::Sending, .. } = &mut self.transfer else {
+            return None;
+        };
+        match upload.piece(sender.offset()?, self.buffer.as_ref(), dictionary, application) {
+            Ok(piece) => Some(sender.segment(piece).encode()),
+            Err(code) => {
+                let id = upload.id;
+                Some(self.abort(id, code))
+            }
+        }
+    }
+}
