@@ -7,7 +7,8 @@
 //!
 //! An SDO server needs five functions: [`Dictionary::upload`] and [`Dictionary::write`] for values,
 //! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
-//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`].
+//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`]. All of a node, and each of its services by itself, is here, too, behind
+//! features: a firmware that has a stack of its own needs none of it.
 //!
 //! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself.
 //! There is no hidden state: a dictionary is a plain
@@ -79,7 +80,7 @@ pub mod storage;
 mod stored;
 pub mod table;
 mod table_dictionary;
-#[cfg(all(test, any(feature = "node", feature = "storage")))]
+#[cfg(all(test, feature = "node"))]
 mod test_table;
 pub mod text;
 mod time;

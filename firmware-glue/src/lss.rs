@@ -115,13 +115,13 @@ pub enum Reply {
     Done,
     /// The device cannot do it.
     NotSupported,
-    /// It failed; of [`LssEvent::Store`], the memory did.
+    /// It failed: the memory does not take it.
     Failed,
 }
 
 /// The firmware's part.
 pub trait LssHandler {
-    /// Whether the device has a bit rate. It is used only after [`switch`](Self::switch).
+    /// Whether the device has a bit rate. It is used only after [`LssEvent::Switch`].
     fn has_bit_rate(&self, rate: BitRate) -> bool;
 
     /// Keeps the node-ID, which counts from the next reset of the communication on, and the bit rate, if the master has set one, over power-off.
