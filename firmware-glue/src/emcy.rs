@@ -224,9 +224,14 @@ impl<const N: usize> EmergencyProducer<N> {
     }
 
     /// Tells of something that is over as soon as it has happened, such as a PDO of a wrong length: a message and a line in
-    /// the history, and nothing that stays present.
+    /// the history, and nothing that stays present. What the newest line says is not told again before something else
+    /// has happened, so that a sender's mistake does not push everything else out.
     pub fn report<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
-        self.tell(dictionary, emergency);
+        let parameters = Parameters::of(dictionary);
+        let is_filled = parameters.byte(0x1003, 0) > 0;
+        if !is_filled || parameters.number(0x1003, 1) != Some(line(emergency)) {
+            self.tell(dictionary, emergency);
+        }
     }
 
     fn tell<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
@@ -340,10 +345,15 @@ fn remember<'t, D: Dictionary<'t>>(dictionary: &mut D, emergency: Emergency) {
         let newer = Parameters::of(dictionary).number(0x1003, sub - 1).unwrap_or_default();
         set(dictionary, 0x1003, sub, newer);
     }
+    set(dictionary, 0x1003, 1, line(emergency));
+    set(dictionary, 0x1003, 0, filled.into());
+}
+
+/// An error as the history has it.
+fn line(emergency: Emergency) -> u32 {
     let [a, b, ..] = emergency.details;
     let [low, high] = emergency.code.to_le_bytes();
-    set(dictionary, 0x1003, 1, u32::from_le_bytes([low, high, a, b]));
-    set(dictionary, 0x1003, 0, filled.into());
+    u32::from_le_bytes([low, high, a, b])
 }
 
 #[cfg(test)]
@@ -482,6 +492,15 @@ mod tests {
         assert_eq!(sent(&mut producer, &device, 0), Some([0x10, 0x82, 0x11, 0, 0, 0, 0, 0]));
         assert_eq!((read(&device, 0x1001, 0), read(&device, 0x1003, 1)), (Ok(0), Ok(0x8210)));
         assert_eq!(sent(&mut producer, &device, 100), None);
+        producer.report(&mut device, Emergency::PDO_LENGTH);
+        assert_eq!(
+            (sent(&mut producer, &device, 200), read(&device, 0x1003, 0)),
+            (None, Ok(1)),
+            "the same again"
+        );
+        producer.report(&mut device, Emergency::PDO_TOO_LONG);
+        producer.report(&mut device, Emergency::PDO_LENGTH);
+        assert_eq!(read(&device, 0x1003, 0), Ok(3));
     }
 
     #[test]

@@ -8,6 +8,9 @@ use core::fmt;
 pub struct CanId(u16);
 
 impl CanId {
+    /// The lowest identifier, that of NMT commands.
+    pub const ZERO: Self = Self(0);
+
     /// The highest identifier.
     pub const MAX: Self = Self(0x7FF);
 

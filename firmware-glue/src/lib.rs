@@ -7,7 +7,8 @@
 //!
 //! An SDO server needs five functions: [`Dictionary::upload`] and [`Dictionary::write`] for values,
 //! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
-//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`].
+//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`]. All of a node, and each of its services by itself, is here, too, behind
+//! features: a firmware that has a stack of its own needs none of it.
 //!
 //! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself.
 //! There is no hidden state: a dictionary is a plain
@@ -19,7 +20,8 @@
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 //! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
 //! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
-//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`); frames in, frames out, time passed in
+//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`), and all together (`Node`); frames in, frames out,
+//!   time passed in
 //! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
 
 #![no_std]
@@ -57,6 +59,8 @@ mod mapping;
 pub mod named;
 #[cfg(feature = "node")]
 pub mod nmt;
+#[cfg(feature = "node")]
+pub mod node;
 #[cfg(any(feature = "node", feature = "storage"))]
 mod node_id;
 mod number;
@@ -79,7 +83,7 @@ pub mod storage;
 mod stored;
 pub mod table;
 mod table_dictionary;
-#[cfg(all(test, any(feature = "node", feature = "storage")))]
+#[cfg(all(test, feature = "node"))]
 mod test_table;
 pub mod text;
 mod time;
@@ -103,6 +107,8 @@ pub use image::{
 };
 pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
+#[cfg(feature = "node")]
+pub use node::Node;
 #[cfg(any(feature = "node", feature = "storage"))]
 pub use node_id::NodeId;
 pub use quantity::Quantity;

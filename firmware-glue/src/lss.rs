@@ -3,6 +3,7 @@
 //! The machine changes nothing by itself: it says what the master wants ([`LssEvent`]), and the firmware answers what it could do.
 
 use crate::clock::{Duration, Instant};
+use crate::constraint::Consistent;
 use crate::dictionary::Dictionary;
 use crate::frame::{CanId, Frame};
 use crate::node_id::NodeId;
@@ -114,19 +115,36 @@ pub enum Reply {
     Done,
     /// The device cannot do it.
     NotSupported,
-    /// It failed; of [`LssEvent::Store`], the memory did.
+    /// It failed: the memory does not take it.
     Failed,
 }
 
 /// The firmware's part.
 pub trait LssHandler {
-    /// Whether the device has a bit rate. It is used only after [`switch`](Self::switch).
+    /// Whether the device has a bit rate. It is used only after [`LssEvent::Switch`].
     fn has_bit_rate(&self, rate: BitRate) -> bool;
 
     /// Keeps the node-ID, which counts from the next reset of the communication on, and the bit rate, if the master has set one, over power-off.
     fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
         let _ = (node, rate);
         Reply::NotSupported
+    }
+}
+
+/// Cannot switch and cannot store.
+impl LssHandler for () {
+    fn has_bit_rate(&self, _: BitRate) -> bool {
+        false
+    }
+}
+
+impl<A: LssHandler> LssHandler for Consistent<'_, A> {
+    fn has_bit_rate(&self, rate: BitRate) -> bool {
+        self.0.has_bit_rate(rate)
+    }
+
+    fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
+        self.0.store(node, rate)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+#[cfg(feature = "node")]
 use crate::frame::CanId;
 
 /// Which node of a network: 1 to 127 (CiA 301 9.4).
@@ -23,6 +24,7 @@ impl NodeId {
     }
 
     /// The node's own identifier behind a base below 780h, such as 700h (CiA 301 table 34).
+    #[cfg(feature = "node")]
     pub(crate) fn identifier(self, base: u16) -> CanId {
         CanId::new(base + u16::from(self.0)).unwrap_or(CanId::MAX)
     }
@@ -35,7 +37,7 @@ impl fmt::Display for NodeId {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "node"))]
 mod tests {
     use super::NodeId;
 

@@ -145,6 +145,12 @@ impl<const N: usize> Consumer<N> {
         self.watched.iter().find(watches).map(|watched| watched.heartbeat)
     }
 
+    /// Whether any watched node is lost.
+    #[must_use]
+    pub fn is_any_lost(&self) -> bool {
+        self.watched.iter().any(|watched| watched.target().is_some() && watched.heartbeat == Heartbeat::Lost)
+    }
+
     /// Takes up what is written to 1016h.
     fn read<'t, D: Dictionary<'t>>(&mut self, dictionary: &D) {
         let parameters = Parameters::of(dictionary);

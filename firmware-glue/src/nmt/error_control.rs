@@ -117,6 +117,12 @@ impl ErrorControl {
         Some(Guarding::Lost)
     }
 
+    /// Whether the master's questions have stopped.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        self.life == Life::Lost
+    }
+
     /// When there is something to do next, unless a parameter changes before.
     pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
         let period = heartbeat_time(dictionary);

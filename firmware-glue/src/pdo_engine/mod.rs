@@ -211,6 +211,12 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         None
     }
 
+    /// Whether any RPDO is overdue.
+    #[must_use]
+    pub fn is_any_overdue(&self) -> bool {
+        self.receive.iter().any(Receive::is_missing)
+    }
+
     /// When there is something to do next, unless something happens before.
     pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
         if self.state == Running::No {

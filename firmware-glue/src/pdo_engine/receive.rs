@@ -93,6 +93,11 @@ impl Receive {
         overdue
     }
 
+    /// Whether it has not come since it became overdue.
+    pub(super) const fn is_missing(&self) -> bool {
+        matches!(self.watch, Watch::Overdue)
+    }
+
     /// When it has to have come.
     pub(super) fn deadline(&self, settings: Option<Settings>) -> Option<Instant> {
         let timer = settings?.timer;

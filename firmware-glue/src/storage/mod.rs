@@ -26,7 +26,7 @@
 
 mod crc;
 mod record;
-#[cfg(test)]
+#[cfg(all(test, feature = "node"))]
 mod tests;
 
 use core::fmt;

@@ -1,0 +1,374 @@
+//! A whole CANopen node: SDO server, PDOs, NMT, heartbeat and guarding, emergencies and LSS together, by the states of CiA 301 9.3.
+//!
+//! A firmware gives every frame it receives to [`Node::handle`] and sends the answer; it calls [`Node::poll`] until there is nothing to
+//! send, whenever something has happened or [`Node::next_deadline`] has come. The dictionary stays the firmware's.
+//!
+//! ```
+//! # use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place};
+//! # use firmware_glue::{DataType, Storage, Table, TableDictionary};
+//! use firmware_glue::clock::Instant;
+//! use firmware_glue::frame::{CanId, Frame};
+//! use firmware_glue::nmt::State;
+//! use firmware_glue::{Node, NodeId};
+//! # const TIME: Attributes = Attributes {
+//! #     data_type: DataType::Unsigned16, flags: Flags::READ.with(Flags::WRITE), place: Place::Image,
+//! #     storage: Storage::No, page: 0, size: 2, limits: NONE, values: NONE, condition: NONE,
+//! # };
+//! # let (mut blocks, mut seeds, mut order) = ([Block::FREE; 1], [0; 1], [0; 1]);
+//! # let table = Table::checked(Parts {
+//! #     directory: Directory::arrange(&[0x1017], &mut blocks, &mut seeds, &mut order).ok_or("no room")?,
+//! #     objects: &[0, 1], entries: &[EntryRow { attributes: 0, place: 0 }], attributes: &[TIME],
+//! #     first_application_row: 1, factory: &[0xE8, 3], ..Parts::EMPTY
+//! # })?;
+//! # let mut dictionary = TableDictionary::new(&table, [0; 2], 1)?;
+//!
+//! // 4 TPDOs, 4 RPDOs, 8 errors at once, 2 nodes watched; a buffer for values that SDO reads and writes.
+//! let mut node = Node::<_, 4, 4, 8, 2>::new(&table, NodeId::new(5), [0; 64])?;
+//! let boot_up = node.poll(&mut dictionary, &mut (), Instant::from_millis(10));
+//! assert_eq!(boot_up.map(|frame| frame.id().get()), Some(0x705));
+//!
+//! let start = Frame::data(CanId::new(0).ok_or("11 bits")?, &[1, 5]).ok_or("8 bytes")?;
+//! assert_eq!(node.handle(&start, &mut dictionary, &mut (), Instant::from_millis(20)), None);
+//! assert_eq!(node.state(), State::Operational);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+
+mod handler;
+#[cfg(test)]
+mod tests;
+
+pub use handler::{Event, NodeHandler, Reset};
+
+use crate::clock::{Instant, earlier};
+use crate::dictionary::Dictionary;
+use crate::emcy::{Emergency, EmergencyProducer, Raised};
+use crate::frame::Frame;
+use crate::lss::{Identity, Lss, LssState, MaybeNode};
+use crate::nmt::{
+    Command, Consumer, ErrorBehaviour, ErrorControl, Nmt, NodeEvent, Service, State, Transition,
+};
+use crate::node::handler::WithEmergencies;
+use crate::node_id::NodeId;
+use crate::pdo_engine::{PdoEngine, TooManyPdos};
+use crate::sdo::{Channel, SdoServer};
+use crate::stored::reset;
+use crate::table::{Place, Table};
+use crate::text::prefix;
+
+/// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at once and `WATCHED` nodes whose heartbeats it hears. The buffer `B` is that of its
+/// SDO server, of `LARGEST_VALUE` bytes.
+#[derive(Debug)]
+pub struct Node<B, const T: usize, const R: usize, const ERRORS: usize, const WATCHED: usize> {
+    nmt: Nmt,
+    /// What starts again with the next poll.
+    restart: Option<Reset>,
+    control: ErrorControl,
+    consumer: Consumer<WATCHED>,
+    pdos: PdoEngine<T, R>,
+    emergencies: EmergencyProducer<ERRORS>,
+    sdo: SdoServer<B>,
+    lss: Lss,
+    /// The node-ID that counts now.
+    id: MaybeNode,
+}
+
+impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS: usize, const WATCHED: usize>
+    Node<B, T, R, ERRORS, WATCHED>
+{
+    /// A node that starts with the first poll. Without a node-ID, it takes part in nothing but LSS until a master gives it one.
+    ///
+    /// # Errors
+    /// [`TooManyPdos`] when the dictionary has more than `T` TPDOs or `R` RPDOs.
+    pub fn new(table: &Table<'_>, id: MaybeNode, buffer: B) -> Result<Self, TooManyPdos> {
+        Ok(Self {
+            nmt: Nmt::new(),
+            restart: Some(Reset::Node),
+            control: ErrorControl::new(),
+            consumer: Consumer::new(),
+            pdos: PdoEngine::new(table)?,
+            emergencies: EmergencyProducer::new(),
+            sdo: SdoServer::new(NO_CHANNEL, buffer),
+            lss: Lss::new(id),
+            id,
+        })
+    }
+
+    /// Its state.
+    pub const fn state(&self) -> State {
+        self.nmt.state()
+    }
+
+    /// Its node-ID, if it has one.
+    pub const fn id(&self) -> MaybeNode {
+        self.id
+    }
+
+    /// Its SDO server, for settings of it.
+    pub const fn sdo_mut(&mut self) -> &mut SdoServer<B> {
+        &mut self.sdo
+    }
+
+    /// The nodes whose heartbeats it hears.
+    pub const fn consumer(&self) -> &Consumer<WATCHED> {
+        &self.consumer
+    }
+
+    /// The errors that are present.
+    pub const fn emergencies(&self) -> &EmergencyProducer<ERRORS> {
+        &self.emergencies
+    }
+
+    /// An error of the device occurs. The codes 8130h (heartbeat) and 8250h (RPDO overdue) belong to the node.
+    pub fn raise<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) -> Raised {
+        self.emergencies.raise(dictionary, emergency)
+    }
+
+    /// An error of the device, by its code, is gone. `false` if it was not present.
+    pub fn clear<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, code: u16) -> bool {
+        self.emergencies.clear(dictionary, code)
+    }
+
+    /// An event of a TPDO, 1 to 512; see [`PdoEngine::trigger`].
+    pub fn trigger<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, number: u16, now: Instant) {
+        self.pdos.trigger(dictionary, number, now);
+    }
+
+    /// An entry has changed: an event of every TPDO that carries it.
+    pub fn trigger_entry<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, entry: D::Entry, now: Instant) {
+        self.pdos.trigger_entry(dictionary, entry, now);
+    }
+
+    /// A communication error that the CAN driver found, such as bus off: the node does what 1029h.1 says.
+    pub fn communication_error<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) {
+        let transition = self.nmt.error(ErrorBehaviour::of(dictionary, 1));
+        self.follow(transition, dictionary, application, now);
+    }
+
+    /// Takes a frame that was received; the answer, if it needs one.
+    pub fn handle<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        frame: &Frame,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) -> Option<Frame> {
+        // Not while the node works: LSS sets up, and may switch the bit rate.
+        if self.state() != State::Operational
+            && let Some(answer) = self.lss.handle(frame, Identity::of(dictionary), application, now)
+        {
+            return Some(answer);
+        }
+        let id = self.id?;
+        if self.restart.is_some() || self.lss.is_silent() {
+            return None;
+        }
+        if let Some(command) = Command::of(frame, id) {
+            let transition = self.nmt.command(command);
+            self.follow(transition, dictionary, application, now);
+            return None;
+        }
+        if let Some(event) = self.consumer.handle(frame, dictionary, now) {
+            application.node_event(dictionary, Event::Heartbeat(event));
+        }
+        if let Some((answer, event)) = self.control.guard(frame, dictionary, id, self.state(), now) {
+            if let Some(event) = event {
+                application.node_event(dictionary, Event::Guarding(event));
+            }
+            return Some(answer);
+        }
+        if self.state().allows(Service::Pdo) {
+            let emergencies = &mut self.emergencies;
+            self.pdos.handle(frame, dictionary, &mut WithEmergencies { application, emergencies }, now);
+        }
+        if !self.state().allows(Service::Sdo) || self.sdo.channel() == NO_CHANNEL {
+            return None;
+        }
+        self.sdo.handle(frame, dictionary, application, micros(now))
+    }
+
+    /// A frame that is to be sent now; to be called until there is none.
+    pub fn poll<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) -> Option<Frame> {
+        while let Some(event) = self.lss.poll(now) {
+            application.node_event(dictionary, Event::Lss(event));
+        }
+        // A node that had no node-ID starts as soon as the master has given it one and lets it go.
+        if self.id.is_none() && self.lss.pending().is_some() && self.lss.state() == LssState::Waiting {
+            self.restart = Some(Reset::Node);
+            self.id = self.lss.pending();
+        }
+        let id = self.id?;
+        if self.lss.is_silent() {
+            return None;
+        }
+        if let Some(reset) = self.restart.take() {
+            return self.start(reset, dictionary, application, now);
+        }
+        self.watch(dictionary, application, now);
+        if let Some(heartbeat) = self.control.poll(dictionary, id, self.state(), now) {
+            return Some(heartbeat);
+        }
+        if self.state().allows(Service::Emergency)
+            && let Some(emergency) = self.emergencies.poll(dictionary, now)
+        {
+            return Some(emergency);
+        }
+        let emergencies = &mut self.emergencies;
+        if let Some(pdo) = self.pdos.poll(dictionary, &mut WithEmergencies { application, emergencies }, now)
+        {
+            return Some(pdo);
+        }
+        if self.state().allows(Service::Sdo) {
+            self.sdo.poll(dictionary, application, micros(now))
+        } else {
+            None
+        }
+    }
+
+    /// When there is something to do next, unless a frame comes or something happens before; at once while an SDO transfer
+    /// goes on.
+    pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
+        let lss = self.lss.next_deadline();
+        if self.lss.is_silent() || self.id.is_none() {
+            return lss;
+        }
+        if self.restart.is_some() || self.sdo.is_busy() {
+            return Some(Instant::ZERO);
+        }
+        let told = if self.state().allows(Service::Emergency) {
+            self.emergencies.next_deadline(dictionary)
+        } else {
+            None
+        };
+        [
+            self.control.next_deadline(dictionary),
+            self.consumer.next_deadline(),
+            self.pdos.next_deadline(dictionary),
+            told,
+        ]
+        .into_iter()
+        .fold(lss, earlier)
+    }
+
+    /// Looks at the nodes that this one relies on.
+    fn watch<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) {
+        while let Some(event) = self.consumer.poll(dictionary, now) {
+            if let NodeEvent::Lost(node) = event {
+                let emergency = Emergency::HEARTBEAT.with_details([node.get(), 0, 0, 0, 0]);
+                self.emergencies.raise(dictionary, emergency);
+                self.communication_error(dictionary, application, now);
+            }
+            application.node_event(dictionary, Event::Heartbeat(event));
+        }
+        if let Some(event) = self.control.check_life(dictionary, now) {
+            self.emergencies.raise(dictionary, Emergency::HEARTBEAT);
+            self.communication_error(dictionary, application, now);
+            application.node_event(dictionary, Event::Guarding(event));
+        }
+        if !self.consumer.is_any_lost() && !self.control.is_lost() {
+            self.emergencies.clear(dictionary, Emergency::HEARTBEAT.code());
+        }
+        if !self.pdos.is_any_overdue() {
+            self.emergencies.clear(dictionary, Emergency::RPDO_TIMEOUT.code());
+        }
+    }
+
+    /// What a change of state brings with it.
+    fn follow<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        transition: Transition,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) {
+        match transition {
+            Transition::None => return,
+            Transition::To(State::Operational) => self.pdos.start(dictionary, now),
+            Transition::To(state) => {
+                self.pdos.stop();
+                if !state.allows(Service::Sdo) {
+                    self.sdo.reset();
+                }
+            }
+            Transition::ResetNode => self.restart = Some(Reset::Node),
+            Transition::ResetCommunication => self.restart = Some(Reset::Communication),
+        }
+        if self.restart.is_some() {
+            self.pdos.stop();
+            self.sdo.reset();
+        }
+        application.node_event(dictionary, Event::State(self.state()));
+    }
+
+    /// Starts again: values, then communication, then the boot-up message.
+    fn start<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        kind: Reset,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) -> Option<Frame> {
+        self.id = self.lss.reset();
+        let id = self.id?;
+        match kind {
+            Reset::Node => {
+                dictionary.reset(id.get());
+                self.emergencies = EmergencyProducer::new();
+            }
+            Reset::Communication => reset_communication(dictionary, id),
+        }
+        application.restart(dictionary, id, kind);
+        self.consumer = Consumer::new();
+        self.sdo.set_channel(channel(dictionary, id).unwrap_or(NO_CHANNEL));
+        let boot_up = self.control.boot_up(dictionary, id, now);
+        self.nmt.booted();
+        application.node_event(dictionary, Event::State(self.state()));
+        Some(boot_up)
+    }
+}
+
+/// The channel of an SDO server that has none: NMT commands are no requests.
+const NO_CHANNEL: Channel = Channel { request: crate::frame::CanId::ZERO, answer: crate::frame::CanId::ZERO };
+
+/// The first SDO channel; that of the predefined connection set where 1200h does not exist.
+fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Option<Channel> {
+    match dictionary.table().find(0x1200, 1) {
+        Ok(_) => Channel::of_server(dictionary, 0),
+        Err(_) => Channel::predefined(id.get()),
+    }
+}
+
+/// Puts communication objects back to the factory's values, those that are not stored among them, but for the errors that are present and those
+/// that were (1001h to 1003h): they outlive a reset of the communication.
+fn reset_communication<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
+    let table = dictionary.table();
+    for row in 0..table.parts().first_application_row {
+        let found = table.found(row);
+        if found.shared.place != Place::Image || matches!(table.id(row).index, 0x1001..=0x1003) {
+            continue;
+        }
+        let before = found.shared.data_type.string().map_or(0, prefix);
+        let end = found.offset() + usize::from(found.shared.size) + before;
+        reset(table, dictionary.image_mut(), &(found.offset()..end), id.get());
+    }
+}
+
+/// The time as the SDO server takes it: the low half, of which differences count.
+fn micros(now: Instant) -> u32 {
+    let [a, b, c, d, ..] = now.as_micros().to_le_bytes();
+    u32::from_le_bytes([a, b, c, d])
+}

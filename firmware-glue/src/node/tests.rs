@@ -1,0 +1,345 @@
+extern crate std;
+
+use std::vec;
+use std::vec::Vec;
+
+use super::*;
+use crate::application::Application;
+use crate::frame::CanId;
+use crate::id::EntryId;
+use crate::lss::{BitRate, LssEvent, LssHandler, Reply};
+use crate::nmt::Guarding;
+use crate::parameters::{Parameters, set};
+use crate::pdo_engine::{PdoEvent, PdoHandler};
+use crate::table::Storage;
+use crate::test_table::{TestDictionary, dictionary, stored, value};
+
+/// What an application hears.
+#[derive(Default)]
+struct Heard {
+    events: Vec<Event>,
+    restarts: Vec<(u8, Reset)>,
+}
+
+impl Application<TestDictionary> for Heard {}
+
+impl PdoHandler<TestDictionary> for Heard {
+    fn pdo_event(&mut self, _: &mut TestDictionary, _: PdoEvent<EntryId>) {}
+}
+
+impl LssHandler for Heard {
+    fn has_bit_rate(&self, _: BitRate) -> bool {
+        true
+    }
+
+    fn store(&mut self, _: MaybeNode, _: Option<BitRate>) -> Reply {
+        Reply::Done
+    }
+}
+
+impl NodeHandler<TestDictionary> for Heard {
+    fn restart(&mut self, _: &mut TestDictionary, node: NodeId, reset: Reset) {
+        self.restarts.push((node.get(), reset));
+    }
+
+    fn node_event(&mut self, _: &mut TestDictionary, event: Event) {
+        self.events.push(event);
+    }
+}
+
+struct Bench {
+    dictionary: TestDictionary,
+    node: Node<[u8; 16], 2, 2, 4, 2>,
+    heard: Heard,
+}
+
+impl Bench {
+    fn new(node: u8) -> Self {
+        let mut values = vec![
+            value(0x1001, 0, 1, 0),
+            value(0x1003, 0, 1, 0),
+            value(0x1003, 1, 4, 0),
+            value(0x1003, 2, 4, 0),
+            value(0x1005, 0, 4, 0x80),
+            value(0x100C, 0, 2, 100),
+            value(0x100D, 0, 1, 2),
+            value(0x1014, 0, 4, 0x85),
+            value(0x1016, 0, 1, 1),
+            value(0x1016, 1, 4, 0x0007_0064),
+            value(0x1017, 0, 2, 0),
+            value(0x1018, 0, 1, 4),
+            value(0x1018, 1, 4, 1),
+            value(0x1018, 2, 4, 2),
+            value(0x1018, 3, 4, 3),
+            value(0x1018, 4, 4, 4),
+            value(0x1029, 0, 1, 1),
+            value(0x1029, 1, 1, 0),
+        ];
+        for (index, cob_id, mapped) in [(0x1400, 0x205, 0x2000_0010), (0x1800, 0x185, 0x2001_0010)] {
+            values.extend([value(index, 0, 1, 5), value(index, 1, 4, cob_id), value(index, 2, 1, 255)]);
+            values.extend([value(index, 3, 2, 0), value(index, 4, 1, 0), value(index, 5, 2, 50)]);
+            values.extend([value(index + 0x200, 0, 1, 1), value(index + 0x200, 1, 4, mapped)]);
+        }
+        values.extend([value(0x2000, 0, 2, 0), stored(0x2001, 0, 2, 0, Storage::Application)]);
+        values.sort_by_key(crate::test_table::TestValue::id);
+        let dictionary = dictionary(&values);
+        let node = Node::new(dictionary.table(), NodeId::new(node), [0; 16]).expect("two of each");
+        Self { dictionary, node, heard: Heard::default() }
+    }
+
+    /// A node that has started at 0, and what was said before is forgotten.
+    fn started() -> Self {
+        let mut bench = Self::new(5);
+        assert_eq!(bench.sent(0), [(0x705, vec![0])]);
+        bench.heard = Heard::default();
+        bench
+    }
+
+    fn operational() -> Self {
+        let mut bench = Self::started();
+        bench.handle(0, &[1, 5], 0);
+        assert_eq!(bench.events(), [Event::State(State::Operational)]);
+        bench
+    }
+
+    fn handle(&mut self, id: u16, data: &[u8], now: u64) -> Option<Vec<u8>> {
+        let frame = Frame::data(CanId::new(id).expect("11 bits"), data).expect("8 bytes");
+        self.take(&frame, now)
+    }
+
+    fn take(&mut self, frame: &Frame, now: u64) -> Option<Vec<u8>> {
+        let answer = self.node.handle(frame, &mut self.dictionary, &mut self.heard, at(now))?;
+        answer.bytes().map(<[u8]>::to_vec)
+    }
+
+    fn sent(&mut self, now: u64) -> Vec<(u16, Vec<u8>)> {
+        let poll = || self.node.poll(&mut self.dictionary, &mut self.heard, at(now));
+        let frames = core::iter::from_fn(poll).take(20);
+        frames.map(|frame| (frame.id().get(), frame.bytes().expect("data").to_vec())).collect()
+    }
+
+    fn events(&mut self) -> Vec<Event> {
+        core::mem::take(&mut self.heard.events)
+    }
+
+    fn read(&self, index: u16, sub: u8) -> Option<u32> {
+        Parameters::of(&self.dictionary).number(index, sub)
+    }
+}
+
+fn at(millis: u64) -> Instant {
+    Instant::from_millis(millis)
+}
+
+const UPLOAD_1017H: [u8; 8] = [0x40, 0x17, 0x10, 0, 0, 0, 0, 0];
+
+#[test]
+fn services_follow_the_state() {
+    let mut bench = Bench::new(5);
+    assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(Instant::ZERO));
+    assert_eq!(bench.handle(0x605, &UPLOAD_1017H, 0), None, "not before the boot-up message");
+    assert_eq!(bench.sent(0), [(0x705, vec![0])]);
+    assert_eq!(bench.heard.restarts, [(5, Reset::Node)]);
+    assert_eq!(bench.node.state(), State::PreOperational);
+    let answer = Some(vec![0x4B, 0x17, 0x10, 0, 0, 0, 0, 0]);
+    assert_eq!(bench.handle(0x605, &UPLOAD_1017H, 0), answer);
+    bench.handle(0x205, &[1, 2], 0);
+    assert_eq!(bench.read(0x2000, 0), Some(0), "no PDO before operational");
+    bench.handle(0, &[1, 0], 0);
+    bench.handle(0x205, &[1, 2], 0);
+    assert_eq!(bench.read(0x2000, 0), Some(0x0201));
+    assert_eq!(bench.sent(50).first(), Some(&(0x185, vec![0, 0])), "the event timer");
+    bench.handle(0, &[2, 5], 60);
+    assert_eq!(bench.node.state(), State::Stopped);
+    assert_eq!((bench.handle(0x605, &UPLOAD_1017H, 60), bench.handle(0x205, &[9, 9], 60)), (None, None));
+    assert_eq!((bench.sent(1000), bench.read(0x2000, 0)), (vec![], Some(0x0201)));
+    bench.handle(0, &[128, 5], 1000);
+    assert_eq!(bench.handle(0x605, &UPLOAD_1017H, 1000), answer);
+}
+
+#[test]
+fn a_heartbeat_that_is_written_by_sdo_begins() {
+    let mut bench = Bench::started();
+    assert!(bench.handle(0x605, &[0x2B, 0x17, 0x10, 0, 0x64, 0, 0, 0], 0).is_some());
+    assert_eq!(bench.sent(0), [(0x705, vec![127])]);
+    assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(at(100)));
+    bench.handle(0, &[2, 5], 50);
+    assert_eq!((bench.sent(99), bench.sent(100)), (vec![], vec![(0x705, vec![4])]));
+}
+
+#[test]
+fn a_lost_heartbeat_is_an_emergency_and_a_reaction() {
+    for (setting, state) in [(0, State::PreOperational), (1, State::Operational), (2, State::Stopped)] {
+        let mut bench = Bench::operational();
+        set(&mut bench.dictionary, 0x1029, 1, setting);
+        set(&mut bench.dictionary, 0x1800, 5, 0);
+        bench.handle(0x707, &[5], 10);
+        let node = NodeId::new(7).expect("a node-ID");
+        let started = Event::Heartbeat(NodeEvent::Started(node, Some(State::Operational)));
+        assert_eq!((bench.events(), bench.sent(109)), (vec![started], vec![]));
+        let told = bench.sent(110);
+        let emergency = (0x85, vec![0x30, 0x81, 0x11, 7, 0, 0, 0, 0]);
+        assert_eq!(told, if setting == 2 { vec![] } else { vec![emergency] });
+        assert_eq!((bench.node.state(), bench.read(0x1001, 0)), (state, Some(0x11)));
+        assert!(bench.events().contains(&Event::Heartbeat(NodeEvent::Lost(node))));
+        bench.handle(0x707, &[5], 200);
+        let reset = bench.sent(200);
+        assert_eq!(reset, if setting == 2 { vec![] } else { vec![(0x85, vec![0; 8])] });
+        assert_eq!(
+            (bench.node.state(), bench.read(0x1001, 0)),
+            (state, Some(0)),
+            "it does not go back by itself"
+        );
+    }
+}
+
+#[test]
+fn a_master_that_stops_guarding_is_a_lost_heartbeat() {
+    let mut bench = Bench::operational();
+    set(&mut bench.dictionary, 0x1800, 5, 0);
+    let question = Frame::remote(CanId::new(0x705).expect("11 bits"), 1).expect("a length");
+    assert_eq!(bench.take(&question, 0), Some(vec![5]));
+    assert_eq!(bench.sent(199), []);
+    assert_eq!(bench.sent(200), [(0x85, vec![0x30, 0x81, 0x11, 0, 0, 0, 0, 0])]);
+    assert_eq!(bench.node.state(), State::PreOperational);
+    assert_eq!(bench.take(&question, 300), Some(vec![0xFF]));
+    assert_eq!(bench.sent(300), [(0x85, vec![0; 8])]);
+    assert!(bench.events().contains(&Event::Guarding(Guarding::Resumed)));
+}
+
+#[test]
+fn what_is_wrong_with_pdos_is_an_emergency() {
+    let mut bench = Bench::operational();
+    bench.handle(0x205, &[1], 0);
+    bench.handle(0x205, &[1, 2, 3], 0);
+    bench.handle(0x80, &[1], 0);
+    let codes: Vec<_> =
+        bench.sent(0).into_iter().map(|(_, data)| (data[1], data[0], data[2], data[3])).collect();
+    assert_eq!(codes, [(0x82, 0x10, 0x11, 1), (0x82, 0x20, 0x11, 1), (0x82, 0x40, 0x11, 0)]);
+    assert!(bench.sent(50).contains(&(0x85, vec![0x50, 0x82, 0x11, 1, 0, 0, 0, 0])));
+    bench.handle(0x205, &[1, 2], 60);
+    assert_eq!((bench.sent(60), bench.read(0x1001, 0)), (vec![(0x85, vec![0; 8])], Some(0)));
+}
+
+#[test]
+fn a_reset_brings_back_what_it_is_for() {
+    for (command, kind, application) in [(129, Reset::Node, 0), (130, Reset::Communication, 77)] {
+        let mut bench = Bench::operational();
+        set(&mut bench.dictionary, 0x1017, 0, 500);
+        set(&mut bench.dictionary, 0x2001, 0, 77);
+        bench.node.raise(&mut bench.dictionary, Emergency::new(0x4210));
+        bench.handle(0, &[command, 5], 10);
+        assert_eq!(bench.node.state(), State::Initialising);
+        assert_eq!(bench.handle(0x605, &UPLOAD_1017H, 10), None);
+        assert_eq!(bench.sent(10).first(), Some(&(0x705, vec![0])));
+        assert_eq!(bench.heard.restarts, [(5, kind)]);
+        assert_eq!((bench.read(0x1017, 0), bench.read(0x2001, 0)), (Some(0), Some(application)));
+        let kept = kind == Reset::Communication;
+        assert_eq!(
+            (bench.node.emergencies().is_present(0x4210), bench.read(0x1001, 0)),
+            (kept, Some(if kept { 9 } else { 0 }))
+        );
+        assert_eq!(bench.node.state(), State::PreOperational);
+    }
+}
+
+#[test]
+fn a_node_without_node_id_waits_for_lss() {
+    let mut bench = Bench::new(0);
+    assert_eq!((bench.sent(0), bench.node.next_deadline(&bench.dictionary)), (vec![], None));
+    bench.handle(0, &[1, 0], 0);
+    assert_eq!(bench.node.state(), State::Initialising);
+    assert_eq!(bench.handle(0x7E5, &[0x4C, 0, 0, 0, 0, 0, 0, 0], 0).map(|data| data[0]), Some(0x50));
+    bench.handle(0x7E5, &[4, 1, 0, 0, 0, 0, 0, 0], 0);
+    assert_eq!(bench.handle(0x7E5, &[0x11, 9, 0, 0, 0, 0, 0, 0], 0).map(|data| data[1]), Some(0));
+    assert_eq!(bench.sent(0), []);
+    bench.handle(0x7E5, &[4, 0, 0, 0, 0, 0, 0, 0], 0);
+    assert_eq!(bench.sent(0), [(0x709, vec![0])]);
+    assert_eq!(bench.node.id(), NodeId::new(9));
+    assert!(bench.handle(0x609, &UPLOAD_1017H, 0).is_some());
+}
+
+#[test]
+fn a_node_id_by_lss_counts_after_a_reset_and_lss_rests_in_operational() {
+    let mut bench = Bench::started();
+    for request in [[4, 1, 0, 0, 0, 0, 0, 0], [0x11, 6, 0, 0, 0, 0, 0, 0], [4, 0, 0, 0, 0, 0, 0, 0]] {
+        bench.handle(0x7E5, &request, 0);
+    }
+    assert_eq!(bench.node.id(), NodeId::new(5));
+    bench.handle(0, &[130, 5], 0);
+    assert_eq!(bench.sent(0), [(0x706, vec![0])]);
+    bench.handle(0, &[1, 6], 0);
+    bench.handle(0x7E5, &[4, 1, 0, 0, 0, 0, 0, 0], 0);
+    assert_eq!(bench.handle(0x7E5, &[0x5E, 0, 0, 0, 0, 0, 0, 0], 0), None);
+}
+
+#[test]
+fn while_the_bit_rate_is_switched_nothing_is_sent() {
+    let mut bench = Bench::started();
+    set(&mut bench.dictionary, 0x1017, 0, 10);
+    for request in [[4, 1, 0, 0, 0, 0, 0, 0], [0x13, 0, 2, 0, 0, 0, 0, 0], [0x15, 100, 0, 0, 0, 0, 0, 0]] {
+        bench.handle(0x7E5, &request, 0);
+    }
+    assert_eq!((bench.sent(50), bench.handle(0x605, &UPLOAD_1017H, 50)), (vec![], None));
+    assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(at(100)));
+    assert_eq!(bench.sent(100), []);
+    assert_eq!(bench.events(), [Event::Lss(LssEvent::Switch(BitRate::K500))]);
+    assert_eq!(bench.sent(200), [(0x705, vec![127])]);
+    assert_eq!(bench.events(), [Event::Lss(LssEvent::Switched)]);
+}
+
+/// Frames at random, at any time, with identifiers that the node hears more often than others: nothing panics, nothing is sent without end, and
+/// the node still starts and answers.
+#[test]
+fn no_frame_breaks_a_node() {
+    const IDS: [u16; 12] = [0, 0x80, 0x185, 0x205, 0x285, 0x605, 0x605, 0x605, 0x705, 0x707, 0x7E5, 0x7FF];
+    let mut random = 12345u64;
+    let mut next = move |below: u64| {
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) % below
+    };
+    for start in [0, 5] {
+        let mut bench = Bench::new(start);
+        let mut now = 0;
+        for _ in 0..40_000 {
+            now += next(30);
+            let id = IDS.get(usize::try_from(next(14)).expect("small")).copied();
+            let id = CanId::new(id.unwrap_or(u16::try_from(next(0x800)).expect("11 bits"))).expect("11 bits");
+            let length = usize::try_from(if next(3) == 0 { next(9) } else { 8 }).expect("small");
+            let mut data = [0; 8];
+            for byte in &mut data {
+                *byte = u8::try_from(if next(2) == 0 { next(256) } else { next(6) }).expect("a byte");
+            }
+            // Requests to objects that exist.
+            if id.get() == 0x605 && next(3) > 0 {
+                let objects =
+                    [0x1003u16, 0x1005, 0x1014, 0x1016, 0x1017, 0x1400, 0x1600, 0x1800, 0x1A00, 0x2000];
+                let index = objects[usize::try_from(next(10)).expect("small")].to_le_bytes();
+                data[0] = [0x22, 0x2F, 0x2B, 0x23, 0x40][usize::try_from(next(5)).expect("small")];
+                (data[1], data[2]) = (index[0], index[1]);
+            }
+            let frame = match next(8) {
+                0 => Frame::remote(id, u8::try_from(length).expect("short")),
+                _ => Frame::data(id, &data[..length]),
+            };
+            bench.take(&frame.expect("8 bytes"), now);
+            if next(4) == 0 {
+                assert!(bench.sent(now).len() < 20, "it ends");
+            }
+            let due = bench.node.next_deadline(&bench.dictionary);
+            if next(50) == 0 && due.is_some_and(|due| due.as_micros() / 1000 > now) {
+                now = due.expect("a deadline").as_micros().div_ceil(1000);
+            }
+            if next(200) == 0 {
+                bench.node.trigger(&bench.dictionary, 1, at(now));
+                bench.node.raise(&mut bench.dictionary, Emergency::new(0x1000));
+            }
+        }
+        let mut bench = Bench {
+            node: Node::new(bench.dictionary.table(), NodeId::new(5), [0; 16]).expect("room"),
+            ..bench
+        };
+        assert_eq!(bench.sent(now).first(), Some(&(0x705, vec![0])));
+        assert!(bench.handle(0x605, &UPLOAD_1017H, now).is_some());
+    }
+}
