@@ -151,8 +151,8 @@ mapped: dict[int, int] = {}
 enums: dict[str, set[int]] = {}
 
 
-def check_device(server: str, eds: Path, device: dict, types: list[dict]) -> Check:
-    check = Check()
+def begin(device: dict, types: list[dict]) -> Check:
+    """A check of a device, of which is known what its PDOs and enums are."""
     valid.clear()
     for pdo in device["pdos"]:
         first = 0x1400 if pdo["direction"] == "receive" else 0x1800
@@ -161,20 +161,30 @@ def check_device(server: str, eds: Path, device: dict, types: list[dict]) -> Che
     for named in types:
         if "values" in named:
             enums[named["name"]] = {int(v["value"]) for v in named["values"] if v.get("supported", True)}
+    return Check()
+
+
+def check_dictionary(check: Check, node: canopen.RemoteNode, device: dict) -> None:
+    """Every entry of a node that is as after a factory reset."""
+    for one in device["objects"]:
+        index = int(one["index"], 16)
+        variables = node.object_dictionary[index]
+        for entry in one["entries"]:
+            sub = entry["sub"]
+            variable = variables if one["kind"] == "var" else variables[sub]
+            check_entry(check, node.sdo, index, entry, len(variable) // 8)
+        highest = max(entry["sub"] for entry in one["entries"])
+        check.that(f"{index:04X}h.{highest + 1}", code_of(node.sdo.upload, index, highest + 1), NO_SUB_INDEX)
+    check.that("5FFFh", code_of(node.sdo.upload, 0x5FFF, 0), NO_OBJECT)
+
+
+def check_device(server: str, eds: Path, device: dict, types: list[dict]) -> Check:
+    check = begin(device, types)
     network = Pipe([server, device["key"], str(NODE)])
     try:
         node = canopen.RemoteNode(NODE, str(eds))
         network.add_node(node)
-        for one in device["objects"]:
-            index = int(one["index"], 16)
-            variables = node.object_dictionary[index]
-            for entry in one["entries"]:
-                sub = entry["sub"]
-                variable = variables if one["kind"] == "var" else variables[sub]
-                check_entry(check, node.sdo, index, entry, len(variable) // 8)
-            highest = max(entry["sub"] for entry in one["entries"])
-            check.that(f"{index:04X}h.{highest + 1}", code_of(node.sdo.upload, index, highest + 1), NO_SUB_INDEX)
-        check.that("5FFFh", code_of(node.sdo.upload, 0x5FFF, 0), NO_OBJECT)
+        check_dictionary(check, node, device)
     finally:
         assert network.process.stdin
         network.process.stdin.close()

@@ -6,16 +6,20 @@
 //! A table borrows its lists, and some of these lists name others. So there are three steps, each of which is kept while the next
 //! is used: [`Device`] owns everything, [`Device::lists`] are the lists of lists, [`Lists::table`] is the table.
 
+mod bus;
 mod condition;
 mod glue;
 mod lists;
+mod node;
 
 use firmware_glue::table::{Row, Table};
 use firmware_glue::{Dictionary, Entries, EntryId, TableDictionary, WrongSize};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::model::{self, System};
 
+pub use self::bus::Bus;
 pub use self::lists::{Device, Lists};
+pub use self::node::{NoChannel, VirtualNode};
 use crate::plan::{decided_anyhow, plan};
 use crate::rust::Rust;
 

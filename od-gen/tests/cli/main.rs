@@ -26,6 +26,7 @@ mod parts;
 mod plant;
 mod provoked;
 mod readme;
+mod serve;
 mod shipped;
 mod specs;
 mod texts;

@@ -35,6 +35,10 @@ pub(crate) const PROVOKED: &[Provocation] = &[
         code: "OD0714",
         arguments: &["decode", "lamp.od.yaml", "--node", "5", "--trace", "bad.log"],
     },
+    Provocation {
+        code: "OD0715",
+        arguments: &["serve", "lamp.od.yaml", "--node", "5", "--slcan", "tcp:192.0.2.1:4000"],
+    },
     Provocation { code: "OD0811", arguments: &["check", "lamp.od.yaml", "--notes"] },
     Provocation { code: "XDD101", arguments: &["check", "open.xdd"] },
     Provocation { code: "XDD102", arguments: &["check", "typed.xdd"] },

@@ -174,6 +174,8 @@ codes! {
         "Behind as many records as a concise DCF says it has, the file goes on. A master never sees that part. Either the number at the beginning is too small, or the file is none of this kind."
     BAD_TRACE_LINE Error "OD0714" "a line of a trace that cannot be read":
         "A trace has a frame on each line, in one of three notations: as `candump -L` logs it, `(1700000000.123456) can0 181#0102`; as `candump` prints it, `can0  181   [2]  01 02`; or as an adapter with SLCAN sends it, `t18120102`. Empty lines and those that begin with `#` or `;` are left out. Every other line is read or reported, so that no frame is missed in silence; the lines behind it are read all the same."
+    NO_CONNECTION Error "OD0715" "an address that cannot be used":
+        "`odgen serve` listens at an address of this machine, to which clients connect. The address is that of another machine, another program listens at the port, or the user may not use it."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
         "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
     UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":

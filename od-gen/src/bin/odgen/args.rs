@@ -10,7 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use od_spec::diag::render;
 use od_spec::eds::readers::Reader;
 
-pub(crate) use bus::{DecodeArgs, NodesArgs};
+pub(crate) use bus::{DecodeArgs, NodesArgs, ServeArgs};
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, ShowFormat};
 
@@ -111,6 +111,7 @@ impl Cli {
             Command::New(args) => args.messages.format,
             Command::Params(args) => args.messages.format,
             Command::Plant(args) => args.command.message_format(),
+            Command::Serve(args) => args.messages.format,
             _ => None,
         };
         behind.or(self.format).unwrap_or_default()
@@ -180,6 +181,8 @@ pub(crate) enum Command {
     Params(ParamsArgs),
     /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine
     Plant(PlantArgs),
+    /// Be nodes on a bus: boot-up, heartbeat and SDO servers for clients that come by SLCAN over TCP
+    Serve(ServeArgs),
     /// Tell what a message code means and what to do about it
     Explain {
         /// A code such as OD0507, or `all`

@@ -23,6 +23,7 @@ mod params;
 mod plant;
 mod progress;
 mod report;
+mod serve;
 mod settings;
 mod specs;
 mod templates;
@@ -75,6 +76,7 @@ fn main() -> ExitCode {
         Command::New(args) => new::run(&args, &report),
         Command::Params(args) => params::run(&args, &report),
         Command::Plant(args) => plant::run(&args, &report),
+        Command::Serve(args) => serve::run(&args, directory, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
         Command::Reference => report::print(&od_spec::reference()),

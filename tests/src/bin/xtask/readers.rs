@@ -140,14 +140,19 @@ fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     None
 }
 
-/// A client that others wrote, against the generated Rust; and the client of firmware-glue against a server that others wrote.
+/// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue against
+/// a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let server = std::env::current_exe()?.with_file_name("sdo-server");
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
     for stem in SPECS {
         let dump = format!("generated/{stem}.json");
         let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--server"];
         runner.run(Command::new(&python).arg("tests/readers/sdo_client.py").args(arguments).arg(&server))?;
+        let spec = format!("od-spec/devices/{stem}.od.yaml");
+        let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--spec", &spec, "--odgen"];
+        runner.run(Command::new(&python).arg("tests/readers/virtual_node.py").args(arguments).arg(&odgen))?;
     }
     let client = std::env::current_exe()?.with_file_name("sdo-client");
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];

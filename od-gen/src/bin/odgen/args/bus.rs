@@ -34,3 +34,20 @@ pub(crate) struct DecodeArgs {
     #[command(flatten)]
     pub messages: Messages,
 }
+
+#[derive(Debug, Args)]
+pub(crate) struct ServeArgs {
+    #[command(flatten)]
+    pub nodes: NodesArgs,
+
+    /// Where clients find the bus: an address that is listened to, with the protocol of serial CAN adapters; port 0 takes a free one
+    #[arg(long, value_name = "tcp:HOST:PORT", default_value = "tcp:127.0.0.1:3333")]
+    pub slcan: String,
+
+    /// Tell every frame on the bus in words, on standard error
+    #[arg(long)]
+    pub log: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}

@@ -5,9 +5,13 @@
 //! frame; `T` and `R` with eight digits. The adapter answers with a carriage return alone, in front of it `z` or `Z` for a frame;
 //! with a bell where it refuses. Frames from the bus come in the same form, on request (`Z1`) with a time stamp of four digits.
 
+mod adapter;
+
 use std::fmt::Write as _;
 
 use firmware_glue::frame::{CanId, Frame};
+
+pub use self::adapter::{Adapter, Reply};
 
 /// What ends a line.
 pub const END: u8 = b'\r';

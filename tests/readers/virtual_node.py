@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""Be the master of virtual nodes: python-canopen against `odgen serve`, over SLCAN and TCP.
+
+    virtual_node.py --odgen target/debug/odgen --eds-dir generated/eds --dump generated/pitch-control-system.json \\
+        --spec od-spec/devices/pitch-control-system.od.yaml
+
+Each device is served from its specification, as node 5, and known to the client by its EDS alone. The client gets the boot-up
+message and heartbeats, changes states, reads and writes every entry as sdo_client.py does, reads and writes in blocks, sees what
+is stored over a reset, and guards the node. A second client sees the same bus. Exit code 1 when anything differs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import can
+import canopen
+
+from sdo_client import NODE, NOT_STORED, Check, begin, check_dictionary, code_of
+
+SAVE = b"save"
+
+
+class Served:
+    """`odgen serve` with one node, and a client of it."""
+
+    def __init__(self, odgen: str, spec: Path, key: str) -> None:
+        command = [odgen, "serve", str(spec), "--node", f"{NODE}={key}", "--slcan", "tcp:127.0.0.1:0"]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        assert self.process.stdout
+        self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
+
+    def bus(self) -> can.BusABC:
+        channel = f"socket://127.0.0.1:{self.port}"
+        return can.Bus(interface="slcan", channel=channel, bitrate=500_000, sleep_after_open=0)
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.wait(timeout=10)
+
+
+def reset(check: Check, node: canopen.RemoteNode) -> None:
+    """Resets the node, and waits for its boot-up message, which is there before anybody could begin to wait for it."""
+    booted = threading.Event()
+
+    def hear(_: int, data: bytearray, __: float) -> None:
+        if bytes(data) == b"\0":
+            booted.set()
+
+    node.network.subscribe(0x700 + NODE, hear)
+    node.nmt.send_command(0x81)
+    check.that("boot-up message", booted.wait(5), True)
+    node.network.unsubscribe(0x700 + NODE, hear)
+
+
+def check_states(check: Check, node: canopen.RemoteNode) -> None:
+    """Boot-up, heartbeat, and the commands of NMT."""
+    reset(check, node)
+    period = node.sdo.upload(0x1017, 0)
+    node.sdo.download(0x1017, 0, (30).to_bytes(2, "little"))
+    for command, state in (("OPERATIONAL", 5), ("STOPPED", 4), ("PRE-OPERATIONAL", 127)):
+        node.nmt.state = command
+        time.sleep(0.05)
+        node.nmt.wait_for_heartbeat(5)
+        check.that(f"state {state}", node.nmt._state, state)
+        if state == 4:
+            check.that("SDO while stopped", silent(node), True)
+    node.sdo.download(0x1017, 0, period)
+
+
+def silent(node: canopen.RemoteNode) -> bool:
+    try:
+        node.sdo.upload(0x1000, 0)
+    except canopen.sdo.SdoCommunicationError:
+        return True
+    return False
+
+
+def check_blocks(check: Check, node: canopen.RemoteNode, device: dict) -> None:
+    """A text, in segments and in a block; a number in a block."""
+    found = [
+        (int(one["index"], 16), entry["sub"])
+        for one in device["objects"]
+        for entry in one["entries"]
+        if entry["type"] == "visible-string" and entry["access"] != "wo"
+    ]
+    for index, sub in [(0x1000, 0), *found[:3]]:
+        whole = node.sdo.upload(index, sub)
+        with node.sdo.open(index, sub, "rb", block_transfer=True) as stream:
+            check.that(f"{index:04X}h.{sub} in a block", stream.read(), whole)
+
+
+def stored_entry(device: dict) -> tuple[int, int, str, int] | None:
+    """A stored number that can be changed: index, sub-index, type, and another value than its default."""
+    for one in device["objects"]:
+        for entry in one["entries"]:
+            default = entry["default"]
+            if entry["stored"] != "application" or entry["access"] != "rw" or entry["locked"] or "alias" in entry:
+                continue
+            if not default or "raw" not in default or "writable-when" in entry or "named-type" in entry:
+                continue
+            other = int(default["raw"]) - 1
+            low = entry.get("min", entry["low"])
+            if low is None or other >= int(low):
+                return int(one["index"], 16), entry["sub"], entry["type"], other
+    return None
+
+
+def check_reset(check: Check, node: canopen.RemoteNode, device: dict) -> None:
+    """A reset takes back what was not stored."""
+    if (found := stored_entry(device)) is None:
+        return
+    index, sub, kind, other = found
+    before = node.sdo.upload(index, sub)
+    after = other.to_bytes(len(before), "little", signed=kind.startswith("integer"))
+    node.sdo.download(index, sub, after)
+    reset(check, node)
+    check.that(f"{index:04X}h.{sub} after a reset", node.sdo.upload(index, sub), before)
+    node.sdo.download(index, sub, after)
+    check.that("a wrong signature", code_of(node.sdo.download, 0x1010, 3, b"evas"), NOT_STORED)
+    check.that("store parameters", code_of(node.sdo.download, 0x1010, 3, SAVE), None)
+    reset(check, node)
+    check.that(f"{index:04X}h.{sub} stored", node.sdo.upload(index, sub), after)
+    check.that("restore defaults", code_of(node.sdo.download, 0x1011, 3, b"load"), None)
+    check.that(f"{index:04X}h.{sub} until the reset", node.sdo.upload(index, sub), after)
+    reset(check, node)
+    check.that(f"{index:04X}h.{sub} restored", node.sdo.upload(index, sub), before)
+
+
+def check_second(check: Check, served: Served, node: canopen.RemoteNode) -> None:
+    """Another client sees what this one sends, and what the node answers; it guards the node."""
+    with served.bus() as other:
+        time.sleep(0.1)
+        node.sdo.download(0x1017, 0, b"\0\0")
+        seen: list[int] = []
+        while (message := other.recv(0.3)) is not None:
+            seen.append(message.arbitration_id)
+        check.that("what a second client sees", [0x600 + NODE, 0x580 + NODE] == seen[-2:], True)
+        for toggle in (0, 0x80, 0):
+            other.send(can.Message(arbitration_id=0x700 + NODE, is_remote_frame=True, dlc=1, is_extended_id=False))
+            answer = other.recv(2)
+            check.that("node guarding", bytes(answer.data) if answer else None, bytes([toggle | 127]))
+
+
+def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: list[dict]) -> Check:
+    check = begin(device, types)
+    served = Served(odgen, spec, device["key"])
+    network = canopen.Network(served.bus())
+    try:
+        network.notifier = can.Notifier(network.bus, network.listeners, 0.1)
+        node = canopen.RemoteNode(NODE, str(eds))
+        network.add_node(node)
+        check_states(check, node)
+        reset(check, node)
+        check_dictionary(check, node, device)
+        reset(check, node)
+        check_blocks(check, node, device)
+        check_second(check, served, node)
+        check_reset(check, node, device)
+    finally:
+        network.disconnect()
+        served.end()
+    return check
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("--odgen", required=True)
+    parser.add_argument("--spec", type=Path, required=True)
+    parser.add_argument("--eds-dir", type=Path, required=True)
+    parser.add_argument("--dump", type=Path, required=True)
+    options = parser.parse_args()
+    dump = json.loads(options.dump.read_text(encoding="utf-8"))
+    failed = 0
+    for device in dump["devices"]:
+        eds = options.eds_dir / f"{device['key']}.eds"
+        started = time.monotonic()
+        check = check_device(options.odgen, options.spec, eds, device, dump["types"])
+        failed += bool(check.failures) or check.done < 500
+        for failure in check.failures[:20]:
+            print(f"  {failure}")
+        verdict = "ok" if not check.failures else f"{len(check.failures)} differences"
+        seconds = time.monotonic() - started
+        print(f"python-canopen as master, {device['key']}: {check.done} checks, {verdict}, {seconds:.1f} s")
+    devices = len(dump["devices"])
+    print(f"{devices - failed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
