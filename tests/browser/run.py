@@ -4,7 +4,7 @@
     run.py DOCS...
 
 DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of `questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages
-that hold its texts. Every HTML page is held against the HTML standard. What npm brings is installed
+that hold its texts. Every HTML page is held against the HTML standard, and the search against how much it does at once. What npm brings is installed
 below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
 0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
 """
@@ -23,7 +23,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
-SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs"]
+SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs", "slices.mjs"]
+SEARCH = HERE.parent.parent / "docs-gen" / "templates" / "html" / "_search.js"
 # Two cores are what a machine has at least.
 AT_ONCE = 2
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
@@ -92,6 +93,7 @@ def main() -> int:
             if (docs / "dump.json").exists():
                 files = [docs, docs / "dump.json", docs / "context.json", CACHE / "seen" / docs.name]
                 work.append((docs.name, [node, str(folder / "check.mjs"), *map(str, files), browser]))
+    work.append(("slices of the search", [node, str(folder / "slices.mjs"), str(SEARCH)]))
     if pages:
         work.append(("all pages", [node, str(folder / "validate.mjs"), *pages]))
     failed = 0

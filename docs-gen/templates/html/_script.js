@@ -221,28 +221,45 @@
   // What was found: on this page, and on others.
   let hits = [], hitsElsewhere = [];
   let landing = 0, working = 0, found = null, marked = null, dressed = new Set(), round = 0;
+  // Cards that have marks or rows put away, of this question or of one before.
+  const worn = new Set();
   const near = new Set();
 
   const showRows = (item) => {
     for (const row of item.off ?? []) show(row, true);
     item.off = [];
+    item.isWhole = true;
     show(item.all, false);
   };
-  const undress = (item) => {
-    for (const mark of item.marks ?? []) {
-      const parent = mark.parentNode;
-      if (!parent) continue;
-      mark.replaceWith(mark.firstChild);
-      parent.normalize();
+  // A card can be a list of ten thousand rows, so that the work on one is done in pieces, too: these generators say after some rows that they may be interrupted.
+  const undress = function* (item, isOver = () => false) {
+    for (let done = 1; item.marks?.length > 0; done++) {
+      const mark = item.marks.pop(), parent = mark.parentNode;
+      if (parent) {
+        mark.replaceWith(mark.firstChild);
+        parent.normalize();
+      }
+      if (done % SOME_CARDS === 0) yield;
+      if (isOver()) return;
     }
     item.marks = [];
+    while (item.off?.length > SOME) {
+      for (const row of item.off.splice(-SOME)) show(row, true);
+      yield;
+      if (isOver()) return;
+    }
     showRows(item);
+    worn.delete(item);
   };
 
-  const markText = (item, within) => {
+  const markText = function* (item, within) {
     const walker = document.createTreeWalker(within, NodeFilter.SHOW_TEXT), nodes = [];
-    while (walker.nextNode()) if (!walker.currentNode.parentElement.closest("svg, button")) nodes.push(walker.currentNode);
-    for (const node of nodes) {
+    for (let looked = 1; walker.nextNode(); looked++) {
+      if (!walker.currentNode.parentElement.closest("svg, button")) nodes.push(walker.currentNode);
+      if (looked % SOME === 0) yield;
+    }
+    for (const [at, node] of nodes.entries()) {
+      if (at % SOME_CARDS === SOME_CARDS - 1) yield;
       const pieces = index.marks(node.data, marked);
       let end = node.length;
       for (const [from, to] of pieces.reverse()) {
@@ -258,20 +275,31 @@
   };
 
   // Of a card that is found by some of its rows, the others are put away.
-  const dress = (item) => {
+  const dress = function* (item) {
     if (dressed.has(item)) return;
     dressed.add(item);
-    undress(item);
+    yield* undress(item);
+    worn.add(item);
+    item.isWhole = false;
     const asked = wanted();
-    const places = item.found ? index.placesOf(item.found, found) : [];
-    const rows = places.map((at) => index.places[at].row).filter((row) => row?.matches("tr"));
+    const places = item.found ? index.placesOf(item.found, found) : [], rows = [];
+    yield;
+    for (const [at, place] of places.entries()) {
+      const { row } = index.places[place];
+      if (row?.matches("tr")) rows.push(row);
+      if (at % SOME === SOME - 1) yield;
+    }
     // A card that is found by its heading is shown as a whole.
     const keep = new Set(places.includes(item.first) ? [] : rows);
     const hasEntries = rows.some((row) => row.dataset.entry);
     for (const table of item.card.querySelectorAll("table")) {
+      yield;
       const list = [...table.tBodies[0].rows], isOfEntries = list[0]?.dataset.entry !== undefined;
       const some = list.some((row) => keep.has(row));
-      for (const row of list) {
+      for (const [at, row] of list.entries()) {
+        if (at % SOME_CARDS === SOME_CARDS - 1) yield;
+        // The reader wants to see all of them.
+        if (item.isWhole) break;
         const fits = asked.length === 0 || row.dataset.entry === undefined || fitsEntry(asked, factsOf(row));
         const away = !fits || (keep.size > 0 && !keep.has(row) && (isOfEntries ? hasEntries && list.length > 1 : true));
         if (away) { show(row, false); item.off.push(row); }
@@ -288,18 +316,22 @@
       }
       show(item.all, true);
     }
-    if (marked) markText(item, item.card);
+    if (marked) yield* markText(item, item.card);
   };
 
-  // Work that is not needed at once is done in pieces; a new question ends that of the last one.
+  // Work that is not needed at once is done in pieces; a new question ends that of the last one. What takes longer is a generator.
   const inPieces = (list, work) => {
     const begun = round;
-    let at = 0;
+    let at = 0, begunOne = null;
+    const isLeft = () => begun === round && (begunOne !== null || at < list.length);
     const go = () => {
       const start = performance.now(), end = start + 2;
-      while (begun === round && at < list.length && performance.now() < end) work(list[at++]);
+      while (isLeft() && performance.now() < end) {
+        begunOne ??= work(list[at++]) ?? null;
+        if (begunOne?.next().done) begunOne = null;
+      }
       performance.measure("search-piece", { start });
-      if (begun === round && at < list.length) requestAnimationFrame(go); else working -= 1;
+      if (isLeft()) requestAnimationFrame(go); else working -= 1;
     };
     working += 1;
     go();
@@ -378,10 +410,11 @@
     let step;
     do step = asking.work.next(); while (!step.done && performance.now() < start + SLICE);
     if (!step.done) later.port2.postMessage(null);
-    else if (performance.now() < start + SLICE / 2) answer(asking, step.value);
+    else if (asking.isFound || performance.now() < start + SLICE / 2) answer(asking, step.value);
     else {
       // What is shown then is a slice of its own.
       asking.work = answered(step.value);
+      asking.isFound = true;
       later.port2.postMessage(null);
     }
     performance.measure("search-piece", { start });
@@ -397,21 +430,22 @@
     apply(index.places.length > MANY_PLACES);
     performance.measure("search-piece", { start });
   };
-  const apply = (isSliced = false) => {
+  // What waits until the page is read is forgotten when something else is asked; `after` is done when the answer is shown.
+  let waiting = 0;
+  const apply = (isSliced = false, after = () => {}) => {
     performance.mark("search");
-    const asked = wanted(), text = search.value.trim(), isAsked = text !== "";
-    if (isAsked && !read(100)) { whenIdle(() => apply()); return; }
+    const asked = wanted(), text = search.value.trim(), isAsked = text !== "", begun = waiting += 1;
+    if (isAsked && !read(100)) { whenIdle(() => { if (begun === waiting) apply(false, after); }); return; }
     round += 1;
     if (asked.length > 0) for (const item of items) item.fits = rowsOf(item).some((facts) => fitsEntry(asked, facts));
     const named = entry(text), allowed = asked.length === 0 ? null
       : ({ item, facts }) => !item || (item.fits && (!facts || fitsEntry(asked, facts)));
     const work = isAsked ? index.search(named ? named.slice(0, 4) : text, allowed) : answered(null);
-    asking = { work, finish: (value) => display(value, asked, isAsked, named) };
+    asking = { work, finish: (value) => { display(value, asked, isAsked, named); after(); } };
     if (isSliced) goOn(); else finishAsking();
   };
 
   const display = (value, asked, isAsked, named) => {
-    const stale = dressed;
     dressed = new Set();
     found = value;
     if (found && named) {
@@ -446,9 +480,10 @@
     show(byId("ui_nothing"), searching && shown === 0);
     landing += 1;
     // On a large page the list of results comes first, and the cards follow. What was marked for the last question is put right with them.
-    const follow = () => {
+    const begun = round, follow = () => {
+      if (begun !== round) return;
       inPieces([...groups], place);
-      inPieces([...stale], (item) => { if (!dressed.has(item)) undress(item); });
+      inPieces([...worn], (item) => (dressed.has(item) ? null : undress(item, () => dressed.has(item))));
     };
     if (groups.size > FEW_GROUPS) requestAnimationFrame(follow); else follow();
     keep();
@@ -488,14 +523,14 @@
     const step = location.search === "" && address !== "" ? "pushState" : "replaceState";
     try { history[step](null, "", `${location.pathname}${address}${location.hash}`); } catch { /* not allowed everywhere */ }
   };
-  const fromAddress = () => {
+  const fromAddress = (after) => {
     const parts = new URLSearchParams(location.search);
     search.value = parts.get("q") ?? "";
     for (const filter of filters) {
       filter.value = parts.get(filter.dataset.filter) ?? "";
       if (filter.selectedIndex < 0) filter.value = "";
     }
-    apply();
+    apply(false, after);
   };
   const clear = () => {
     search.value = "";
@@ -585,12 +620,17 @@
 
   // ---- Links that land: what is laid out on the way moves the target, so it is followed until it stays below the bar.
   const GAP = 4, STILL = 12, LONGEST = 180;
+  // Where the last link landed. Its target stays there until the reader goes elsewhere, also when a table above it changes its height later.
+  let landed = null;
+  const offOf = (target) => target.getBoundingClientRect().top - below() - GAP;
+  const staying = () => (landed?.begun === landing && Math.abs(offOf(landed.target)) <= 1 ? landed.target : null);
   const settle = (target) => {
     const begun = landing += 1;
+    landed = { target, begun };
     let still = 0, frames = 0;
     const step = () => {
       if (begun !== landing) return;
-      const off = target.getBoundingClientRect().top - below() - GAP;
+      const off = offOf(target);
       if (Math.abs(off) > 1) { scrollBy({ top: off, behavior: "instant" }); still = 0; } else still = working > 0 ? 0 : still + 1;
       frames += 1;
       if (still < STILL && frames < LONGEST) requestAnimationFrame(step);
@@ -614,8 +654,7 @@
     settle(target);
   };
   addEventListener("popstate", () => {
-    if (asAddress() !== location.search) fromAddress();
-    reveal();
+    if (asAddress() !== location.search) fromAddress(reveal); else reveal();
   });
   document.addEventListener("click", (event) => {
     const elsewhere = event.ctrlKey || event.metaKey || event.shiftKey || event.altKey;
@@ -674,20 +713,23 @@
     });
     for (const { table, room } of tables) if (needed.get(table) <= room) table.classList.remove("folded");
     const measured = tables.filter(({ table }) => !table.matches(".folded")).map(({ table, room }) => ({ table, room, width: table.offsetWidth + lacking(table) }));
-    for (const { table, room, width } of measured) {
-      if (width <= room) continue;
+    const tooWide = measured.filter(({ room, width }) => width > room);
+    if (tooWide.length === 0) return;
+    const target = staying();
+    for (const { table, width } of tooWide) {
       needed.set(table, width);
       stack(table);
       table.classList.add("folded");
     }
+    // A busy browser tells of what it has laid out after a link has landed.
+    if (target) settle(target);
   };
   const isLaidOut = ({ card }) => card.firstElementChild?.checkVisibility?.({ contentVisibilityAuto: true }) ?? false;
   const fitAll = () => fit(items.filter(isLaidOut).map(({ card }) => card));
   document.addEventListener("contentvisibilityautostatechange", (event) => { if (!event.skipped && itemOf.has(event.target)) fit([event.target]); });
   addEventListener("resize", fitAll);
 
-  if (location.search) fromAddress();
-  reveal();
+  if (location.search) fromAddress(reveal); else reveal();
   markSoon();
   addEventListener("load", () => reveal());
 

@@ -259,12 +259,15 @@
         if (at % SOME === 0) yield;
       }
       const cards = [], kinds = new Map();
+      // A card can have ten thousand places, so that these are counted, too.
+      let looked = 0;
       for (let number = 0; number < this.cards.length; number++) {
         if (number % SOME_CARDS === 0) yield;
         const { first } = this.cards[number], end = this.#end(number);
         let best = -1, least = Infinity, rank = Infinity;
         for (let at = first; at < end; at++) {
           const sum = this.#sum(costs, at, first);
+          if (++looked % SOME === 0) yield;
           if (sum < 0) continue;
           const { kind } = this.places[at];
           kinds.set(kind, (kinds.get(kind) ?? 0) + 1);
