@@ -6,7 +6,7 @@
 Runs in the environment of WeasyPrint. Writes the PDF and, to standard output, one JSON object for each page: `height` and `bottom` (of the
 area of the text and of what stands in it), `blocks` (what stands on it, in order: `kind`, `id` of the section or object around it, `text`), `tables`
 (heights of the rows of each on this page, and what is the same table on other pages), `sizes` (of the letters in points, those of pictures as
-they are scaled, with a sample of each), `short` (lines of text that end early).
+they are scaled, with a sample of each), `short` (lines of text that end early), `overfull` (sections whose table is wider than the text).
 """
 
 from __future__ import annotations
@@ -117,7 +117,8 @@ class Page:
     def __init__(self, page) -> None:
         box = page._page_box
         top = box.content_box_y()
-        self.found = {"height": box.height, "bottom": 0.0, "chapter": False, "blocks": [], "tables": [], "sizes": {}, "short": []}
+        self.found = {"height": box.height, "bottom": 0.0, "chapter": False, "blocks": [], "tables": [], "sizes": {}, "short": [], "overfull": []}
+        self.right = box.content_box_x() + box.width
         for child in box.children:
             if type(child).__name__ != "MarginBox":
                 self.walk(child, "", top)
@@ -139,6 +140,9 @@ class Page:
         if kind == "LineBox" or kind.endswith("ReplacedBox"):
             self.found["bottom"] = max(self.found["bottom"], box.position_y + box.height - top)
         if tag == "table" and kind == "TableBox":
+            # Half a pixel is the width of a line.
+            if box.border_box_x() + box.border_width() > self.right + 1:
+                self.found["overfull"].append(around)
             groups = [group for group in box.children if not getattr(group, "is_header", False)]
             rows = [row for group in groups for row in group.children]
             heights = [row.height for row in rows]

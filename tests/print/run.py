@@ -101,6 +101,7 @@ class Manual:
         self.fullness()
         self.tables_in_two()
         self.small_print()
+        self.overfull()
         self.short_lines()
         self.warnings()
         for chapter in self.context["chapters"]:
@@ -203,6 +204,10 @@ class Manual:
         for number, page in enumerate(self.layout, start=1):
             for size, sample in page["sizes"].items():
                 self.check(float(size) >= SMALLEST, f"page {number} has letters of {size} pt: {sample}")
+
+    def overfull(self) -> None:
+        for number, page in enumerate(self.layout, start=1):
+            self.check(not page["overfull"], f"page {number} has a table that is wider than the text, of {page['overfull'][:3]}")
 
     def short_lines(self) -> None:
         for number, page in enumerate(self.layout, start=1):
