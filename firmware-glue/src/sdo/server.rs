@@ -224,7 +224,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             return self.take_segment(bytes, dictionary, application);
         }
         let (id, outcome) = match Request::decode(bytes) {
-            Some(Request::Upload { id }) => (id, self.begin_upload(id, dictionary, application)),
+            Some(Request::Upload { id }) => return Some(self.begin_upload(id, dictionary, application)),
             Some(Request::DownloadExpedited { id, value }) => {
                 self.transfer = Transfer::None;
                 let written = write_expedited(id, value, dictionary, application);
@@ -285,23 +285,40 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         Aborted { id, code }.encode()
     }
 
+    /// The answer to a request to read.
+    #[inline]
     fn begin_upload<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         id: EntryId,
         dictionary: &mut D,
         application: &mut A,
-    ) -> Result<Answer, AbortCode> {
+    ) -> [u8; 8] {
         self.transfer = Transfer::None;
-        let upload = match dictionary.upload(id.index, id.sub, application) {
+        match dictionary.upload(id.index, id.sub, application) {
             Ok(value) => match Expedited::new(&value) {
-                Some(value) => return Ok(Answer::UploadExpedited { id, value }),
-                None => Upload::of_value(id, &value, self.buffer.as_mut()),
+                Some(value) => Answer::UploadExpedited { id, value }.encode(),
+                None => {
+                    let upload = Upload::of_value(id, &value, self.buffer.as_mut());
+                    self.announce(id, upload)
+                }
             },
-            Err(code) => Err(code),
-        };
-        let upload = upload.or_else(|code| Upload::of_refused(id, code, dictionary, application))?;
-        self.transfer = Transfer::Upload { upload, offset: 0, toggle: false };
-        Ok(Answer::Upload { id, size: upload.size() })
+            Err(code) => {
+                let upload = Upload::of_refused(id, code, dictionary, application);
+                self.announce(id, upload)
+            }
+        }
+    }
+
+    /// Begins to send segments, if there is something to send.
+    #[inline(never)]
+    fn announce(&mut self, id: EntryId, upload: Result<Upload, AbortCode>) -> [u8; 8] {
+        match upload {
+            Ok(upload) => {
+                self.transfer = Transfer::Upload { upload, offset: 0, toggle: false };
+                Answer::Upload { id, size: upload.size() }.encode()
+            }
+            Err(code) => self.abort(id, code),
+        }
     }
 
     fn upload_segment<'t, D: Dictionary<'t>, A: Application<D>>(

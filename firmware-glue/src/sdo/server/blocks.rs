@@ -84,8 +84,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             }
             Request::BlockUpload { id: begun, crc, block_size, threshold } => {
                 *id = begun;
-                self.begin_block_upload(begun, crc, block_size, threshold, dictionary, application)
-                    .map(|answer| Some(answer.encode()))
+                self.begin_block_upload(begun, crc, block_size, threshold, dictionary, application).map(Some)
             }
             Request::BlockUploadStart => {
                 let Transfer::BlockUpload { phase: phase @ Phase::Announced, .. } = &mut self.transfer else {
@@ -119,19 +118,19 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         threshold: u8,
         dictionary: &mut D,
         application: &mut A,
-    ) -> Result<Answer, AbortCode> {
+    ) -> Result<[u8; 8], AbortCode> {
         let sender = Sender::new(block_size)?;
         self.transfer = Transfer::None;
         let upload = match dictionary.upload(id.index, id.sub, application) {
             Ok(value) if threshold > 0 && value.len() <= usize::from(threshold) => {
-                return self.begin_upload(id, dictionary, application);
+                return Ok(self.begin_upload(id, dictionary, application));
             }
             Ok(value) => Upload::of_value(id, &value, self.buffer.as_mut()),
             Err(code) => Err(code),
         };
         let upload = upload.or_else(|code| Upload::of_refused(id, code, dictionary, application))?;
         self.transfer = Transfer::BlockUpload { upload, sender, crc, phase: Phase::Announced };
-        Ok(Answer::BlockUpload { id, crc: true, size: upload.size() })
+        Ok(Answer::BlockUpload { id, crc: true, size: upload.size() }.encode())
     }
 
     fn block_received<'t, D: Dictionary<'t>, A: Application<D>>(
