@@ -45,8 +45,8 @@ class Served:
         self.process.wait(timeout=10)
 
 
-def reset(check: Check, node: canopen.RemoteNode) -> None:
-    """Resets the node, and waits for its boot-up message, which is there before anybody could begin to wait for it."""
+def reset(check: Check, node: canopen.RemoteNode, command: int = 0x81) -> None:
+    """Resets the node or its communication, and waits for its boot-up message, which is there before anybody could begin to wait for it."""
     booted = threading.Event()
 
     def hear(_: int, data: bytearray, __: float) -> None:
@@ -54,7 +54,7 @@ def reset(check: Check, node: canopen.RemoteNode) -> None:
             booted.set()
 
     node.network.subscribe(0x700 + NODE, hear)
-    node.nmt.send_command(0x81)
+    node.nmt.send_command(command)
     check.that("boot-up message", booted.wait(5), True)
     node.network.unsubscribe(0x700 + NODE, hear)
 
@@ -120,6 +120,11 @@ def check_reset(check: Check, node: canopen.RemoteNode, device: dict) -> None:
     before = node.sdo.upload(index, sub)
     after = other.to_bytes(len(before), "little", signed=kind.startswith("integer"))
     node.sdo.download(index, sub, after)
+    period = node.sdo.upload(0x1017, 0)
+    node.sdo.download(0x1017, 0, b"\x39\x05")
+    reset(check, node, 0x82)
+    check.that("1017h after a reset of communication", node.sdo.upload(0x1017, 0), period)
+    check.that(f"{index:04X}h.{sub} after a reset of communication", node.sdo.upload(index, sub), after)
     reset(check, node)
     check.that(f"{index:04X}h.{sub} after a reset", node.sdo.upload(index, sub), before)
     node.sdo.download(index, sub, after)
@@ -162,6 +167,7 @@ def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: list[di
         reset(check, node)
         check_blocks(check, node, device)
         check_second(check, served, node)
+        reset(check, node)
         check_reset(check, node, device)
     finally:
         network.disconnect()

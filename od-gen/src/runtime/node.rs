@@ -5,6 +5,7 @@ use std::fmt;
 
 use firmware_glue::frame::{CanId, Frame};
 use firmware_glue::sdo::{Channel, SdoServer};
+use firmware_glue::table::{EntryRow, Place};
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, Storage};
 
 use super::LiveDictionary;
@@ -87,10 +88,11 @@ impl Application<LiveDictionary<'_>> for Store {
 
 /// Whether a sub-index of 1010h and 1011h is about a group.
 const fn is_meant(sub: u8, storage: Storage) -> bool {
-    match (sub, storage) {
-        (1, _) | (2, Storage::Communication) | (3, Storage::Application) => true,
-        (4.., Storage::Manufacturer) => true,
-        _ => false,
+    match storage {
+        Storage::Communication => matches!(sub, 1 | 2),
+        Storage::Application => matches!(sub, 1 | 3),
+        Storage::Manufacturer => matches!(sub, 1 | 4..),
+        Storage::No | Storage::Remanent => false,
     }
 }
 
@@ -112,7 +114,7 @@ impl<'t> VirtualNode<'t> {
 
     /// Switches it on; returns its boot-up message.
     pub fn start(&mut self, now: u64) -> Frame {
-        self.reset(&STORED);
+        self.reset_node();
         self.boot(now)
     }
 
@@ -162,11 +164,11 @@ impl<'t> VirtualNode<'t> {
             2 => self.enter(State::Stopped),
             128 => self.enter(State::PreOperational),
             129 => {
-                self.reset(&STORED);
+                self.reset_node();
                 return Some(self.boot(now));
             }
             130 => {
-                self.reset(&[Storage::Communication]);
+                self.reset_communication();
                 return Some(self.boot(now));
             }
             _ => {}
@@ -181,22 +183,44 @@ impl<'t> VirtualNode<'t> {
         }
     }
 
-    /// Puts values back to what is stored, or else to the defaults: those of the groups, and with all of them what nothing keeps.
-    fn reset(&mut self, groups: &[Storage]) {
-        if groups == STORED {
-            let remanent = self.dictionary.stored(Storage::Remanent).to_vec();
-            self.dictionary.reset(self.id);
-            let layout = self.dictionary.layout(Storage::Remanent);
-            // The same dictionary gave them; there is nothing to restore where it keeps nothing.
-            let _ = self.dictionary.restore(Storage::Remanent, layout, &remanent);
+    /// Puts all values back to what is stored, or else to the defaults; what the device keeps by itself stays.
+    fn reset_node(&mut self) {
+        let kept = self.dictionary.stored(Storage::Remanent).to_vec();
+        self.dictionary.reset(self.id);
+        self.restore(Storage::Remanent, &kept);
+        for (storage, bytes) in self.store.0.clone() {
+            self.restore(storage, &bytes);
         }
-        for storage in groups {
-            self.dictionary.reset_stored(*storage, self.id);
-            if let Some(bytes) = self.store.0.get(storage) {
-                let layout = self.dictionary.layout(*storage);
-                let _ = self.dictionary.restore(*storage, layout, bytes);
+    }
+
+    /// Puts the communication objects back, and leaves the others.
+    fn reset_communication(&mut self) {
+        let mut anew = self.dictionary.clone();
+        anew.reset(self.id);
+        let table = self.dictionary.table();
+        let rows = table.parts().entries.iter().take(usize::from(table.parts().first_application_row));
+        for EntryRow { attributes, place } in rows {
+            let Some(shared) = table.parts().attributes.get(usize::from(*attributes)) else { continue };
+            if shared.place != Place::Image || shared.data_type.is_string() {
+                continue;
+            }
+            let start = usize::from(shared.page) << 16 | usize::from(*place);
+            let range = start..start + usize::from(shared.size);
+            if let (Some(old), Some(new)) =
+                (self.dictionary.image_mut().get_mut(range.clone()), anew.image().get(range))
+            {
+                old.copy_from_slice(new);
             }
         }
+        if let Some(bytes) = self.store.0.get(&Storage::Communication).cloned() {
+            self.restore(Storage::Communication, &bytes);
+        }
+    }
+
+    /// Takes back what the same dictionary has given; there is nothing to take where it keeps nothing.
+    fn restore(&mut self, storage: Storage, bytes: &[u8]) {
+        let layout = self.dictionary.layout(storage);
+        let _ = self.dictionary.restore(storage, layout, bytes);
     }
 
     /// Begins anew, with the channels that the dictionary has now.

@@ -1,5 +1,7 @@
 //! The adapter's side of SLCAN: what it answers, and what it puts on the bus.
 
+use std::fmt::Write as _;
+
 use firmware_glue::frame::Frame;
 
 use super::{CanFrame, Command, END, REFUSED, TimeStamps, command, line};
@@ -102,7 +104,7 @@ impl Adapter {
         let mut text = line(frame);
         if self.time_stamps == TimeStamps::On {
             text.pop();
-            text.push_str(&format!("{:04X}{}", milliseconds % 60_000, char::from(END)));
+            let _ = write!(text, "{:04X}{}", milliseconds % 60_000, char::from(END));
         }
         Some(text)
     }

@@ -54,10 +54,12 @@ fn the_way_from_an_eds_to_a_specification_is_as_shown() {
 fn the_trace_is_told_as_shown() {
     let scratch = Scratch::new("readme-decode");
     scratch.file("valve.od.yaml", include_str!("../../../tests/readme/valve.od.yaml"));
-    let frames = ["705#00", "605#2B002000A5000000", "585#8000200031000906", "205#3C00"];
-    let times = ["12.500", "12.620", "12.621", "12.740"];
-    let lines: String =
-        times.iter().zip(frames).map(|(time, frame)| format!("({time}) can0 {frame}\n")).collect();
+    let lines = "\
+(12.500) can0 705#00
+(12.620) can0 605#2B002000A5000000
+(12.621) can0 585#8000200031000906
+(12.740) can0 205#3C00
+";
     scratch.file("bus.log", lines);
     let arguments = "decode valve.od.yaml --node 5 --trace bus.log";
     let told = stdout(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
