@@ -165,7 +165,9 @@ impl Node<'_> {
             now = now.wrapping_add(1000);
             if let Some(frame) = there.frames.pop_front() {
                 let answer = self.server.handle(&frame, &mut self.dictionary, &mut self.program, now);
-                answer.into_iter().for_each(|frame| back.send(frame));
+                if let Some(frame) = answer {
+                    back.send(frame);
+                }
             }
             if let Some(frame) = self.server.poll(&mut self.dictionary, &mut self.program, now) {
                 back.send(frame);
@@ -394,7 +396,7 @@ fn a_client_survives_any_frames() {
         0x60, 0x20, 0x30, 0x43, 0x42, 0x4B, 0x41, 0x40, 0x00, 0x10, 0x0D, 0x1D, 0x80, 0xA0, 0xA4, 0xA2, 0xA1,
         0xC0, 0xC6, 0xC1, 0xD5, 0x01,
     ];
-    let mut numbers = Numbers(0xC0FFEE);
+    let mut numbers = Numbers(0x00C0_FFEE);
     let channel = Channel::predefined(5).unwrap();
     let (mut done, mut failed, mut frames) = (0_u32, 0_u32, 0_u32);
     while frames < 1_000_000 {

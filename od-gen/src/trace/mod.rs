@@ -8,6 +8,7 @@ mod node;
 mod pdo;
 mod sdo;
 mod services;
+mod transfer;
 
 use std::fmt::Write as _;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::model::{Dictionary, EntryId, Index, Mapped, Pdo, StateMachine, SubIndex, System, Value};
 
-use super::sdo::Transfer;
+use super::transfer::Transfer;
 use crate::concise::words;
 
 /// Bit 31 of the COB-ID of a PDO or an SDO: it does not exist. Bit 29: its identifier has 29 bits.

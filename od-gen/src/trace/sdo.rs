@@ -4,49 +4,7 @@ use firmware_glue::AbortCode;
 use od_spec::model::{EntryId, Index, SubIndex};
 
 use super::node::{Node, SdoSide, count, hexadecimal};
-
-/// What a server and its client are at.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Transfer {
-    id: Option<EntryId>,
-    data: Vec<u8>,
-    phase: Phase,
-}
-
-/// Where a transfer is.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-enum Phase {
-    /// Nothing is going on, or nothing of which the trace shows the beginning.
-    #[default]
-    Idle,
-    /// A value is written in one frame, which the server has not confirmed.
-    Expedited,
-    /// A value goes to the server in segments, and this is its last or not.
-    Download(Last),
-    /// A value comes from the server in segments.
-    Upload,
-    /// A block goes to the server.
-    BlockDownload(Block),
-    /// A block comes from the server.
-    BlockUpload(Block),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Last {
-    No,
-    Yes,
-}
-
-/// Segments of a block that nobody has confirmed yet.
-#[derive(Debug, Clone, PartialEq, Eq)]
-enum Block {
-    /// They come, up to a number of them.
-    Segments { size: u8, open: Vec<[u8; 7]> },
-    /// The other side confirms them.
-    Confirm { open: Vec<[u8; 7]>, last: Last },
-    /// All of them are confirmed.
-    End,
-}
+use super::transfer::{Block, Last, Phase, Transfer};
 
 /// One frame of an SDO channel, in words.
 pub(super) fn frame(node: &mut Node<'_>, channel: u16, side: SdoSide, bytes: &[u8]) -> String {
