@@ -165,7 +165,9 @@ impl Node<'_> {
             now = now.wrapping_add(1000);
             if let Some(frame) = there.frames.pop_front() {
                 let answer = self.server.handle(&frame, &mut self.dictionary, &mut self.program, now);
-                answer.into_iter().for_each(|frame| back.send(frame));
+                if let Some(frame) = answer {
+                    back.send(frame);
+                }
             }
             if let Some(frame) = self.server.poll(&mut self.dictionary, &mut self.program, now) {
                 back.send(frame);
@@ -176,7 +178,9 @@ impl Node<'_> {
                 .map_or(Step { send: None, outcome: None }, |frame| transfer.handle(&frame, now));
             let polled = transfer.poll(now);
             for step in [heard, polled] {
-                step.send.into_iter().for_each(|frame| there.send(frame));
+                if let Some(frame) = step.send {
+                    there.send(frame);
+                }
                 outcome = outcome.or(step.outcome);
             }
             let idle = there.frames.is_empty() && back.frames.is_empty();
