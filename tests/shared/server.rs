@@ -8,25 +8,25 @@ use firmware_glue::{Application, Dictionary};
 pub(crate) struct Server<D, A, const BUFFER: usize> {
     pub(crate) dictionary: D,
     pub(crate) application: A,
-    server: SdoServer<[u8; BUFFER]>,
+    protocol: SdoServer<[u8; BUFFER]>,
 }
 
 impl<'t, D: Dictionary<'t>, A: Application<D>, const BUFFER: usize> Server<D, A, BUFFER> {
     pub(crate) fn new(dictionary: D, application: A) -> Self {
         let channel = Channel { request: CanId::MAX, answer: CanId::MAX };
-        Self { dictionary, application, server: SdoServer::new(channel, [0; BUFFER]) }
+        Self { dictionary, application, protocol: SdoServer::new(channel, [0; BUFFER]) }
     }
 
     /// The answer to a request.
     pub(crate) fn answer(&mut self, request: [u8; 8]) -> Option<[u8; 8]> {
         let frame = Frame::full(CanId::MAX, request);
-        let answer = self.server.handle(&frame, &mut self.dictionary, &mut self.application, 0)?;
+        let answer = self.protocol.handle(&frame, &mut self.dictionary, &mut self.application, 0)?;
         answer.bytes()?.try_into().ok()
     }
 
     /// What follows unasked: the other segments of a block, one in each call.
     #[allow(dead_code, reason = "not every test has blocks")]
     pub(crate) fn next(&mut self) -> Option<[u8; 8]> {
-        self.server.poll(&mut self.dictionary, &mut self.application, 0)?.bytes()?.try_into().ok()
+        self.protocol.poll(&mut self.dictionary, &mut self.application, 0)?.bytes()?.try_into().ok()
     }
 }

@@ -178,7 +178,9 @@ impl Node<'_> {
                 .map_or(Step { send: None, outcome: None }, |frame| transfer.handle(&frame, now));
             let polled = transfer.poll(now);
             for step in [heard, polled] {
-                step.send.into_iter().for_each(|frame| there.send(frame));
+                if let Some(frame) = step.send {
+                    there.send(frame);
+                }
                 outcome = outcome.or(step.outcome);
             }
             let idle = there.frames.is_empty() && back.frames.is_empty();

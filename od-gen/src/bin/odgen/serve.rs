@@ -230,7 +230,9 @@ impl Loop<'_, '_> {
                     gone.push(client.number);
                 }
             }
-            gone.into_iter().for_each(|number| self.leave(number));
+            for number in gone {
+                self.leave(number);
+            }
         }
     }
 
