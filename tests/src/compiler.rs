@@ -53,8 +53,8 @@ pub fn compile(file: &Path, product: Product<'_>) -> Result<Output, Failure> {
 /// Where cargo has put the crates, with the features of the tests.
 fn crates() -> Result<Vec<(&'static str, PathBuf)>, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments =
-        ["test", "--quiet", "--package", "od-tests", "--lib", "--no-run", "--message-format", "json"];
+    // As in a run of all tests, where features are the sum of what all packages ask for.
+    let arguments = ["test", "--quiet", "--workspace", "--lib", "--no-run", "--message-format", "json"];
     let output = Command::new(cargo).args(arguments).current_dir(root()).output()?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
