@@ -179,8 +179,8 @@ words! {
     Pdo "pdo": "PDO", "PDO";
     Pdos "pdos": "PDOs", "PDOs";
     PdosIntro "pdos_intro":
-        "Factory mapping. Byte 0 is sent first; bit 0 is the least significant bit of a byte.",
-        "PDO-Mapping ab Werk. Byte 0 wird zuerst gesendet; Bit 0 ist das niederwertigste Bit eines Bytes.";
+        "Default mapping. Byte 0 is sent first; bit 0 is the least significant bit of a byte.",
+        "Vorbelegung der PDOs. Byte 0 wird zuerst gesendet; Bit 0 ist das niederwertigste Bit eines Bytes.";
     Place "place": "Place", "Stelle";
     Prints "prints": "The manual prints", "Im Handbuch steht";
     Printed "printed": "Printed table", "Gedruckte Tabelle";
