@@ -311,7 +311,7 @@ impl Source<'_> {
             number: at + 1,
             kind: self.wording.erratum_kind(erratum.kind).to_owned(),
             place: self.text(&erratum.place),
-            prints: self.text(&erratum.prints),
+            prints: self.quoted(&erratum.prints),
             reads: self.text(&erratum.reads),
             because: self.text(&erratum.because),
         }

@@ -14,6 +14,8 @@ mod indices;
 mod language;
 mod long_list;
 mod markdown;
+mod mentions;
+mod numbers;
 mod options;
 mod outline;
 mod printed;

@@ -1,6 +1,7 @@
 //! The model in front of the printer: chosen devices, language, what refers to what, and links.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::rc::Rc;
 
 use od_spec::Library;
@@ -13,6 +14,7 @@ use od_spec::wording::Wording;
 use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::indices::{self, Written};
 use crate::language::{Language, Word};
+use crate::numbers::Numbers;
 use crate::options::Options;
 use crate::outline::Outline;
 use crate::series::title;
@@ -72,13 +74,25 @@ fn standard_names(device: &Dictionary) -> Vec<(Index, String)> {
     names.collect()
 }
 
+/// A text with links in place of its parts that they stand for. In another language where one is named.
+fn with_links(text: &str, language: &str, mut links: Vec<(Range<usize>, Cell)>) -> Cell {
+    links.sort_by_key(|(range, _)| range.start);
+    let (mut cell, mut start) = (Cell::default(), 0);
+    for (range, link) in links {
+        cell = cell.in_language(&text[start..range.start], language).and(link.all_in_language(language));
+        start = range.end;
+    }
+    cell.in_language(&text[start..], language)
+}
+
 /// The model, seen by the printer.
+#[derive(Clone)]
 pub(crate) struct Source<'a> {
     pub system: &'a System,
     /// The devices to show.
     pub devices: Vec<&'a Dictionary>,
     /// The devices that have a page: those shown, and where only one is shown, the others that links lead to.
-    with_page: Vec<&'a Dictionary>,
+    pub with_page: Vec<&'a Dictionary>,
     pub language: Language<'a>,
     /// How facts are worded in that language.
     pub wording: Wording,
@@ -88,6 +102,8 @@ pub(crate) struct Source<'a> {
     homes: BTreeMap<Index, String>,
     /// The document's sections by chapter.
     pub outline: Rc<Outline>,
+    /// Where the numbers of its tables, figures and sections stand.
+    pub numbers: Rc<Numbers>,
     lookup: Rc<Lookup>,
 }
 
@@ -106,6 +122,7 @@ impl<'a> Source<'a> {
             outline: Rc::new(outline),
             with_page: devices.clone(),
             devices,
+            numbers: Rc::default(),
             lookup: Rc::default(),
         };
         source.lookup = Rc::new(source.look_up());
@@ -120,6 +137,7 @@ impl<'a> Source<'a> {
             with_page: self.with_page.clone(),
             homes,
             outline: Rc::clone(&self.outline),
+            numbers: Rc::clone(&self.numbers),
             lookup: Rc::clone(&self.lookup),
             ..*self
         }
@@ -253,7 +271,7 @@ impl<'a> Source<'a> {
         self.language.word(word)
     }
 
-    /// A text of the specification, in which each index of an object shown is a link.
+    /// A text of the specification, in which each index of an object shown is a link, and each number of a table, figure or section.
     pub(crate) fn text(&self, text: &Text) -> Cell {
         self.text_on(&Devices::All, text)
     }
@@ -265,20 +283,33 @@ impl<'a> Source<'a> {
         linked.fold(Cell::default(), Cell::and)
     }
 
-    /// A text in which each index is a link: to the object of these devices, or else to that of others. In another language where
-    /// one is named.
+    /// A text as something else than this document words it, be it another issue of the manual: only an index is a link, as a number
+    /// may mean another table there, or be wrong.
+    pub(crate) fn quoted(&self, text: &Text) -> Cell {
+        let words = Cell::words(text, self.language);
+        let quoted = words.parts().map(|part| {
+            let links = self.links_to_objects(&Devices::All, part.text).collect();
+            with_links(part.text, part.language, links)
+        });
+        quoted.fold(Cell::default(), Cell::and)
+    }
+
+    /// A text in which each index is a link: to the object of these devices, or else to that of others; and each number of a table,
+    /// figure or section of the document. In another language where one is named.
     pub(crate) fn linked(&self, devices: &Devices, text: &str, language: &str) -> Cell {
-        let mut cell = Cell::default();
-        let mut start = 0;
-        for one in indices::written(text) {
+        let links = self.links_to_objects(devices, text).chain(self.links_to_numbers(text)).collect();
+        with_links(text, language, links)
+    }
+
+    /// The indices of objects shown in a text, each as a link.
+    fn links_to_objects(&self, devices: &Devices, text: &str) -> impl Iterator<Item = (Range<usize>, Cell)> {
+        indices::written(text).filter_map(move |one| {
             let has_it = self.led_to(devices, one.id.index).next().is_some();
             let devices = if has_it { devices } else { &Devices::All };
-            let Some((end, anchor)) = self.named_in_text(devices, one) else { continue };
+            let (end, anchor) = self.named_in_text(devices, one)?;
             let link = self.link_on(devices, one.id.index, text[one.start..end].to_owned(), anchor);
-            cell = cell.in_language(&text[start..one.start], language).and(link.all_in_language(language));
-            start = end;
-        }
-        cell.in_language(&text[start..], language)
+            Some((one.start..end, link))
+        })
     }
 
     /// What is named in a running text: where its name ends, and the anchor that it leads to. Of an object without the sub-index

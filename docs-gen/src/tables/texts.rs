@@ -39,7 +39,7 @@ impl Source<'_> {
             Row::of(vec![
                 Cell::plain(&issue.number),
                 Cell::plain(self.wording.language.date(issue.date)),
-                self.text(&issue.about),
+                self.quoted(&issue.about),
             ])
         });
         Columns::new()
