@@ -26,13 +26,14 @@ objects:
 const MADE: &str = "
 pdos:
   lamp:
-    receive: {3: {map: [unsigned32, level], inhibit-time: 7, valid: no}}
+    receive: {3: {map: [unsigned32, level], inhibit-time: 7, valid: no, about: How bright it is to be.}}
     transmit: {1: {map: [0x2001], mapping: fixed, no-rtr: yes, transmission: 1, event-timer: 10, sync-start: 5}}
 ";
 
 const IN_FULL: &str = "
   0x1402:
     name: RPDO 3 communication parameter
+    about: How bright it is to be.
     sub0: {name: highest sub-index supported}
     record:
       1:
@@ -157,6 +158,7 @@ fn in_full_is_said_the_same_as_under_pdos() {
     }
     assert_eq!(eds(&made).len(), eds(&in_full).len());
     assert!(eds(&made).contains(&"[1602sub2]".to_owned()));
+    assert!(eds(&made).contains(&"; How bright it is to be.".to_owned()));
     let rust = |system: &System| {
         let tokens = od_gen::rust::tokens(system, &system.devices[0], &mut Diagnostics::new());
         tokens.unwrap().to_string()

@@ -9,6 +9,9 @@ mod sheet;
 mod values;
 mod workbook;
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -77,15 +80,27 @@ pub fn make(plant: &Plant, settled: &[Settled], job: &Job, pool: &Pool) -> Resul
     Ok(Made { dcf, concise: concise::write(&writes).into() })
 }
 
-/// All files of a plant, machine by machine; `made` in the order of the jobs.
+/// All files of a plant, machine by machine; `made` in the order of the jobs. There is no workbook of a plant with more values than
+/// one can hold.
 pub fn files(plant: &Plant, settled: &[Settled], jobs: &[Job], made: &[Made]) -> Vec<SharedFile> {
+    let workbook = workbook::write(plant, settled, workbook::MOST_ROWS);
+    files_with(workbook, plant, settled, jobs, made)
+}
+
+fn files_with(
+    workbook: Option<Vec<u8>>,
+    plant: &Plant,
+    settled: &[Settled],
+    jobs: &[Job],
+    made: &[Made],
+) -> Vec<SharedFile> {
     let made: BTreeMap<&Job, &Made> = jobs.iter().zip(made).collect();
     let whole = |path: String, text: String| SharedFile { path, pieces: vec![text.into_bytes().into()] };
+    let tables = if workbook.is_some() { &[WORKBOOK, SHEET][..] } else { &[SHEET] };
     let mut files = vec![
-        whole(OVERVIEW.to_owned(), overview::write(plant, settled)),
+        whole(OVERVIEW.to_owned(), overview::write(plant, settled, tables)),
         whole(SHEET.to_owned(), sheet::write(plant, settled)),
     ];
-    let workbook = workbook::write(plant, settled);
     files.extend(workbook.map(|bytes| SharedFile { path: WORKBOOK.to_owned(), pieces: vec![bytes.into()] }));
     for machine in &plant.machines {
         let folder = format!("{}/{}", plant.site_of(machine), machine.name);

@@ -17,20 +17,21 @@ struct Said<'a> {
 }
 
 /// The overview: types with their nodes, sites with their machines, each value that a level gives, and who sends which PDO to whom.
-pub(super) fn write(plant: &Plant, settled: &[Settled]) -> String {
+/// `tables` are the files with all values.
+pub(super) fn write(plant: &Plant, settled: &[Settled], tables: &[&str]) -> String {
     let mut text = format!("<!-- {GENERATED} -->\n\n# {}\n", plain(&plant.title));
     if let Some(about) = &plant.about {
         let _ = write!(text, "\n{}\n", plain(about));
     }
     let _ = write!(
         text,
-        "\n{} at {}, {} of {}. `{}` and `{}` have a row for each value of each node.\n",
+        "\n{} at {}, {} of {}. {} {} a row for each value of each node.\n",
         counted(plant.machines.len(), "machine"),
         counted(plant.sites.len(), "site"),
         counted(plant.nodes.len(), "node"),
         counted(plant.classes.len(), "kind"),
-        super::WORKBOOK,
-        super::SHEET,
+        tables.iter().map(|table| format!("`{table}`")).collect::<Vec<_>>().join(" and "),
+        if tables.len() == 1 { "has" } else { "have" },
     );
     types(&mut text, plant);
     sites(&mut text, plant);

@@ -12,7 +12,7 @@ use super::rows::{COLUMNS, Cell, each};
 use crate::zip::Archive;
 
 /// Rows that a sheet has at most.
-const MOST_ROWS: usize = 1 << 20;
+pub(super) const MOST_ROWS: usize = 1 << 20;
 /// Sheets that a workbook has at most: an archive of this kind ends at 4 GB.
 const MOST_SHEETS: usize = 4;
 /// Letters that a cell has at most.
@@ -31,9 +31,9 @@ const PLAIN: usize = 0;
 const TITLE: usize = 1;
 const AS_TEXT: usize = 2;
 
-/// The workbook; nothing of a plant with more values than one can hold.
-pub(super) fn write(plant: &Plant, settled: &[Settled]) -> Option<Vec<u8>> {
-    let mut book = Book::new(MOST_ROWS);
+/// The workbook, with at most so many rows on a sheet; nothing of a plant with more values than one can hold.
+pub(super) fn write(plant: &Plant, settled: &[Settled], most_rows: usize) -> Option<Vec<u8>> {
+    let mut book = Book::new(most_rows);
     each(plant, settled, |of_node, of_values| {
         for values in of_values {
             book.row(of_node.iter().chain(values));

@@ -71,7 +71,9 @@ pub fn write_xdc(system: &System, device: &Dictionary, node: &Commissioning, fil
 }
 
 fn write(subject: Subject<'_>) -> Vec<u8> {
-    let mut xml = Xml::new(&[GENERATED]);
+    // What people say about the node has no element: those that would hold it are about the product, and come back as such.
+    let remarks = subject.node.iter().flat_map(|node| node.remarks.iter().map(String::as_str));
+    let mut xml = Xml::new(&std::iter::once(GENERATED).chain(remarks).collect::<Vec<_>>());
     let container = Element::new("canopen:ISO15745ProfileContainer")
         .with("xmlns:canopen", NAMESPACE)
         .with("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance");

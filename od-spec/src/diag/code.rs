@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use super::Severity;
+use super::{Severity, commissioning};
 
 /// A kind of message. Two codes are the same when their ids are.
 #[derive(Debug)]
@@ -47,14 +47,24 @@ pub enum Language {
     Eds,
     /// A DCF.
     Dcf,
+    /// A parameter file for the drive of [`Example::DEVICES`].
+    Parameters,
+    /// A plant with devices of [`Example::DEVICES`].
+    Plant,
+    /// An XDD.
+    Xdd,
+    /// A concise DCF: its bytes as hexadecimal digits, with remarks behind `#`.
+    Concise,
 }
 
 impl Language {
     /// The name under which the text is highlighted in Markdown.
     pub const fn highlighting(self) -> &'static str {
         match self {
-            Language::Specification => "yaml",
+            Language::Specification | Language::Parameters | Language::Plant => "yaml",
             Language::Eds | Language::Dcf => "ini",
+            Language::Xdd => "xml",
+            Language::Concise => "text",
         }
     }
 
@@ -64,6 +74,10 @@ impl Language {
             Language::Specification => "example.od.yaml",
             Language::Eds => "example.eds",
             Language::Dcf => "example.dcf",
+            Language::Parameters => "parameters.yaml",
+            Language::Plant => "plant.yaml",
+            Language::Xdd => "example.xdd",
+            Language::Concise => "example.bin",
         }
     }
 }
@@ -84,11 +98,35 @@ impl Example {
         Self { language: Language::Dcf, before, after }
     }
 
+    /// The two parameter files of an example.
+    pub(crate) const fn parameters(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Parameters, before, after }
+    }
+
+    /// The two plants of an example.
+    pub(crate) const fn plant(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Plant, before, after }
+    }
+
+    /// The two XDD texts of an example.
+    pub(crate) const fn xdd(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Xdd, before, after }
+    }
+
+    /// The two concise DCFs of an example.
+    pub(crate) const fn concise(before: &'static str, after: &'static str) -> Self {
+        Self { language: Language::Concise, before, after }
+    }
+
     /// A text of the example as a whole one, with everything that such a text has.
     pub fn whole(&self, text: &str) -> String {
         match self.language {
             Language::Specification => Self::whole_specification(text),
             Language::Eds | Language::Dcf => crate::eds::example::whole(self.language, text),
+            Language::Parameters => commissioning::parameters(text),
+            Language::Plant => commissioning::plant(text),
+            Language::Xdd => commissioning::xdd(text),
+            Language::Concise => text.to_owned(),
         }
     }
 

@@ -1,10 +1,10 @@
 //! The messages about texts, names and files: what reading, looking up and writing can say. The code of a rule over the
 //! model stands with the rule, in `check`.
 
-use super::{Code, Severity};
+use super::{Code, Example, Severity};
 
 macro_rules! codes {
-    ($($name:ident $severity:ident $(/ $foreign:ident)? $id:literal $title:literal: $explanation:literal)+) => {
+    ($($name:ident $severity:ident $(/ $foreign:ident)? $id:literal $title:literal: $explanation:literal $([$example:expr])?)+) => {
         $(
             #[doc = $title]
             pub const $name: &Code = &Code {
@@ -14,13 +14,15 @@ macro_rules! codes {
                 title: $title,
                 explanation: $explanation,
                 clause: None,
-                example: None,
+                example: codes!(@example $($example)?),
             };
         )+
 
         /// All of them, ascending.
         pub(crate) const ALL: &[&Code] = &[$($name,)+];
     };
+    (@example) => { None };
+    (@example $example:expr) => { Some($example) };
     (@foreign $severity:ident) => { Severity::$severity };
     (@foreign $severity:ident $foreign:ident) => { Severity::$foreign };
 }
@@ -160,30 +162,66 @@ codes! {
         "Node-IDs are 1 to 127."
     BAD_ASSIGNMENT Error "OD0702" "a parameter setting that cannot be understood":
         "A setting is `ENTRY=VALUE`: the entry by index (`607D.2`, or as in an EDS `607Dsub2`; the index is hexadecimal) or by name, the value as the specification writes it. Behind a colon (`607D:2`) some tools count in decimal and others in hexadecimal: a sub-index that is not the same in both is refused there."
+        [Example::parameters(
+            "parameters:\n  2004: 7",
+            "parameters:\n  2004.1: 7"
+        )]
     BIT_RATE_UNSUPPORTED Error "OD0706" "a bit rate that the device does not support":
         "The device's `bit-rates:` do not list the requested one."
+        [Example::parameters(
+            "bit-rate: 333",
+            "bit-rate: 125"
+        )]
     SET_TWICE Error "OD0708" "a parameter that is set twice":
         "Two settings name one entry, perhaps once by index and once by name."
+        [Example::parameters(
+            "parameters:\n  2004.1: 7\n  ramps: {up: 8}",
+            "parameters:\n  2004.1: 7\n  ramps: {down: 8}"
+        )]
     WRITE_FAILED Error "OD0709" "an output that cannot be written":
         "A file could not be created, written or renamed. Nothing was changed: the old files are all still there."
     BAD_TEMPLATE Error "OD0711" "a template that cannot be printed":
         "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
     CONCISE_CUT_OFF Error "OD0712" "a concise DCF that ends too early":
         "A concise DCF (CiA 302-3, object 1F22h) is the number of its records, 4 bytes, and then the records: index, sub-index, number of bytes, the bytes. The file ends within its number, within the head of a record or within a value; or it has fewer records than it says. A master stops at such a place, after it has written what stands before. Make the file again; a frequent cause are generators that write values of 24, 40, 48 or 56 bits with more bytes than they count."
+        [Example::concise(
+            "01 00 00 00              # one record\n04 20 01  02 00 00 00    # 2004h.1, two bytes\n07                       # there is one",
+            "01 00 00 00              # one record\n04 20 01  02 00 00 00    # 2004h.1, two bytes\n07 00"
+        )]
     CONCISE_TOO_LONG Error "OD0713" "a concise DCF with more than its records":
         "Behind as many records as a concise DCF says it has, the file goes on. A master never sees that part. Either the number at the beginning is too small, or the file is none of this kind."
+        [Example::concise(
+            "00 00 00 00                    # no record\n04 20 01  02 00 00 00  07 00   # and one all the same",
+            "01 00 00 00                    # one record\n04 20 01  02 00 00 00  07 00"
+        )]
     BAD_TRACE_LINE Error "OD0714" "a line of a trace that cannot be read":
         "A trace has a frame on each line, in one of three notations: as `candump -L` logs it, `(1700000000.123456) can0 181#0102`; as `candump` prints it, `can0  181   [2]  01 02`; or as an adapter with SLCAN sends it, `t18120102`. Empty lines and those that begin with `#` or `;` are left out. Every other line is read or reported, so that no frame is missed in silence; the lines behind it are read all the same."
     NO_CONNECTION Error "OD0715" "an address that cannot be used":
         "`odgen serve` listens at an address of this machine, to which clients connect. The address is that of another machine, another program listens at the port, or the user may not use it."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
         "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
+        [Example::parameters(
+            "parameters: {calibration: 101}\nunlock: [calibration, lowest voltage]",
+            "parameters: {calibration: 101}\nunlock: [calibration]"
+        )]
     UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":
         "What is said of a type, a position or a device at a position has to be about one that there is: on a machine that has no such thing, nothing would happen, and nobody would notice. Types stand under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
+        [Example::plant(
+            "sites:\n  Hall: {type: P2, machines: {1..3: {}}}",
+            "sites:\n  Hall: {type: P1, machines: {1..3: {}}}"
+        )]
     OVERLAPPING_RUNS Error "OD0731" "runs of machines that cross":
         "Of two runs of machines one lies in the other or they have no machine in common: what is said of the smaller run lies over what is said of the larger one. Here some machines are in both and neither lies in the other, so that nobody knows what holds for them. Split one of the runs."
+        [Example::plant(
+            "sites:\n  Hall: {type: P1, machines: {1..5: {comment: old}, 4..8: {comment: new}}}",
+            "sites:\n  Hall: {type: P1, machines: {1..3: {comment: old}, 4..8: {comment: new}}}"
+        )]
     TOO_MANY_NODES Error "OD0733" "a plant with too many nodes":
         "A few lines can stand for millions of nodes. A plant may have 100,000 of them; the largest have some thousands. Correct the run, or make a plant file for each site."
+        [Example::plant(
+            "sites:\n  Hall: {type: P1, machines: {1..60000: {}}}",
+            "sites:\n  Hall: {type: P1, machines: {1..60: {}}}"
+        )]
     DEPARTURE Note "OD0811" "a departure from a standard":
         "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
     OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
@@ -192,6 +230,10 @@ codes! {
         "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value; `tables:` of a section became `content:`, as texts stand there, too."
     MACHINE_BESIDE_RUNS Warning "OD0850" "a machine beside the runs":
         "The site counts its machines in runs, and this number is in none of them: it makes one more machine. If one of the others was meant, correct the number; if there is such a machine, make a run longer, or write it as a run of its own, `17..17`."
+        [Example::plant(
+            "sites:\n  Hall: {type: P1, machines: {1..10: {}, 11: {}}}",
+            "sites:\n  Hall: {type: P1, machines: {1..11: {}}}"
+        )]
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":
@@ -202,22 +244,62 @@ codes! {
         "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message tells which part of the specification needs more."
     XDD_SYNTAX Error "XDD101" "a file is not well-formed XML":
         "The XML reader stopped at the marked place; nothing of the file was read. Frequent causes: an element that is not closed, `&` or `<` in a text where `&amp;` or `&lt;` belongs, a file that is cut off."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"up & down\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"up &amp; down\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
+        )]
     XDD_DTD Error "XDD102" "a document type in an XDD":
         "A document type (`<!DOCTYPE …>`) can define entities that stand for any amount of text, or for files of the reader's machine. An XDD needs none, so that such a file is refused as a whole. Remove the document type."
+        [Example::xdd(
+            "<!DOCTYPE list [<!ENTITY name \"level\">]>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"&name;\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
+        )]
     XDD_NONE Error "XDD103" "XML that is no XDD":
         "An XDD or XDC (CiA 311) lists the objects of a device in a `CANopenObjectList`. The file is XML and has none."
+        [Example::xdd(
+            "<Objects>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</Objects>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
+        )]
     XDD_NO_PLACE Error "XDD201" "an object that cannot be placed":
         "An object is known by its `index`, a sub-object by its `subIndex`, in hexadecimal digits and each once. One without is left out, as is the second of two: readers disagree about which of them counts."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"level\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
+        )]
     XDD_ATTRIBUTE Error / Warning "XDD202" "an attribute that cannot be understood":
         "The attribute is missing, or has another value than CiA 311 knows. The message says what is taken instead: an access is read-only and a mapping none, until somebody says otherwise; an object is what its sub-objects make of it."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"readable\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\"/>\n</CANopenObjectList>"
+        )]
     XDD_NO_TYPE Error "XDD203" "an entry without a data type":
         "Neither the object nor the parameter that it refers to says a data type of CiA 301. Nobody knows how many bytes the entry has; it is taken as a DOMAIN, a block of unknown length. Types of 24, 40, 48 and 56 bits have no element of their own, so that `dataType` of the object has to say them."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" accessType=\"rw\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
+        )]
     XDD_NO_ACCESS Error "XDD204" "an entry without access":
         "Neither the object nor a parameter says who may read and write the entry. It is taken as read-only until somebody says otherwise."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
+        )]
     XDD_REFERENCE Error / Warning "XDD205" "a reference to no parameter":
         "`uniqueIDRef` names the parameter that says type, access, default and meaning of an entry. There is none of this name, so that only what the object itself says is known."
+        [Example::xdd(
+            "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_2\"/>\n</CANopenObjectList>",
+            "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>"
+        )]
     XDD_CONTRADICTION Error / Warning "XDD206" "a mapping against the access":
         "A TPDO carries what can be read, an RPDO what can be written; `PDOmapping` says the opposite of the access. The access counts, and the mapping goes in its direction."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" PDOmapping=\"RPDO\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" PDOmapping=\"TPDO\"/>\n</CANopenObjectList>"
+        )]
     XDD_LEFT_OUT Note "XDD207" "something that has no place":
         "A dictionary has no place for it, or it can be understood in more than one way: what other programs keep in `property`, modules, templates, and units whose raw values count from an `offset`."
+        [Example::xdd(
+            "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/><property name=\"colour\" value=\"red\"/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
+            "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>"
+        )]
 }

@@ -2,6 +2,7 @@
 
 mod code;
 pub mod codes;
+mod commissioning;
 mod nearest;
 pub mod readers;
 pub mod render;

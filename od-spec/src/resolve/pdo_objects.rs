@@ -132,6 +132,8 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
     }
     let name = described.communication_name(pdo);
     let mut object = object(pdo.communication_index(), name, list, described, pdo.span);
+    // What is said about a PDO stands at this object where the objects are written in full.
+    object.about = pdo.about.clone();
     if let (Some(flag), Some(cob_id)) = (decl.no_rtr, object.entries.get_mut(1)) {
         cob_id.facts.state(Fact::RemoteFrames, stated(Some(flag.span), decl));
     }

@@ -140,11 +140,6 @@ fn import_again(name: &str, bytes: &[u8]) -> Result<(), String> {
     // What the libraries say about an object comes with the first import, and what its EDS says of that with the second.
     let first = turn(name, bytes)?;
     let of_xdd = is_xdd(name).then(|| Path::new(name).with_extension("eds").to_string_lossy().into_owned());
-    let first = match &of_xdd {
-        // A text about a PDO comes from an XDD, and has no place in an EDS that is made anew.
-        Some(name) => turn(name, &first.eds)?,
-        None => first,
-    };
     let name = of_xdd.as_deref().unwrap_or(name);
     let second = turn(name, &first.eds)?;
     let third = turn(name, &second.eds)?;

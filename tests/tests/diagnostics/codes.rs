@@ -71,6 +71,8 @@ fn example(example: &Example) -> BTreeSet<&'static Code> {
     match example.language {
         Language::Specification => {}
         Language::Eds | Language::Dcf => return codes(&eds_example(example).0),
+        // They have tests and cases of their own.
+        Language::Parameters | Language::Plant | Language::Xdd | Language::Concise => return BTreeSet::new(),
     }
     let settings: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("# --set ")).collect();
     let (_, _, compiled) = run("example.od.yaml", &text);

@@ -9,6 +9,7 @@
 mod bytes_and_libraries;
 mod cases;
 mod codes;
+mod commissioning_examples;
 mod other_yaml_reader;
 mod parameter_files;
 mod parts;

@@ -160,6 +160,14 @@ fn an_xdc_says_what_the_dcf_says() {
     assert_eq!(found, expected);
     assert_eq!(found.values.len(), 16);
     assert_eq!(String::from_utf8(by_xdc).unwrap(), String::from_utf8(by_dcf).unwrap());
+    // The words of parameter files about the node are comments, whatever is in them.
+    let mut told = node.clone();
+    told.remarks = vec!["Tank 3, north -- not <south>".to_owned(), "zweite\u{1} Zeile -----".to_owned()];
+    let xdc = write_xdc(&system, device, &told, "everything.xdc");
+    let (_, again) = dcf("everything.xdc", xdc.clone());
+    assert_eq!(again, expected);
+    let text = String::from_utf8(xdc).unwrap();
+    assert!(text.contains("\n<!-- Tank 3, north - - not <south> -->\n<!-- zweite Zeile - - - - - -->\n"));
     // What was read from an XDC makes the same XDC.
     let (again, compiled) = read("everything.xdc", write_xdc(&system, device, &node, "everything.xdc"));
     let first = write_xdc(&again, &again.devices[0], &compiled.node.unwrap(), "everything.xdc");

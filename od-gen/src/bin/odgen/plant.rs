@@ -3,11 +3,12 @@
 mod schema;
 mod show;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use od_gen::files::{Existing, Outcome, WriteError, left_over_of_folders, remove, write_set_watched};
-use od_gen::plant::{Job, files, jobs, make};
+use od_gen::plant::{Job, SHEET, WORKBOOK, files, jobs, make};
 use od_gen::source::{FileLoader, open};
 use od_gen::{Pool, SharedFile, condensed};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -126,7 +127,10 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
                 .help("build into another directory, with `--out`"),
         ));
     }
-    let outcomes = written(args, &set, report).map_err(|error| report.refuse(not_written(&error)))?;
+    let progress = |of| Progress::new("wrote", "files", of, report.audience());
+    let existing = forced(args.force, Existing::Generated);
+    let outcomes =
+        written(&args.out, &set, existing, progress).map_err(|error| report.refuse(not_written(&error)))?;
     let changed = outcomes.iter().filter(|outcome| **outcome == Outcome::Changed).count();
     let size: usize = set.iter().flat_map(|file| &file.pieces).map(|piece| piece.len()).sum();
     let text = format!(
@@ -137,6 +141,7 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
         size.div_ceil(1024),
         outcomes.len() - changed
     );
+    let text = text + &without_workbook(&set);
     let left = left_from_before(args, &set).map_err(|error| report.refuse(not_written(&error)))?;
     let code = print(&(text + &left));
     // The process ends next: taking everything apart would only cost the user time.
@@ -144,22 +149,33 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
     Ok(code)
 }
 
-/// Writes the files, and says on a terminal how far it is.
-fn written(args: &PlantBuildArgs, set: &[SharedFile], report: &Report) -> Result<Vec<Outcome>, WriteError> {
-    let progress: Mutex<Option<Progress>> = Mutex::new(None);
-    let with = |act: &dyn Fn(&mut Option<Progress>)| {
+/// Writes the files, and says how far it is; `new` makes the line for so many files.
+fn written<W: Write + Send>(
+    out: &Path,
+    set: &[SharedFile],
+    existing: Existing,
+    new: impl Fn(usize) -> Progress<W> + Sync,
+) -> Result<Vec<Outcome>, WriteError> {
+    let progress: Mutex<Option<Progress<W>>> = Mutex::new(None);
+    let with = |act: &dyn Fn(&mut Option<Progress<W>>)| {
         act(&mut progress.lock().unwrap_or_else(PoisonError::into_inner));
     };
     let watch = |written: usize, of: usize| {
         with(&|progress| {
-            let new = || Progress::new("wrote", "files", of, report.audience());
-            progress.get_or_insert_with(new).show(written);
+            progress.get_or_insert_with(|| new(of)).show(written);
         });
     };
-    let existing = forced(args.force, Existing::Generated);
-    let outcomes = write_set_watched(&args.out, set, existing, &watch);
+    let outcomes = write_set_watched(out, set, existing, &watch);
     with(&|progress| progress.iter_mut().for_each(Progress::clear));
     outcomes
+}
+
+/// That a plant with very many values has no workbook.
+fn without_workbook(set: &[SharedFile]) -> String {
+    if set.iter().any(|file| file.path == WORKBOOK) {
+        return String::new();
+    }
+    format!("  no {WORKBOOK}: there are more values than a workbook has rows for; {SHEET} has them all\n")
 }
 
 /// `3 machines at 1 site, 18 nodes`.
@@ -209,4 +225,52 @@ fn left_from_before(args: &PlantBuildArgs, set: &[SharedFile]) -> Result<String,
         return Ok(format!("  removed, as no node of the plant has it any more: {names}\n"));
     }
     Ok(format!("  made before, and of no node of the plant any more: {names}; `--prune` removes it\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    /// A terminal of which the test keeps what is written.
+    #[derive(Clone, Default)]
+    struct Terminal(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Terminal {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            self.0.lock().unwrap_or_else(PoisonError::into_inner).write(bytes)
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn set(names: &[&str]) -> Vec<SharedFile> {
+        let file = |name: &&str| SharedFile { path: (*name).to_owned(), pieces: vec![(*b"text").into()] };
+        names.iter().map(file).collect()
+    }
+
+    #[test]
+    fn a_build_says_how_many_files_it_wrote() {
+        let out = std::env::temp_dir().join(format!("odgen-wrote-{}", std::process::id()));
+        let names: Vec<String> = (0..300).map(|number| format!("{number}.txt")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let terminal = Terminal::default();
+        let new = |of| Progress::on(terminal.clone(), "wrote", "files", of);
+        let outcomes = written(&out, &set(&names), Existing::Generated, new);
+        let _ = std::fs::remove_dir_all(&out);
+        assert!(outcomes.is_ok_and(|outcomes| outcomes.len() == 300));
+        let text = terminal.0.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let text = String::from_utf8_lossy(&text).into_owned();
+        assert!(text.contains("wrote ") && text.contains(" of 300 files"), "{text:?}");
+        assert!(text.ends_with("\r\u{1b}[2K"), "the line is taken away: {text:?}");
+    }
+
+    #[test]
+    fn a_workbook_that_is_not_written_is_told() {
+        assert_eq!(without_workbook(&set(&[SHEET, WORKBOOK])), "");
+        assert!(without_workbook(&set(&[SHEET])).starts_with("  no values.xlsx: "));
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Check, Rule};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::plant::bus::shown;
 use crate::plant::{Bus, Message, Traffic};
 
@@ -18,7 +18,10 @@ const CODE: &Code = &Code {
         disturb each other on the bus until a node goes off, and whoever receives the one takes the other for it: a heartbeat may become a set-point. The identifiers are those that the \
         nodes have once they are configured. Give one of the messages another COB-ID, or switch it off (bit 31).",
     clause: Some("CiA 301, 7.3.3 (pre-defined connection set)"),
-    example: None,
+    example: Some(Example::plant(
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}, right: {drive: 12}}\n    parameters: {drive: {1800.1: 0x181}}",
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}, right: {drive: 12}}\n    parameters: {drive: {1800.1: $NODEID + 0x180}}",
+    )),
 };
 
 fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {

@@ -1,7 +1,7 @@
 //! Nodes whose heartbeat is watched are on the bus, and send it often enough.
 
 use super::{Check, Rule};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::plant::Bus;
 
 pub(super) const RULE: Rule = Rule { codes: &[NO_NODE, TOO_RARE], check: Check::Bus(check) };
@@ -14,7 +14,10 @@ const NO_NODE: &Code = &Code {
     explanation: "A node watches the heartbeat (1016h) of a node-ID that no node of the machine has, nor the master, as the type tells. It will report that the node is gone, and do what it does then: \
         a drive may stop. Correct the node-ID; if it is the master's, say so at the type: `master: {node: 127}`.",
     clause: Some("CiA 301, 7.5.2.19 (object 1016h)"),
-    example: None,
+    example: Some(Example::plant(
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}}\n    parameters: {drive: {1016: {1: {node: 2, time: 1 s}}}, supply: {1017: 500}}",
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}}\n    parameters: {drive: {1016: {1: {node: 1, time: 1 s}}}, supply: {1017: 500}}",
+    )),
 };
 
 const TOO_RARE: &Code = &Code {
@@ -25,7 +28,10 @@ const TOO_RARE: &Code = &Code {
     explanation: "A node watches the heartbeat of another one (1016h) that sends none (1017h is 0), or less often than it is waited for. It will report that the node is gone although it works. Set a time \
         in 1017h of the other node that is clearly shorter than the one that is waited.",
     clause: Some("CiA 301, 7.5.2.19 and 7.5.2.20 (objects 1016h and 1017h)"),
-    example: None,
+    example: Some(Example::plant(
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}}\n    parameters: {drive: {1016: {1: {node: 1, time: 1 s}}}, supply: {1017: 2000}}",
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}}\n    parameters: {drive: {1016: {1: {node: 1, time: 1 s}}}, supply: {1017: 500}}",
+    )),
 };
 
 fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {

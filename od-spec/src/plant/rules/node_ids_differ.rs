@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Check, Rule};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::plant::Bus;
 use crate::source::Span;
 
@@ -17,7 +17,10 @@ const CODE: &Code = &Code {
     explanation: "Two nodes of one machine, or a node and the master, have the same node-ID. Both would answer each request, and neither could be configured; \
         a drive might take the set-points of the other. Give one of them another node-ID. Of what a run or a type says, the message names the first machine.",
     clause: Some("CiA 301, 7.2.3 (NMT) and 7.3.3 (pre-defined connection set)"),
-    example: None,
+    example: Some(Example::plant(
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}, right: {drive: 11}}",
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}, right: {drive: 12}}",
+    )),
 };
 
 fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::{Check, Rule};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::plant::bus::shown;
 use crate::plant::{Bus, Message, Traffic};
 
@@ -18,7 +18,10 @@ const RECEIVED: &Code = &Code {
         in a COB-ID, and a set-point that nobody receives leaves a drive where it is. Correct the COB-ID of one end, switch the PDO off, or add it to what the master receives. Types without \
         `master:` are not looked at: the master is normally the other end, and nobody says what it does.",
     clause: None,
-    example: None,
+    example: Some(Example::plant(
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {drive: 11}}\n    master: {sends: [0x20B]}",
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {drive: 11}}\n    master: {sends: [0x20B], receives: [0x18B]}",
+    )),
 };
 
 const SENT: &Code = &Code {
@@ -29,7 +32,10 @@ const SENT: &Code = &Code {
     explanation: "A node waits for a PDO that no other node sends, nor the master, as the type tells; or the master waits for one that no node sends. The node works on with what it had last. \
         Correct the COB-ID of one end, switch the PDO off, or add it to what the master sends. Types without `master:` are not looked at.",
     clause: None,
-    example: None,
+    example: Some(Example::plant(
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {drive: 11}}\n    master: {receives: [0x18B]}",
+        "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {drive: 11}}\n    master: {sends: [0x20B], receives: [0x18B]}",
+    )),
 };
 
 fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Check, Rule};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::plant::Plant;
 use crate::source::Span;
 
@@ -17,7 +17,10 @@ const CODE: &Code = &Code {
     explanation: "Two machines, or two devices of one kind, have the same serial number. One of the two numbers is wrong, or a run says it of every machine in it; by LSS, both devices would answer at once. \
         Correct one of the two, and say serial numbers of single machines.",
     clause: Some("CiA 305 (LSS address)"),
-    example: None,
+    example: Some(Example::plant(
+        "sites:\n  Hall: {type: P1, machines: {1: {serial: \"26-1\"}, 2: {serial: \"26-1\"}}}",
+        "sites:\n  Hall: {type: P1, machines: {1: {serial: \"26-1\"}, 2: {serial: \"26-2\"}}}",
+    )),
 };
 
 fn check(plant: &Plant, diagnostics: &mut Diagnostics) {
