@@ -9,6 +9,7 @@
 mod bus;
 mod condition;
 mod glue;
+mod host;
 mod lists;
 mod node;
 
@@ -19,7 +20,7 @@ use od_spec::model::{self, System};
 
 pub use self::bus::Bus;
 pub use self::lists::{Device, Lists};
-pub use self::node::{NoChannel, VirtualNode};
+pub use self::node::{NoNode, VirtualNode};
 use crate::plan::{decided_anyhow, plan};
 use crate::rust::Rust;
 

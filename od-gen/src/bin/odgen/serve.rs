@@ -20,6 +20,8 @@ use super::report::{Report, print};
 
 /// Longer than this the loop does not sleep: what a client has written to 1017h begins no later.
 const NAP: Duration = Duration::from_millis(20);
+/// Shorter than this it does not sleep either: a transfer of which the client's part is awaited has no time of its own.
+const SHORTEST: Duration = Duration::from_millis(1);
 /// A client that takes nothing for so long is left.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// So many events wait at most; who sends faster has to wait.
@@ -166,8 +168,6 @@ impl Loop<'_, '_> {
     }
 
     fn run(mut self, incoming: &Receiver<Event>, events: &SyncSender<Event>) {
-        let frames = self.bus.start(self.now());
-        self.show(&frames, None);
         loop {
             loop {
                 let frames = self.bus.poll(self.now());
@@ -176,10 +176,9 @@ impl Loop<'_, '_> {
                 }
                 self.show(&frames, None);
             }
-            let deadline = self
-                .bus
-                .next_deadline()
-                .map_or(NAP, |next| Duration::from_micros(next.saturating_sub(self.now())).min(NAP));
+            let deadline = self.bus.next_deadline().map_or(NAP, |next| {
+                Duration::from_micros(next.saturating_sub(self.now())).clamp(SHORTEST, NAP)
+            });
             match incoming.recv_timeout(deadline) {
                 Ok(Event::Came(stream)) => self.welcome(stream, events),
                 Ok(Event::Line(number, line)) => self.line(number, line.as_deref()),
