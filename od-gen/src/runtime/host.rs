@@ -13,6 +13,17 @@ use super::LiveDictionary;
 /// What a node stores on command, one after the other.
 const STORED: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
 
+/// What a virtual node checks of a value beyond what its dictionary says. A firmware chooses, too: it gives its services the application, or
+/// the application behind [`firmware_glue::Consistent`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Checks {
+    /// Nothing.
+    #[default]
+    None,
+    /// That no constraint breaks that held before; a client is told [`AbortCode::INCOMPATIBLE`].
+    Constraints,
+}
+
 /// The application of a virtual node: it keeps parameters for as long as the program runs, and notes what happens.
 #[derive(Debug)]
 pub(super) struct Host {
@@ -23,12 +34,21 @@ pub(super) struct Host {
     /// Entries that were written and not yet told.
     changed: Vec<EntryId>,
     has_restarted: bool,
+    checks: Checks,
+    /// In kbit/s, as LSS can switch between them.
+    bit_rates: Vec<u16>,
 }
 
 impl Host {
     pub(super) fn new(dictionary: &LiveDictionary<'_>) -> Self {
         let kept = dictionary.stored(Storage::Remanent).to_vec();
-        Self { stored: BTreeMap::new(), kept, changed: Vec::new(), has_restarted: false }
+        let bit_rates = dictionary.lss().map(|lss| lss.bit_rates.clone()).unwrap_or_default();
+        let checks = Checks::None;
+        Self { stored: BTreeMap::new(), kept, changed: Vec::new(), has_restarted: false, checks, bit_rates }
+    }
+
+    pub(super) const fn check(&mut self, checks: Checks) {
+        self.checks = checks;
     }
 
     /// Whether the node has started again; said once.
@@ -43,13 +63,18 @@ impl Host {
 }
 
 impl Application<LiveDictionary<'_>> for Host {
-    /// Carries out "store parameters" and "restore defaults".
+    /// Looks at constraints, where it is to; carries out "store parameters" and "restore defaults".
     fn accept(
         &mut self,
         dictionary: &mut LiveDictionary<'_>,
         entry: EntryId,
-        _: &[u8],
+        value: &[u8],
     ) -> Result<(), AbortCode> {
+        match self.checks {
+            Checks::None => {}
+            Checks::Constraints if dictionary.stays_consistent(entry, value) => {}
+            Checks::Constraints => return Err(AbortCode::INCOMPATIBLE),
+        }
         for storage in STORED.into_iter().filter(|storage| is_meant(entry.sub, *storage)) {
             match entry.index {
                 0x1010 => drop(self.stored.insert(storage, dictionary.stored(storage).to_vec())),
@@ -69,9 +94,9 @@ impl Application<LiveDictionary<'_>> for Host {
 impl PdoHandler<LiveDictionary<'_>> for Host {}
 
 impl LssHandler for Host {
-    /// A bus inside a program has no bit rate, and takes any.
-    fn has_bit_rate(&self, _: BitRate) -> bool {
-        true
+    /// A bus inside a program has no bit rate; the device says which ones it would have.
+    fn has_bit_rate(&self, rate: BitRate) -> bool {
+        rate.kbits().is_some_and(|rate| self.bit_rates.contains(&rate))
     }
 
     /// The node has it until the program ends, and there is no power-off before.

@@ -8,10 +8,10 @@ use firmware_glue::frame::Frame;
 use firmware_glue::nmt::Service;
 use firmware_glue::pdo_engine::TooManyPdos;
 use firmware_glue::sdo::{Channel, SdoServer};
-use firmware_glue::{Dictionary, Node, NodeId};
+use firmware_glue::{AbortCode, Dictionary, EntryId, Node, NodeId};
 
 use super::LiveDictionary;
-use super::host::Host;
+use super::host::{Checks, Host};
 
 /// As many TPDOs, and as many RPDOs, as CiA 301 has objects for.
 const PDOS: usize = 512;
@@ -20,10 +20,13 @@ const ERRORS: usize = 256;
 /// As many nodes as 1016h can name.
 const WATCHED: usize = 127;
 
+/// What an LSS master sends; a device without LSS does not hear it.
+const LSS_REQUEST: u16 = 0x7E5;
+
 /// A virtual node. Frames go in, frames come out, and the time is told, in microseconds from any beginning.
 ///
 /// It is [`firmware_glue::Node`], with everything that this has: boot-up, the states of NMT, heartbeat and guarding, the nodes of 1016h, PDOs, SYNC,
-/// emergencies, LSS and the first SDO server. A firmware with more SDO servers (1201h to 127Fh) runs them beside its node, as each needs a
+/// emergencies, LSS (where the device has it) and the first SDO server. A firmware with more SDO servers (1201h to 127Fh) runs them beside its node, as each needs a
 /// buffer of its own; so does this node, on every channel that its dictionary has when it boots.
 ///
 /// Parameters are stored and restored (1010h, 1011h) for as long as the program runs. That a value was written that an
@@ -83,6 +86,9 @@ impl<'t> VirtualNode<'t> {
 
     /// Takes a frame, and says what answers it. What else there is to say comes with [`poll`](Self::poll).
     pub fn take(&mut self, frame: &Frame, now: u64) -> Option<Frame> {
+        if frame.id().get() == LSS_REQUEST && self.dictionary.lss().is_none() {
+            return None;
+        }
         let (dictionary, host) = (&mut self.dictionary, &mut self.host);
         let mut answer = self.node.handle(frame, dictionary, host, Instant::from_micros(now));
         if answer.is_none() && self.node.serves(Service::Sdo) {
@@ -112,6 +118,26 @@ impl<'t> VirtualNode<'t> {
             return Some(0);
         }
         self.node.next_deadline(&self.dictionary).map(Instant::as_micros)
+    }
+
+    /// Checks more of every value that comes over the bus from now on, or less.
+    pub const fn check(&mut self, checks: Checks) {
+        self.host.check(checks);
+    }
+
+    /// Puts a value as the device itself does, such as one that it has measured: whatever a client may write. An entry that an
+    /// event-driven TPDO carries is sent.
+    ///
+    /// # Errors
+    /// Why the entry cannot have it. Communication objects are set over the bus alone.
+    pub fn set(&mut self, entry: EntryId, value: &[u8], now: u64) -> Result<(), AbortCode> {
+        let table = self.dictionary.table();
+        if table.find(entry.index, entry.sub)? < table.parts().first_application_row {
+            return Err(AbortCode::UNSUPPORTED_ACCESS);
+        }
+        self.dictionary.hold(entry, value)?;
+        self.node.trigger_entry(&self.dictionary, entry, Instant::from_micros(now));
+        Ok(())
     }
 
     /// An error of the device occurs: it stands in 1001h and 1003h, and an emergency message tells of it.
