@@ -20,6 +20,14 @@ pub(crate) struct NodesArgs {
     /// Key of the device of nodes that name none [default: the only one]
     #[arg(long, value_name = "KEY")]
     pub device: Option<String>,
+
+    /// Where SPEC is a plant file: the machine, by name or number, whose nodes they are, as the plant sets them [default: the only one]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["node", "device"])]
+    pub machine: Option<String>,
+
+    /// The site of the machine [default: that of the only machine with this name]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["node", "device"])]
+    pub site: Option<String>,
 }
 
 #[derive(Debug, Args)]
