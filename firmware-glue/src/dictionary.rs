@@ -303,12 +303,7 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
     check_lock::<D, A>(found.shared, application)?;
     check_value(table, found.shared, data)?;
     let mut buffer = [0; 8];
-    let Held { holder, data } = match found.shared.place {
-        Place::Image => Held { holder: found, data },
-        Place::Constant => return Err(AbortCode::READ_ONLY),
-        Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
-        Place::Alias => aliased(table, found, data, &mut buffer)?,
-    };
+    let Held { holder, data } = held(table, found, data, &mut buffer)?;
     let effect = if holder.row >= table.parts().first_application_row {
         Effect::Store
     } else {
@@ -334,6 +329,35 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
 struct Held<'t, 'd> {
     holder: Found<'t>,
     data: &'d [u8],
+}
+
+/// Where a value goes.
+#[inline]
+fn held<'t, 'd>(
+    table: &Table<'t>,
+    found: Found<'t>,
+    data: &'d [u8],
+    buffer: &'d mut [u8; 8],
+) -> Result<Held<'t, 'd>, AbortCode> {
+    match found.shared.place {
+        Place::Image => Ok(Held { holder: found, data }),
+        Place::Constant => Err(AbortCode::READ_ONLY),
+        Place::Application => Err(AbortCode::UNSUPPORTED_ACCESS),
+        Place::Alias => aliased(table, found, data, buffer),
+    }
+}
+
+/// Puts a value as the device itself does, whoever else may write the entry.
+pub(crate) fn hold<'t>(
+    table: &Table<'t>,
+    image: &mut [u8],
+    found: Found<'t>,
+    data: &[u8],
+) -> Result<(), AbortCode> {
+    check_value(table, found.shared, data)?;
+    let mut buffer = [0; 8];
+    let Held { holder, data } = held(table, found, data, &mut buffer)?;
+    put(image, holder, data)
 }
 
 /// What the target of an alias gets.

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::abort::AbortCode;
-use crate::dictionary::Dictionary;
+use crate::dictionary::{Dictionary, hold};
 use crate::entries::Entries;
 use crate::id::EntryId;
 use crate::stored::value_of;
@@ -63,6 +63,16 @@ impl<'t, I: AsRef<[u8]> + AsMut<[u8]>> TableDictionary<'t, I> {
     pub fn held(&self, row: Row) -> Result<Value<'_>, AbortCode> {
         value_of(self.table, self.image.as_ref(), self.table.found(row))
     }
+
+    /// Puts a value into a row as the device itself does, whatever its access, its lock and its condition; of an alias, into its
+    /// target. It has to be one that the entry can have.
+    ///
+    /// # Errors
+    /// What a client would be told about the value; [`AbortCode::READ_ONLY`] for what is constant, [`AbortCode::UNSUPPORTED_ACCESS`] for
+    /// a DOMAIN.
+    pub fn hold(&mut self, row: Row, data: &[u8]) -> Result<(), AbortCode> {
+        hold(self.table, self.image.as_mut(), self.table.found(row), data)
+    }
 }
 
 impl<I> Entries for TableDictionary<'_, I> {
@@ -92,5 +102,22 @@ impl<'t, I: AsRef<[u8]> + AsMut<[u8]>> Dictionary<'t> for TableDictionary<'t, I>
 
     fn condition(&self, _: u16) -> bool {
         false
+    }
+}
+
+#[cfg(all(test, feature = "node"))]
+mod tests {
+    use super::*;
+    use crate::test_table::{dictionary, value};
+
+    #[test]
+    fn the_device_holds_what_an_entry_can_have() {
+        let mut held = dictionary(&[value(0x2000, 0, 2, 7)]);
+        let read = |held: &crate::test_table::TestDictionary| {
+            held.held(0).map(|value| value.bytes().first().copied()).ok().flatten()
+        };
+        assert_eq!((held.hold(0, &[9, 0]), read(&held)), (Ok(()), Some(9)));
+        assert!(held.hold(0, &[1]).is_err() && held.hold(0, &[1, 2, 3]).is_err());
+        assert_eq!((held.hold(7, &[1, 0]), read(&held)), (Err(AbortCode::UNSUPPORTED_ACCESS), Some(9)));
     }
 }

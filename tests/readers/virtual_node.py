@@ -30,15 +30,22 @@ SAVE = b"save"
 class Served:
     """`odgen serve` with one node, and a client of it."""
 
-    def __init__(self, odgen: str, spec: Path, key: str) -> None:
-        command = [odgen, "serve", str(spec), "--node", f"{NODE}={key}", "--slcan", "tcp:127.0.0.1:0"]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    def __init__(self, odgen: str, spec: Path, key: str, *more: str) -> None:
+        command = [odgen, "serve", str(spec), "--node", f"{NODE}={key}", "--slcan", "tcp:127.0.0.1:0", *more]
+        pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
+        self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=nowhere, text=True)
         assert self.process.stdout
         self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
 
     def bus(self) -> can.BusABC:
         channel = f"socket://127.0.0.1:{self.port}"
         return can.Bus(interface="slcan", channel=channel, bitrate=500_000, sleep_after_open=0)
+
+    def say(self, command: str) -> None:
+        """A command of a script on standard input."""
+        assert self.process.stdin
+        self.process.stdin.write(f"{NODE} {command}\n")
+        self.process.stdin.flush()
 
     def end(self) -> None:
         self.process.kill()

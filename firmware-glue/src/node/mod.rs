@@ -103,6 +103,11 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         self.id
     }
 
+    /// Whether a service runs now: for what the firmware has beside the node, such as more SDO servers (1201h to 127Fh).
+    pub const fn serves(&self, service: Service) -> bool {
+        self.id.is_some() && self.restart.is_none() && !self.lss.is_silent() && self.state().allows(service)
+    }
+
     /// Its SDO server, for settings of it.
     pub const fn sdo_mut(&mut self) -> &mut SdoServer<B> {
         &mut self.sdo

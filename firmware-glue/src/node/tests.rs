@@ -138,11 +138,13 @@ fn services_follow_the_state() {
     let mut bench = Bench::new(5);
     assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(Instant::ZERO));
     assert_eq!(bench.handle(0x605, &UPLOAD_1017H, 0), None, "not before the boot-up message");
+    assert!(!bench.node.serves(Service::Sdo) && !bench.node.serves(Service::Nmt));
     assert_eq!(bench.sent(0), [(0x705, vec![0])]);
     assert_eq!(bench.heard.restarts, [(5, Reset::Node)]);
     assert_eq!(bench.node.state(), State::PreOperational);
     let answer = Some(vec![0x4B, 0x17, 0x10, 0, 0, 0, 0, 0]);
     assert_eq!(bench.handle(0x605, &UPLOAD_1017H, 0), answer);
+    assert!(bench.node.serves(Service::Sdo) && !bench.node.serves(Service::Pdo));
     bench.handle(0x205, &[1, 2], 0);
     assert_eq!(bench.read(0x2000, 0), Some(0), "no PDO before operational");
     bench.handle(0, &[1, 0], 0);
@@ -281,6 +283,7 @@ fn while_the_bit_rate_is_switched_nothing_is_sent() {
         bench.handle(0x7E5, &request, 0);
     }
     assert_eq!((bench.sent(50), bench.handle(0x605, &UPLOAD_1017H, 50)), (vec![], None));
+    assert!(!bench.node.serves(Service::Sdo));
     assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(at(100)));
     assert_eq!(bench.sent(100), []);
     assert_eq!(bench.events(), [Event::Lss(LssEvent::Switch(BitRate::K500))]);

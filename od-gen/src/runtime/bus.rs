@@ -18,24 +18,24 @@ impl<'t> Bus<'t> {
         Self { nodes }
     }
 
-    /// Switches the nodes on, at a time in microseconds; returns their boot-up messages.
-    pub fn start(&mut self, now: u64) -> Vec<Frame> {
-        let boot_ups: Vec<Frame> = self.nodes.iter_mut().map(|node| node.start(now)).collect();
-        self.spread(boot_ups.into_iter().enumerate().map(|(at, frame)| (Some(at), frame)).collect(), now)
-    }
-
-    /// Takes a frame of somebody else; returns it and what the nodes say to it.
+    /// Takes a frame of somebody else; returns it and what answers it.
     pub fn take(&mut self, frame: Frame, now: u64) -> Vec<Frame> {
         self.spread(VecDeque::from([(None, frame)]), now)
     }
 
-    /// What the nodes say by themselves: heartbeats, segments of blocks. To be called until it is nothing.
+    /// What the nodes say by themselves: boot-up messages, heartbeats, emergencies, PDOs, segments of blocks. To be called until it is
+    /// nothing, at the beginning and after every frame.
     pub fn poll(&mut self, now: u64) -> Vec<Frame> {
         let own = self.nodes.iter_mut().enumerate();
         let frames =
             own.flat_map(|(at, node)| node.poll(now).into_iter().map(move |frame| (Some(at), frame)));
         let frames = frames.collect();
         self.spread(frames, now)
+    }
+
+    /// Its nodes, in the order in which they were given.
+    pub fn nodes_mut(&mut self) -> &mut [VirtualNode<'t>] {
+        &mut self.nodes
     }
 
     /// When a node has something to say next, unless a frame comes before.

@@ -34,6 +34,14 @@ pub struct Device {
     dummies: Dummies,
     conditions: Vec<Condition>,
     constraints: Vec<Constraint>,
+    lss: Option<Lss>,
+}
+
+/// What LSS can set up in a device that has it.
+#[derive(Debug, Clone)]
+pub(super) struct Lss {
+    /// Bit rates in kbit/s.
+    pub(super) bit_rates: Vec<u16>,
 }
 
 /// A PDO with the rows of its default mapping.
@@ -131,6 +139,7 @@ impl Device {
                     require: condition(&constraint.require),
                 })
                 .collect(),
+            lss: plan.device.info.lss.then(|| Lss { bit_rates: plan.device.info.bit_rates.clone() }),
         }
     }
 
@@ -156,6 +165,10 @@ impl Device {
 
     pub(super) fn constraints(&self) -> &[Constraint] {
         &self.constraints
+    }
+
+    pub(super) const fn lss(&self) -> Option<&Lss> {
+        self.lss.as_ref()
     }
 }
 

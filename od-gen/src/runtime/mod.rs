@@ -9,17 +9,19 @@
 mod bus;
 mod condition;
 mod glue;
+mod host;
 mod lists;
 mod node;
 
 use firmware_glue::table::{Row, Table};
-use firmware_glue::{Dictionary, Entries, EntryId, TableDictionary, WrongSize};
+use firmware_glue::{AbortCode, Dictionary, Entries, EntryId, TableDictionary, WrongSize};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::model::{self, System};
 
 pub use self::bus::Bus;
+pub use self::host::Checks;
 pub use self::lists::{Device, Lists};
-pub use self::node::{NoChannel, VirtualNode};
+pub use self::node::{NoNode, VirtualNode};
 use crate::plan::{decided_anyhow, plan};
 use crate::rust::Rust;
 
@@ -65,6 +67,30 @@ impl<'t> LiveDictionary<'t> {
         let device = self.device;
         let broken = |constraint: &&lists::Constraint| !constraint.holds(&|row| self.number(row));
         device.constraints().iter().filter(broken).map(|constraint| constraint.name.as_str())
+    }
+
+    /// What LSS can set up, if the device has it.
+    fn lss(&self) -> Option<&'t lists::Lss> {
+        self.device.lss()
+    }
+
+    /// Puts a value as the device itself does, whatever a client may write; of an alias, into the entry that it shows.
+    ///
+    /// # Errors
+    /// Why the entry cannot have it.
+    pub fn hold(&mut self, entry: EntryId, value: &[u8]) -> Result<(), AbortCode> {
+        let row = self.values.table().find(entry.index, entry.sub)?;
+        self.values.hold(row, value)
+    }
+
+    /// Whether every constraint that holds now would hold with a value of an entry; a value that the entry cannot have changes nothing.
+    pub(crate) fn stays_consistent(&self, entry: EntryId, value: &[u8]) -> bool {
+        let mut with = self.clone();
+        if with.hold(entry, value).is_err() {
+            return true;
+        }
+        let mut constraints = self.device.constraints().iter();
+        constraints.all(|one| one.holds(&|row| with.number(row)) || !one.holds(&|row| self.number(row)))
     }
 
     /// The number in a row as a condition sees it: 0 for what is no number, and for what an alias cannot show.

@@ -1,110 +1,77 @@
-//! A node that no hardware has: its dictionary, its SDO servers, its state and its heartbeat.
+//! A node that no hardware has: the node of the firmware over a dictionary that is not compiled.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
-use firmware_glue::frame::{CanId, Frame};
+use firmware_glue::clock::Instant;
+use firmware_glue::emcy::{Emergency, Raised};
+use firmware_glue::frame::Frame;
+use firmware_glue::nmt::Service;
+use firmware_glue::pdo_engine::TooManyPdos;
 use firmware_glue::sdo::{Channel, SdoServer};
-use firmware_glue::table::{EntryRow, Place};
-use firmware_glue::{AbortCode, Application, Dictionary, EntryId, Storage};
+use firmware_glue::{AbortCode, Dictionary, EntryId, Node, NodeId};
 
 use super::LiveDictionary;
+use super::host::{Checks, Host};
 
-/// Microseconds of a millisecond.
-const MILLISECOND: u64 = 1000;
-/// What a node stores on command, one after the other.
-const STORED: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
+/// As many TPDOs, and as many RPDOs, as CiA 301 has objects for.
+const PDOS: usize = 512;
+/// Errors at once; with more, those that are too many cannot be cleared one by one.
+const ERRORS: usize = 256;
+/// As many nodes as 1016h can name.
+const WATCHED: usize = 127;
+
+/// What an LSS master sends; a device without LSS does not hear it.
+const LSS_REQUEST: u16 = 0x7E5;
 
 /// A virtual node. Frames go in, frames come out, and the time is told, in microseconds from any beginning.
 ///
-/// It boots, has the states of NMT, sends its heartbeat (1017h) or answers node guarding, serves SDO on every channel of 1200h to
-/// 127Fh, and stores and restores parameters (1010h, 1011h) for as long as the program runs. It sends no PDO and takes none:
-/// there is no application that would have values for them.
+/// It is [`firmware_glue::Node`], with everything that this has: boot-up, the states of NMT, heartbeat and guarding, the nodes of 1016h, PDOs, SYNC,
+/// emergencies, LSS (where the device has it) and the first SDO server. A firmware with more SDO servers (1201h to 127Fh) runs them beside its node, as each needs a
+/// buffer of its own; so does this node, on every channel that its dictionary has when it boots.
+///
+/// Parameters are stored and restored (1010h, 1011h) for as long as the program runs. That a value was written that an
+/// event-driven TPDO carries, by SDO, by an RPDO or by [`set`](Self::set), is an event of that TPDO.
 #[derive(Debug)]
 pub struct VirtualNode<'t> {
-    id: u8,
+    node: Box<Node<Vec<u8>, PDOS, PDOS, ERRORS, WATCHED>>,
     dictionary: LiveDictionary<'t>,
-    store: Store,
-    servers: Vec<SdoServer<Vec<u8>>>,
-    state: State,
-    beat: Option<Beat>,
-    /// The bit that changes with every answer to node guarding.
-    toggle: u8,
+    host: Host,
+    /// SDO servers on the channels of 1201h to 127Fh.
+    further: Vec<SdoServer<Vec<u8>>>,
 }
 
-/// The state of a node (CiA 301 7.3.2), with the byte that tells it.
+/// Why there is no node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
-enum State {
-    Stopped = 4,
-    Operational = 5,
-    PreOperational = 127,
+#[non_exhaustive]
+pub enum NoNode {
+    /// The node-ID is none.
+    NodeId,
+    /// The dictionary has more PDOs than CANopen.
+    Pdos(TooManyPdos),
 }
 
-/// A heartbeat that is on.
-#[derive(Debug, Clone, Copy)]
-struct Beat {
-    /// Milliseconds, as 1017h had it then.
-    period: u16,
-    /// When it is time for the next.
-    next: u64,
-}
-
-/// A node without an SDO channel: its node-ID is none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NoChannel;
-
-impl fmt::Display for NoChannel {
+impl fmt::Display for NoNode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a node-ID is 1 to 127")
-    }
-}
-
-impl std::error::Error for NoChannel {}
-
-/// What the node has stored, as long as the program runs.
-#[derive(Debug, Default)]
-struct Store(BTreeMap<Storage, Vec<u8>>);
-
-/// The part of an application: it carries out "store parameters" and "restore defaults".
-impl Application<LiveDictionary<'_>> for Store {
-    fn accept(
-        &mut self,
-        dictionary: &mut LiveDictionary<'_>,
-        entry: EntryId,
-        _: &[u8],
-    ) -> Result<(), AbortCode> {
-        for storage in STORED.into_iter().filter(|storage| is_meant(entry.sub, *storage)) {
-            match entry.index {
-                0x1010 => drop(self.0.insert(storage, dictionary.stored(storage).to_vec())),
-                // It takes effect with the next reset.
-                0x1011 => drop(self.0.remove(&storage)),
-                _ => {}
-            }
+        match self {
+            Self::NodeId => f.write_str("a node-ID is 1 to 127"),
+            Self::Pdos(pdos) => pdos.fmt(f),
         }
-        Ok(())
     }
 }
 
-/// Whether a sub-index of 1010h and 1011h is about a group.
-const fn is_meant(sub: u8, storage: Storage) -> bool {
-    match storage {
-        Storage::Communication => matches!(sub, 1 | 2),
-        Storage::Application => matches!(sub, 1 | 3),
-        Storage::Manufacturer => matches!(sub, 1 | 4..),
-        Storage::No | Storage::Remanent => false,
-    }
-}
+impl std::error::Error for NoNode {}
 
 impl<'t> VirtualNode<'t> {
-    /// A node that is switched off, with a node-ID from 1 to 127.
+    /// A node with a node-ID from 1 to 127, which starts with the first [`poll`](Self::poll).
     ///
     /// # Errors
-    /// [`NoChannel`]: the node-ID is none.
-    pub fn new(id: u8, dictionary: LiveDictionary<'t>) -> Result<Self, NoChannel> {
-        Channel::predefined(id).ok_or(NoChannel)?;
-        let (state, toggle) = (State::PreOperational, 0);
-        Ok(Self { id, dictionary, store: Store::default(), servers: Vec::new(), state, beat: None, toggle })
+    /// [`NoNode`]: why there is none.
+    pub fn new(id: u8, dictionary: LiveDictionary<'t>) -> Result<Self, NoNode> {
+        let id = NodeId::new(id).ok_or(NoNode::NodeId)?;
+        let table = dictionary.table();
+        let buffer = vec![0; table.largest_value()];
+        let node = Box::new(Node::new(table, Some(id), buffer).map_err(NoNode::Pdos)?);
+        Ok(Self { node, host: Host::new(&dictionary), dictionary, further: Vec::new() })
     }
 
     /// Its dictionary.
@@ -112,174 +79,108 @@ impl<'t> VirtualNode<'t> {
         &self.dictionary
     }
 
-    /// Switches it on; returns its boot-up message.
-    pub fn start(&mut self, now: u64) -> Frame {
-        self.reset_node();
-        self.boot(now)
+    /// Its node-ID, which LSS can change; none where LSS has taken it.
+    pub fn id(&self) -> Option<u8> {
+        self.node.id().map(NodeId::get)
     }
 
-    /// Takes a frame, and says what there is to say to it.
-    pub fn take(&mut self, frame: &Frame, now: u64) -> Vec<Frame> {
-        let id = frame.id().get();
-        if id == 0 {
-            return self.command(frame.bytes().unwrap_or_default(), now).into_iter().collect();
+    /// Takes a frame, and says what answers it. What else there is to say comes with [`poll`](Self::poll).
+    pub fn take(&mut self, frame: &Frame, now: u64) -> Option<Frame> {
+        if frame.id().get() == LSS_REQUEST && self.dictionary.lss().is_none() {
+            return None;
         }
-        if id == self.error_control() && frame.bytes().is_none() {
-            return self.guard().into_iter().collect();
+        let (dictionary, host) = (&mut self.dictionary, &mut self.host);
+        let mut answer = self.node.handle(frame, dictionary, host, Instant::from_micros(now));
+        if answer.is_none() && self.node.serves(Service::Sdo) {
+            let mut servers = self.further.iter_mut();
+            answer = servers.find_map(|server| server.handle(frame, dictionary, host, wrapping(now)));
         }
-        if self.state == State::Stopped {
-            return Vec::new();
-        }
-        let (dictionary, store) = (&mut self.dictionary, &mut self.store);
-        let mut servers = self.servers.iter_mut();
-        servers
-            .find_map(|server| server.handle(frame, dictionary, store, wrapping(now)))
-            .into_iter()
-            .collect()
+        self.follow(now);
+        answer
     }
 
     /// What it says by itself. To be called until it is nothing.
     pub fn poll(&mut self, now: u64) -> Vec<Frame> {
-        let (dictionary, store) = (&mut self.dictionary, &mut self.store);
-        let of_servers =
-            self.servers.iter_mut().filter_map(|server| server.poll(dictionary, store, wrapping(now)));
-        let mut frames: Vec<Frame> = of_servers.collect();
-        frames.extend(self.heartbeat(now));
+        let (dictionary, host) = (&mut self.dictionary, &mut self.host);
+        let mut frames: Vec<Frame> =
+            self.node.poll(dictionary, host, Instant::from_micros(now)).into_iter().collect();
+        if self.node.serves(Service::Sdo) {
+            let servers = self.further.iter_mut();
+            frames.extend(servers.filter_map(|server| server.poll(dictionary, host, wrapping(now))));
+        }
+        self.follow(now);
         frames
     }
 
-    /// When it has something to say next, unless a frame comes before.
+    /// When it has something to say next, unless a frame comes before; a time that has passed while a transfer goes on.
     pub fn next_deadline(&self) -> Option<u64> {
-        self.beat.map(|beat| beat.next)
+        if self.further.iter().any(SdoServer::is_busy) {
+            return Some(0);
+        }
+        self.node.next_deadline(&self.dictionary).map(Instant::as_micros)
     }
 
-    /// NMT (CiA 301 7.2.8.2).
-    fn command(&mut self, bytes: &[u8], now: u64) -> Option<Frame> {
-        let [command, whom] = *bytes else { return None };
-        if whom != 0 && whom != self.id {
-            return None;
-        }
-        match command {
-            1 => self.enter(State::Operational),
-            2 => self.enter(State::Stopped),
-            128 => self.enter(State::PreOperational),
-            129 => {
-                self.reset_node();
-                return Some(self.boot(now));
-            }
-            130 => {
-                self.reset_communication();
-                return Some(self.boot(now));
-            }
-            _ => {}
-        }
-        None
+    /// Checks more of every value that comes over the bus from now on, or less.
+    pub const fn check(&mut self, checks: Checks) {
+        self.host.check(checks);
     }
 
-    fn enter(&mut self, state: State) {
-        self.state = state;
-        if state == State::Stopped {
-            self.servers.iter_mut().for_each(SdoServer::reset);
-        }
-    }
-
-    /// Puts all values back to what is stored, or else to the defaults; what the device keeps by itself stays.
-    fn reset_node(&mut self) {
-        let kept = self.dictionary.stored(Storage::Remanent).to_vec();
-        self.dictionary.reset(self.id);
-        self.restore(Storage::Remanent, &kept);
-        for (storage, bytes) in self.store.0.clone() {
-            self.restore(storage, &bytes);
-        }
-    }
-
-    /// Puts the communication objects back, and leaves the others.
-    fn reset_communication(&mut self) {
-        let mut anew = self.dictionary.clone();
-        anew.reset(self.id);
+    /// Puts a value as the device itself does, such as one that it has measured: whatever a client may write. An entry that an
+    /// event-driven TPDO carries is sent.
+    ///
+    /// # Errors
+    /// Why the entry cannot have it. Communication objects are set over the bus alone.
+    pub fn set(&mut self, entry: EntryId, value: &[u8], now: u64) -> Result<(), AbortCode> {
         let table = self.dictionary.table();
-        let rows = table.parts().entries.iter().take(usize::from(table.parts().first_application_row));
-        for EntryRow { attributes, place } in rows {
-            let Some(shared) = table.parts().attributes.get(usize::from(*attributes)) else { continue };
-            if shared.place != Place::Image || shared.data_type.is_string() {
-                continue;
-            }
-            let start = usize::from(shared.page) << 16 | usize::from(*place);
-            let range = start..start + usize::from(shared.size);
-            if let (Some(old), Some(new)) =
-                (self.dictionary.image_mut().get_mut(range.clone()), anew.image().get(range))
-            {
-                old.copy_from_slice(new);
-            }
+        if table.find(entry.index, entry.sub)? < table.parts().first_application_row {
+            return Err(AbortCode::UNSUPPORTED_ACCESS);
         }
-        if let Some(bytes) = self.store.0.get(&Storage::Communication).cloned() {
-            self.restore(Storage::Communication, &bytes);
+        self.dictionary.hold(entry, value)?;
+        self.node.trigger_entry(&self.dictionary, entry, Instant::from_micros(now));
+        Ok(())
+    }
+
+    /// An error of the device occurs: it stands in 1001h and 1003h, and an emergency message tells of it.
+    pub fn raise(&mut self, emergency: Emergency, now: u64) -> Raised {
+        let raised = self.node.raise(&mut self.dictionary, emergency);
+        self.error_register_changed(now);
+        raised
+    }
+
+    /// An error of the device, by its code, is gone. `false` if it was not present.
+    pub fn clear(&mut self, code: u16, now: u64) -> bool {
+        let was_present = self.node.clear(&mut self.dictionary, code);
+        self.error_register_changed(now);
+        was_present
+    }
+
+    /// The errors that are present.
+    pub fn errors(&self) -> impl Iterator<Item = Emergency> {
+        self.node.emergencies().present()
+    }
+
+    fn error_register_changed(&mut self, now: u64) {
+        if let Ok(entry) = self.dictionary.find(0x1001, 0) {
+            self.node.trigger_entry(&self.dictionary, entry, Instant::from_micros(now));
         }
     }
 
-    /// Takes back what the same dictionary has given; there is nothing to take where it keeps nothing.
-    fn restore(&mut self, storage: Storage, bytes: &[u8]) {
-        let layout = self.dictionary.layout(storage);
-        let _ = self.dictionary.restore(storage, layout, bytes);
-    }
-
-    /// Begins anew, with the channels that the dictionary has now.
-    fn boot(&mut self, now: u64) -> Frame {
-        let size = self.dictionary.table().largest_value();
-        let first = Channel::of_server(&self.dictionary, 0).or_else(|| Channel::predefined(self.id));
-        let more = (1..=127).filter_map(|number| Channel::of_server(&self.dictionary, number));
-        self.servers =
-            first.into_iter().chain(more).map(|channel| SdoServer::new(channel, vec![0; size])).collect();
-        self.state = State::PreOperational;
-        self.toggle = 0;
-        self.beat = self.period().map(|period| Beat { period, next: after(now, period) });
-        self.told(0)
-    }
-
-    /// Milliseconds between heartbeats, if they are on.
-    fn period(&self) -> Option<u16> {
-        let value = self.dictionary.read(0x1017, 0).ok()?;
-        let period = u16::from_le_bytes(value.bytes().try_into().ok()?);
-        (period > 0).then_some(period)
-    }
-
-    /// A heartbeat, if it is time for one; a time that was written counts at once.
-    fn heartbeat(&mut self, now: u64) -> Option<Frame> {
-        let period = self.period();
-        if self.beat.map(|beat| beat.period) != period {
-            self.beat = period.map(|period| Beat { period, next: now });
+    /// What has happened to the application.
+    fn follow(&mut self, now: u64) {
+        if self.host.has_restarted() {
+            let size = self.dictionary.table().largest_value();
+            let channels = (1..=127).filter_map(|number| Channel::of_server(&self.dictionary, number));
+            self.further = channels.map(|channel| SdoServer::new(channel, vec![0; size])).collect();
+        } else if !self.node.state().allows(Service::Sdo) {
+            self.further.iter_mut().for_each(SdoServer::reset);
         }
-        let beat = self.beat.as_mut().filter(|beat| beat.next <= now)?;
-        beat.next = after(now, beat.period);
-        Some(self.told(self.state as u8))
-    }
-
-    /// The answer to node guarding; there is none while there are heartbeats.
-    fn guard(&mut self) -> Option<Frame> {
-        if self.beat.is_some() {
-            return None;
+        for entry in self.host.changed() {
+            self.node.trigger_entry(&self.dictionary, entry, Instant::from_micros(now));
         }
-        let answer = self.told(self.toggle | self.state as u8);
-        self.toggle ^= 0x80;
-        Some(answer)
-    }
-
-    const fn error_control(&self) -> u16 {
-        0x700 + self.id as u16
-    }
-
-    /// A byte on the identifier of error control.
-    fn told(&self, byte: u8) -> Frame {
-        let id = CanId::new(self.error_control()).unwrap_or(CanId::MAX);
-        Frame::data(id, &[byte]).unwrap_or(Frame::full(id, [0; 8]))
     }
 }
 
 /// A time for servers, which count in 32 bits and mind only differences.
 fn wrapping(now: u64) -> u32 {
     u32::try_from(now & u64::from(u32::MAX)).unwrap_or_default()
-}
-
-fn after(now: u64, milliseconds: u16) -> u64 {
-    now + u64::from(milliseconds) * MILLISECOND
 }

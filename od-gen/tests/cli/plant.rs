@@ -11,7 +11,7 @@ const PLANT: &str = include_str!("../../../tests/ui/plant/ok_everything.yaml");
 const BUILD: [&str; 5] = ["plant", "build", "plant.yaml", "--out", "out"];
 
 /// A directory with the presses.
-fn presses(name: &str) -> Scratch {
+pub(crate) fn presses(name: &str) -> Scratch {
     let scratch = Scratch::new(name);
     scratch.file("press.od.yaml", PRESS);
     scratch.file("plant.yaml", PLANT);

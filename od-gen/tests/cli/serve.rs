@@ -5,6 +5,7 @@ use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use crate::plant::presses;
 use crate::{LAMP, Scratch, code, odgen, stderr};
 
 /// A server with a client, ended with the test.
@@ -21,27 +22,20 @@ impl Drop for Served {
 }
 
 impl Served {
-    fn new(scratch: &Scratch) -> Self {
+    fn with(scratch: &Scratch, more: &[&str]) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-            .args([
-                "serve",
-                "lamp.od.yaml",
-                "--node",
-                "5",
-                "--node",
-                "6",
-                "--slcan",
-                "tcp:127.0.0.1:0",
-                "--log",
-            ])
+            .args(["serve", "lamp.od.yaml", "--node", "5", "--slcan", "tcp:127.0.0.1:0"])
+            .args(more)
             .current_dir(&scratch.0)
+            .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
         let mut line = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        assert!(line.starts_with("serving lamp (node 5), lamp (node 6) at tcp:127.0.0.1:"), "{line}");
+        let nodes = if more.contains(&"6") { "lamp (node 5), lamp (node 6)" } else { "lamp (node 5)" };
+        assert!(line.starts_with(&format!("serving {nodes} at tcp:127.0.0.1:")), "{line}");
         let client = TcpStream::connect(line.trim().rsplit("tcp:").next().unwrap()).unwrap();
         client.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
         Self { child, client }
@@ -60,7 +54,7 @@ impl Served {
 fn clients_talk_to_nodes_by_slcan() {
     let scratch = Scratch::new("serve");
     scratch.file("lamp.od.yaml", LAMP);
-    let mut served = Served::new(&scratch);
+    let mut served = Served::with(&scratch, &["--node", "6", "--log"]);
     served.ask("C\rS6\r\rO\r", "\r\r\r\r");
     served.ask("V\rx\rt6059\r", "V1010\r\u{7}\u{7}");
     // Brightness is 80; 200 is too much.
@@ -100,6 +94,67 @@ fn clients_talk_to_nodes_by_slcan() {
     );
 }
 
+impl Served {
+    /// Sends a frame, and waits for a line with this end; heartbeats of other nodes may come between.
+    fn answers(&mut self, frame: &str, expected: &str) {
+        self.client.write_all(frame.as_bytes()).unwrap();
+        let mut seen = String::new();
+        while !seen.ends_with(expected) {
+            let mut byte = [0];
+            self.client.read_exact(&mut byte).unwrap_or_else(|_| panic!("{seen} without {expected}"));
+            seen.push(char::from(byte[0]));
+        }
+    }
+}
+
+/// A lamp that tells its brightness and its errors.
+fn lamp_that_tells() -> String {
+    LAMP.replace("[heartbeat producer]", "[heartbeat producer, emergency]")
+        .replace("pdo: receive", "pdo: transmit")
+        .replace("receive: {1: {map: [brightness]}}", "transmit: {1: {map: [brightness]}}")
+        + "constraints:\n  dim: {require: \"0x2000 != 60\", about: Not at 60.}\n"
+}
+
+#[test]
+fn a_script_is_carried_out() {
+    let scratch = Scratch::new("serve-script");
+    scratch.file("lamp.od.yaml", lamp_that_tells());
+    let mut served = Served::with(&scratch, &["--script", "-", "--consistent"]);
+    served.ask("O\r", "\r");
+    let mut input = served.child.stdin.take().unwrap();
+    writeln!(input, "# Nothing yet.\n\n5 fault 0x4210\n5 fault 0x4210").unwrap();
+    served.ask("", "t08581042090000000000\r");
+    served.ask("t60582F0020003C000000\r", "z\rt58588000200043000406\r");
+    served.ask("t00020105\r", "z\r");
+    writeln!(
+        input,
+        "5 set 2000=200 %\n  7 clear 1\n5 claer 1\n5 set brightness=60 %\nwait 0.01\n5 clear 0x4210"
+    )
+    .unwrap();
+    served.ask("", "t18513C\rt08580000000000000000\r");
+    served.child.kill().unwrap();
+    let mut log = String::new();
+    served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    assert!(log.contains("note: node 5: error 4210h is present already"), "{log}");
+    assert!(log.contains("node 5: 2000h (brightness) cannot be set to this: 0609 0031h"), "{log}");
+    assert!(log.contains("<stdin>:6:3"), "{log}");
+    assert!(log.contains("<stdin>:7:3") && log.contains("did you mean `clear`?"), "{log}");
+}
+
+#[test]
+fn a_script_with_mistakes_is_refused_as_a_whole() {
+    let scratch = Scratch::new("serve-mistakes");
+    scratch.file("lamp.od.yaml", LAMP);
+    scratch.file(
+        "day.txt",
+        "wait 1\nwait -1\n5\n6 clear 1\n5 fault 0\n5 fault 0x10000\n5 set bright=1\n5 set 2000\nclear 5\n5 set 2000=x\n",
+    );
+    let arguments = ["serve", "lamp.od.yaml", "--node", "5", "--script", "day.txt", "--format", "short"];
+    let output = odgen(&scratch.0, &arguments);
+    assert_eq!((code(&output), output.stdout.as_slice()), (1, &b""[..]));
+    insta::assert_snapshot!(stderr(&output));
+}
+
 #[test]
 fn an_address_has_its_protocol() {
     let scratch = Scratch::new("serve-address");
@@ -107,4 +162,63 @@ fn an_address_has_its_protocol() {
     let output = odgen(&scratch.0, &["serve", "lamp.od.yaml", "--node", "5", "--slcan", "/dev/ttyUSB0"]);
     assert_eq!(code(&output), 2);
     assert!(stderr(&output).contains("write `--slcan tcp:HOST:PORT`"), "{}", stderr(&output));
+}
+
+#[test]
+fn the_nodes_of_a_machine_are_served_as_the_plant_sets_them() {
+    let scratch = presses("serve-plant");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
+        .args(["serve", "plant.yaml", "--machine", "6", "--slcan", "tcp:127.0.0.1:0"])
+        .current_dir(&scratch.0)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    assert!(line.starts_with("serving drive (node 11), supply (node 2), drive (node 22) at tcp:"), "{line}");
+    let client = TcpStream::connect(line.trim().rsplit("tcp:").next().unwrap()).unwrap();
+    client.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    let mut served = Served { child, client };
+    // Node 22: lowest voltage, which is 520.0 V, and the serial number.
+    served.ask("O\r", "\r");
+    served.answers("t61684000300000000000\r", "t59684B00300050140000\r");
+    served.answers("t61684018100400000000\r", "t59684318100467120000\r");
+    // Node 2: calibration, a locked entry.
+    served.answers("t60284001200000000000\r", "65000000\r");
+}
+
+#[test]
+fn a_machine_is_one_of_a_plant() {
+    let scratch = presses("serve-machine");
+    let mut told = String::new();
+    for arguments in [
+        &["plant.yaml"][..],
+        &["plant.yaml", "--machine", "66"],
+        &["plant.yaml", "--machine", "6", "--site", "Hal"],
+        &["plant.yaml", "--node", "5"],
+        &["plant.yaml", "press.od.yaml"],
+        &["press.od.yaml", "--machine", "6"],
+        &["gone.yaml", "--machine", "6"],
+    ] {
+        for command in ["serve", "decode"] {
+            let output = odgen(&scratch.0, &[&[command][..], arguments, &["--format", "short"]].concat());
+            let line = format!("{} {}", code(&output), stderr(&output));
+            if command == "serve" {
+                told += &line;
+            }
+            assert!(told.ends_with(&line), "{command} {arguments:?}: {line}");
+        }
+    }
+    insta::assert_snapshot!(told);
+}
+
+#[test]
+fn a_trace_of_a_machine_is_decoded() {
+    let scratch = presses("decode-plant");
+    scratch.file("bus.log", "(1.0) can0 616#4000300000000000\n(1.1) can0 596#4B00300050140000\n");
+    let output = odgen(&scratch.0, &["decode", "plant.yaml", "--machine", "6", "--trace", "bus.log"]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    let told = crate::stdout(&output);
+    assert!(told.contains("596h  drive (node 22)  SDO ←  3000h lowest voltage = 520.0 V"), "{told}");
 }

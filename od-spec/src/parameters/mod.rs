@@ -136,6 +136,23 @@ impl<'a> SettingNames<'a> {
         self.entries.lookup().find(text, &mut Suggestions::default()).ok()
     }
 
+    /// What a setting is read as, without a look at whether it can be set: its entry and the value of that. What is wrong
+    /// with it goes to `diagnostics`.
+    pub fn read_one(
+        &self,
+        node: u8,
+        setting: &SettingDecl,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<(EntryId, Value)> {
+        match read::setting(self.device, &self.entries, node, setting, &mut diagnostics.suggestions) {
+            Ok(Setting { id, value, .. }) => Some((id, value)),
+            Err(unread) => {
+                diagnostics.append(unread.diagnostics);
+                None
+            }
+        }
+    }
+
     /// What settings are read as, without a look at whether they can be set: an entry and its value each. What cannot be read
     /// is left out.
     pub fn read(&self, node: u8, settings: &[SettingDecl]) -> Vec<(EntryId, Value)> {

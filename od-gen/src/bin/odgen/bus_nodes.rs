@@ -1,18 +1,22 @@
 //! The nodes that a command line names.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use od_spec::diag::{Diagnostic, codes};
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Dictionary, EntryId, Index, SubIndex, System, Value};
 use od_spec::visible::visible;
 
 use super::args::NodesArgs;
-use super::report::{Report, node_id};
-use super::{ERRORS, specs};
+use super::report::{Report, node_id, shown};
+use super::{ERRORS, plant, specs};
+
+/// Where a device tells its serial number.
+const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
 
 /// Nodes, and what their devices belong to.
 pub(crate) struct BusNodes {
-    systems: Vec<System>,
+    systems: Vec<Arc<System>>,
     nodes: Vec<BusNode>,
 }
 
@@ -27,11 +31,17 @@ struct BusNode {
 impl BusNodes {
     /// The nodes, each with its node-ID, its system and its device.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u8, &System, &Dictionary)> {
-        self.nodes.iter().filter_map(|node| Some((node.id, self.systems.get(node.system)?, &node.device)))
+        self.nodes.iter().filter_map(|node| Some((node.id, &**self.systems.get(node.system)?, &node.device)))
     }
 
     /// Reads the specifications of a command line and finds its nodes in them; the exit code after a message when it cannot.
     pub(crate) fn read(args: &NodesArgs, directory: &Path, report: &Report) -> Result<Self, u8> {
+        if args.machine.is_some()
+            || args.site.is_some()
+            || args.specs.iter().any(|path| plant::names_plant(path))
+        {
+            return Self::of_machine(args, report);
+        }
         let paths = if args.specs.is_empty() {
             vec![specs::one(None, directory, report)?]
         } else {
@@ -41,7 +51,7 @@ impl BusNodes {
         for path in &paths {
             let (used, _) = report.compile_with_sources(path).ok_or(ERRORS)?;
             configured.push(used.stated_node());
-            systems.push(used.system);
+            systems.push(Arc::new(used.system));
         }
         let mut found = Self { systems, nodes: Vec::new() };
         let mut named: Vec<(u8, Option<&str>)> = Vec::new();
@@ -78,6 +88,50 @@ impl BusNodes {
         Ok(found)
     }
 
+    /// The nodes of a machine of a plant, as it sets them.
+    fn of_machine(args: &NodesArgs, report: &Report) -> Result<Self, u8> {
+        let refuse = |message: &str, help: &str| {
+            report.refuse(Diagnostic::without_place(codes::BAD_NOTATION, message).help(help.to_owned()))
+        };
+        let [path] = args.specs.as_slice() else {
+            return Err(refuse(
+                "the nodes of a machine are those of one plant file",
+                "name the plant file, and no other: `odgen serve plant.yaml --machine 17`",
+            ));
+        };
+        if !args.node.is_empty() || args.device.is_some() {
+            return Err(refuse(
+                "a plant file says itself which nodes there are",
+                "choose a machine with `--machine`, in place of `--node` and `--device`",
+            ));
+        }
+        if path.is_file() && !plant::names_plant(path) {
+            return Err(refuse(
+                &format!("{} is no plant file, and only a plant has machines", shown(path)),
+                "name a plant file, or the nodes of a specification with `--node ID=KEY`",
+            ));
+        }
+        let plant::Read { plant, settled, .. } = plant::read(path, report)?;
+        let machine = plant::machine(&plant, args.site.as_deref(), args.machine.as_deref())
+            .map_err(|diagnostic| report.refuse(*diagnostic))?;
+        let mut found = Self { systems: Vec::new(), nodes: Vec::new() };
+        for node in plant.nodes.get(machine.nodes.clone()).unwrap_or_default() {
+            let (Some(device), Some(settled)) = (plant.devices.get(node.device), settled.get(node.class))
+            else {
+                continue;
+            };
+            let system = found.systems.len();
+            found.systems.push(Arc::clone(&device.system));
+            let mut commissioning = plant.commissioning(node, settled);
+            if let Some(serial) = commissioning.serial_number {
+                commissioning.values.insert(SERIAL_NUMBER, Value::Integer(serial.into()));
+            }
+            let device = commissioning.configured(&device.dictionary);
+            found.push(BusNode { id: node.node.value, system, device }, report)?;
+        }
+        Ok(found)
+    }
+
     /// The device with a key in any of the specifications, or the only one; with the position of its system.
     fn device(&self, key: Option<&str>, report: &Report) -> Result<(usize, &Dictionary), u8> {
         let all = || {
@@ -86,7 +140,7 @@ impl BusNodes {
         };
         if let Some(key) = key {
             let found = all().find(|(_, device)| device.key == key);
-            return found.ok_or_else(|| report.unknown_device(self.systems.iter(), key));
+            return found.ok_or_else(|| report.unknown_device(self.systems.iter().map(Arc::as_ref), key));
         }
         let mut devices = all();
         if let (Some(only), None) = (devices.next(), devices.next()) {

@@ -1,5 +1,6 @@
 //! `odgen plant`.
 
+mod machine;
 mod schema;
 mod show;
 
@@ -16,6 +17,7 @@ use od_spec::model::SystemSource;
 use od_spec::plant::{Plant, Settled, plant};
 use od_spec::source::SourceMap;
 
+pub(crate) use machine::{machine, names_plant};
 pub(crate) use schema::schema;
 
 use super::ERRORS;
@@ -35,17 +37,17 @@ pub(crate) fn run(args: &PlantArgs, report: &Report) -> u8 {
 }
 
 /// A plant without errors.
-struct Read {
-    plant: Plant,
+pub(crate) struct Read {
+    pub(crate) plant: Plant,
     /// What each class is set to.
-    settled: Vec<Settled>,
+    pub(crate) settled: Vec<Settled>,
     sources: SourceMap,
     /// The files that were read.
     files: Vec<PathBuf>,
 }
 
 /// Reads a plant and shows what is wrong with it.
-fn read(path: &Path, report: &Report) -> Result<Read, u8> {
+pub(crate) fn read(path: &Path, report: &Report) -> Result<Read, u8> {
     let mut sources = SourceMap::new();
     let mut loader = FileLoader::default();
     let help = "check the path; a plant file begins with `od-plant: 1`";

@@ -1,13 +1,16 @@
 //! `odgen serve`: virtual nodes on a bus that clients reach by SLCAN over TCP.
 
-use std::io::{Read as _, Write as _};
+mod script;
+
+use std::io::{BufRead as _, Read as _, Write as _};
 use std::net::{Shutdown, TcpListener, TcpStream};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
+use firmware_glue::emcy::Raised;
 use firmware_glue::frame::Frame;
-use od_gen::runtime::{self, Bus, LiveDictionary, VirtualNode};
+use od_gen::runtime::{self, Bus, Checks, LiveDictionary, VirtualNode};
 use od_gen::slcan::{Adapter, CanFrame, LONGEST, REFUSED};
 use od_gen::trace::{Decoder, Node, What};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -17,9 +20,12 @@ use super::ERRORS;
 use super::args::ServeArgs;
 use super::bus_nodes::BusNodes;
 use super::report::{Report, print};
+use script::{Act, Script, Step};
 
 /// Longer than this the loop does not sleep: what a client has written to 1017h begins no later.
 const NAP: Duration = Duration::from_millis(20);
+/// Shorter than this it does not sleep either: a transfer of which the client's part is awaited has no time of its own.
+const SHORTEST: Duration = Duration::from_millis(1);
 /// A client that takes nothing for so long is left.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// So many events wait at most; who sends faster has to wait.
@@ -37,6 +43,8 @@ enum Event {
     Line(u64, Option<String>),
     /// The client with this number has gone.
     Gone(u64),
+    /// A line of a script on standard input.
+    Said(String),
 }
 
 /// A client and the adapter that it believes to talk to.
@@ -56,6 +64,7 @@ fn serve(args: &ServeArgs, directory: &Path, report: &Report) -> Result<u8, u8> 
         )
     })?;
     let nodes = BusNodes::read(&args.nodes, directory, report)?;
+    let script = Script::open(args.script.as_deref(), &nodes, report)?;
     let devices = devices(&nodes, report)?;
     let lists: Vec<_> = devices.iter().map(|(id, device)| (*id, device, device.lists())).collect();
     let internal = |error: &dyn std::fmt::Display| {
@@ -69,7 +78,9 @@ fn serve(args: &ServeArgs, directory: &Path, report: &Report) -> Result<u8, u8> 
     let mut on_the_bus = Vec::new();
     for (id, device, table) in &tables {
         let dictionary = LiveDictionary::new(device, table, *id).map_err(|error| internal(&error))?;
-        on_the_bus.push(VirtualNode::new(*id, dictionary).map_err(|error| internal(&error))?);
+        let mut node = VirtualNode::new(*id, dictionary).map_err(|error| internal(&error))?;
+        node.check(if args.consistent { Checks::Constraints } else { Checks::None });
+        on_the_bus.push(node);
     }
     let cannot = |error: std::io::Error| {
         let message = format!("cannot listen at {address}: {error}");
@@ -91,7 +102,11 @@ fn serve(args: &ServeArgs, directory: &Path, report: &Report) -> Result<u8, u8> 
     });
     let (events, incoming) = sync_channel(WAITING);
     accept(listener, events.clone());
-    Loop { bus: Bus::new(on_the_bus), clients: Vec::new(), decoder, report, start: Instant::now(), next: 0 }
+    if script.is_said() {
+        listen(events.clone());
+    }
+    let bus = Bus::new(on_the_bus);
+    Loop { bus, clients: Vec::new(), decoder, report, start: Instant::now(), next: 0, script, pause: None }
         .run(&incoming, &events);
     Ok(super::SUCCESS)
 }
@@ -115,6 +130,21 @@ fn accept(listener: TcpListener, events: SyncSender<Event>) {
             if events.send(Event::Came(stream)).is_err() {
                 return;
             }
+        }
+    });
+}
+
+/// Tells the lines of standard input, in a thread of its own.
+fn listen(events: SyncSender<Event>) {
+    std::thread::spawn(move || {
+        let mut input = std::io::stdin().lock();
+        let mut line = Vec::new();
+        while input.read_until(b'\n', &mut line).is_ok_and(|count| count > 0) {
+            let text = String::from_utf8_lossy(&line).trim_end_matches(['\n', '\r']).to_owned();
+            if events.send(Event::Said(text)).is_err() {
+                return;
+            }
+            line.clear();
         }
     });
 }
@@ -158,6 +188,9 @@ struct Loop<'a, 't> {
     start: Instant,
     /// The number of the next client.
     next: u64,
+    script: Script<'a>,
+    /// Until when the script waits.
+    pause: Option<u64>,
 }
 
 impl Loop<'_, '_> {
@@ -166,9 +199,8 @@ impl Loop<'_, '_> {
     }
 
     fn run(mut self, incoming: &Receiver<Event>, events: &SyncSender<Event>) {
-        let frames = self.bus.start(self.now());
-        self.show(&frames, None);
         loop {
+            self.act();
             loop {
                 let frames = self.bus.poll(self.now());
                 if frames.is_empty() {
@@ -176,16 +208,57 @@ impl Loop<'_, '_> {
                 }
                 self.show(&frames, None);
             }
-            let deadline = self
-                .bus
-                .next_deadline()
-                .map_or(NAP, |next| Duration::from_micros(next.saturating_sub(self.now())).min(NAP));
+            let next = self.bus.next_deadline().into_iter().chain(self.pause).min();
+            let deadline = next.map_or(NAP, |next| {
+                Duration::from_micros(next.saturating_sub(self.now())).clamp(SHORTEST, NAP)
+            });
             match incoming.recv_timeout(deadline) {
                 Ok(Event::Came(stream)) => self.welcome(stream, events),
                 Ok(Event::Line(number, line)) => self.line(number, line.as_deref()),
+                Ok(Event::Said(line)) => self.script.say(&line, self.report),
                 Ok(Event::Gone(number)) => self.clients.retain(|client| client.number != number),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    }
+
+    /// Does what the script says, up to where it waits.
+    fn act(&mut self) {
+        let now = self.now();
+        if self.pause.is_some_and(|until| now < until) {
+            return;
+        }
+        self.pause = None;
+        while let Some(step) = self.script.next() {
+            let (at, act) = match step {
+                Step::Wait(time) => {
+                    let time = u64::try_from(time.as_micros()).unwrap_or(u64::MAX);
+                    self.pause = Some(now.saturating_add(time));
+                    return;
+                }
+                Step::Act { at, act } => (at, act),
+            };
+            let Some(node) = self.bus.nodes_mut().get_mut(at) else { continue };
+            let refused = match act {
+                Act::Fault(emergency) => match node.raise(emergency, now) {
+                    Raised::New => None,
+                    Raised::Present => Some(format!("error {:04X}h is present already", emergency.code())),
+                    Raised::NotKept => {
+                        Some(format!("error {:04X}h is one too many: it cannot be cleared", emergency.code()))
+                    }
+                },
+                Act::Clear(code) => {
+                    (!node.clear(code, now)).then(|| format!("error {code:04X}h is not present"))
+                }
+                Act::Set { entry, value, name } => node
+                    .set(entry, &value, now)
+                    .err()
+                    .map(|refusal| format!("{name} cannot be set to this: {refusal}")),
+            };
+            if let Some(refused) = refused {
+                let number = node.id().map_or_else(|| "without node-ID".to_owned(), |id| id.to_string());
+                self.report.note(&format!("node {number}: {refused}"));
             }
         }
     }

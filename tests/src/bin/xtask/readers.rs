@@ -154,6 +154,9 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
         let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--spec", &spec, "--odgen"];
         runner.run(Command::new(&python).arg("tests/readers/virtual_node.py").args(arguments).arg(&odgen))?;
     }
+    let specs = SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"));
+    let virtual_pdo = ["tests/readers/virtual_pdo.py", "tests/readers/everything.od.yaml"];
+    runner.run(Command::new(&python).args(virtual_pdo).args(specs).arg("--odgen").arg(&odgen))?;
     let client = std::env::current_exe()?.with_file_name("sdo-client");
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
     runner.run(Command::new(&python).args(arguments).arg(&client))

@@ -20,6 +20,14 @@ pub(crate) struct NodesArgs {
     /// Key of the device of nodes that name none [default: the only one]
     #[arg(long, value_name = "KEY")]
     pub device: Option<String>,
+
+    /// Where SPEC is a plant file: the machine, by name or number, whose nodes they are, as the plant sets them [default: the only one]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["node", "device"])]
+    pub machine: Option<String>,
+
+    /// The site of the machine [default: that of the only machine with this name]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["node", "device"])]
+    pub site: Option<String>,
 }
 
 #[derive(Debug, Args)]
@@ -43,6 +51,15 @@ pub(crate) struct ServeArgs {
     /// Where clients find the bus: an address that is listened to, with the protocol of serial CAN adapters; port 0 takes a free one
     #[arg(long, value_name = "tcp:HOST:PORT", default_value = "tcp:127.0.0.1:3333")]
     pub slcan: String,
+
+    /// What happens to the nodes: a file with a command on each line, or `-` to give them by standard input while it serves. `5 fault 0x8611`
+    /// and `5 clear 0x8611` raise and clear an error of node 5, `5 set 6064.0=12.34°` sets a value as the device itself does, `wait 1.5` waits for seconds
+    #[arg(long, value_name = "FILE")]
+    pub script: Option<PathBuf>,
+
+    /// Refuse values with which a constraint of the specification breaks, as a firmware does that gives its services `Consistent`
+    #[arg(long)]
+    pub consistent: bool,
 
     /// Tell every frame on the bus in words, on standard error
     #[arg(long)]

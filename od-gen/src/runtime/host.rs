@@ -1,0 +1,141 @@
+//! The application of a virtual node.
+
+use std::collections::BTreeMap;
+
+use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
+use firmware_glue::nmt::State;
+use firmware_glue::node::{Event, NodeHandler, Reset};
+use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::{AbortCode, Application, Dictionary, EntryId, NodeId, Storage};
+
+use super::LiveDictionary;
+
+/// What a node stores on command, one after the other.
+const STORED: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
+
+/// What a virtual node checks of a value beyond what its dictionary says. A firmware chooses, too: it gives its services the application, or
+/// the application behind [`firmware_glue::Consistent`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Checks {
+    /// Nothing.
+    #[default]
+    None,
+    /// That no constraint breaks that held before; a client is told [`AbortCode::INCOMPATIBLE`].
+    Constraints,
+}
+
+/// The application of a virtual node: it keeps parameters for as long as the program runs, and notes what happens.
+#[derive(Debug)]
+pub(super) struct Host {
+    /// What was stored on command.
+    stored: BTreeMap<Storage, Vec<u8>>,
+    /// What the device keeps by itself, as it was before the reset that goes on.
+    kept: Vec<u8>,
+    /// Entries that were written and not yet told.
+    changed: Vec<EntryId>,
+    has_restarted: bool,
+    checks: Checks,
+    /// In kbit/s, as LSS can switch between them.
+    bit_rates: Vec<u16>,
+}
+
+impl Host {
+    pub(super) fn new(dictionary: &LiveDictionary<'_>) -> Self {
+        let kept = dictionary.stored(Storage::Remanent).to_vec();
+        let bit_rates = dictionary.lss().map(|lss| lss.bit_rates.clone()).unwrap_or_default();
+        let checks = Checks::None;
+        Self { stored: BTreeMap::new(), kept, changed: Vec::new(), has_restarted: false, checks, bit_rates }
+    }
+
+    pub(super) const fn check(&mut self, checks: Checks) {
+        self.checks = checks;
+    }
+
+    /// Whether the node has started again; said once.
+    pub(super) const fn has_restarted(&mut self) -> bool {
+        std::mem::replace(&mut self.has_restarted, false)
+    }
+
+    /// Entries that were written; each said once.
+    pub(super) fn changed(&mut self) -> Vec<EntryId> {
+        std::mem::take(&mut self.changed)
+    }
+}
+
+impl Application<LiveDictionary<'_>> for Host {
+    /// Looks at constraints, where it is to; carries out "store parameters" and "restore defaults".
+    fn accept(
+        &mut self,
+        dictionary: &mut LiveDictionary<'_>,
+        entry: EntryId,
+        value: &[u8],
+    ) -> Result<(), AbortCode> {
+        match self.checks {
+            Checks::None => {}
+            Checks::Constraints if dictionary.stays_consistent(entry, value) => {}
+            Checks::Constraints => return Err(AbortCode::INCOMPATIBLE),
+        }
+        for storage in STORED.into_iter().filter(|storage| is_meant(entry.sub, *storage)) {
+            match entry.index {
+                0x1010 => drop(self.stored.insert(storage, dictionary.stored(storage).to_vec())),
+                // It takes effect with the next reset.
+                0x1011 => drop(self.stored.remove(&storage)),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn changed(&mut self, _: &mut LiveDictionary<'_>, entry: EntryId) {
+        self.changed.push(entry);
+    }
+}
+
+impl PdoHandler<LiveDictionary<'_>> for Host {}
+
+impl LssHandler for Host {
+    /// A bus inside a program has no bit rate; the device says which ones it would have.
+    fn has_bit_rate(&self, rate: BitRate) -> bool {
+        rate.kbits().is_some_and(|rate| self.bit_rates.contains(&rate))
+    }
+
+    /// The node has it until the program ends, and there is no power-off before.
+    fn store(&mut self, _: MaybeNode, _: Option<BitRate>) -> Reply {
+        Reply::Done
+    }
+}
+
+impl NodeHandler<LiveDictionary<'_>> for Host {
+    fn restart(&mut self, dictionary: &mut LiveDictionary<'_>, _: NodeId, reset: Reset) {
+        let mut restore = |storage, bytes: &[u8]| {
+            let layout = dictionary.layout(storage);
+            // It has given the bytes itself; there is nothing to take where it keeps nothing.
+            let _ = dictionary.restore(storage, layout, bytes);
+        };
+        restore(Storage::Remanent, &self.kept);
+        for (storage, bytes) in &self.stored {
+            match (reset, storage) {
+                (Reset::Node, _) | (Reset::Communication, Storage::Communication) => restore(*storage, bytes),
+                (Reset::Communication, _) => {}
+            }
+        }
+        self.has_restarted = true;
+    }
+
+    fn node_event(&mut self, dictionary: &mut LiveDictionary<'_>, event: Event) {
+        // A reset begins: what the device keeps by itself outlives it.
+        if event == Event::State(State::Initialising) {
+            self.kept = dictionary.stored(Storage::Remanent).to_vec();
+        }
+    }
+}
+
+/// Whether a sub-index of 1010h and 1011h is about a group.
+const fn is_meant(sub: u8, storage: Storage) -> bool {
+    match storage {
+        Storage::Communication => matches!(sub, 1 | 2),
+        Storage::Application => matches!(sub, 1 | 3),
+        Storage::Manufacturer => matches!(sub, 1 | 4..),
+        Storage::No | Storage::Remanent => false,
+    }
+}

@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""Exchange PDOs with virtual nodes: python-canopen against `odgen serve`, over SLCAN and TCP.
+
+    virtual_pdo.py --odgen target/debug/odgen od-spec/devices/pitch-control-system.od.yaml
+
+Each device is served as node 5, and known to the client by its EDS alone. The client maps entries into the first PDOs by the
+procedure of CiA 301, receives what the device itself sets, after an event and after SYNC, sends what it then reads by SDO, hears
+emergencies, and asks LSS for the node-ID. Exit code 1 when anything differs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+import can
+import canopen
+from canopen.lss import LssError
+
+from sdo_client import IN_USE, NODE, Check, code_of
+from virtual_node import Served, reset
+
+TRANSMIT, RECEIVE = 0x180 + NODE, 0x200 + NODE
+BITS = {"8": 8, "16": 16, "32": 32}
+
+
+def candidates(device: dict, types: dict[str, dict], direction: str) -> list[tuple[int, int, int, bool]]:
+    """Entries that can be mapped and have a value of their own: index, sub-index, bits, whether it is signed. At most two, which fit into a PDO."""
+    found = []
+    for one in device["objects"]:
+        index = int(one["index"], 16)
+        for entry in one["entries"]:
+            kind = entry["type"].removeprefix("unsigned").removeprefix("integer")
+            if kind not in BITS or entry["pdo"] not in (direction, "both") or index < 0x2000:
+                continue
+            is_plain = not entry["locked"] and "writable-when" not in entry and "alias" not in entry
+            is_enum = "values" in types.get(entry.get("named-type", ""), {})
+            is_writable = direction == "transmit" or entry["access"] in ("rw", "wo", "rwr", "rww")
+            limited = int(entry.get("min") or 0) > 20 or int(entry.get("max") or 100) < 100
+            if is_plain and not is_enum and is_writable and not limited and entry["access"] != "const":
+                found.append((index, entry["sub"], BITS[kind], entry["type"].startswith("integer")))
+    return found[:2]
+
+
+class Heard:
+    """Frames with an identifier, as they come."""
+
+    def __init__(self, network: canopen.Network, cob_id: int) -> None:
+        self.frames: list[bytes] = []
+        self.came = threading.Condition()
+        network.subscribe(cob_id, self.hear)
+
+    def hear(self, _: int, data: bytearray, __: float) -> None:
+        with self.came:
+            self.frames.append(bytes(data))
+            self.came.notify_all()
+
+    def next(self, timeout: float = 3.0) -> bytes | None:
+        with self.came:
+            self.came.wait_for(lambda: self.frames, timeout)
+            return self.frames.pop(0) if self.frames else None
+
+
+def remap(pdo: canopen.pdo.PdoMap, entries: list[tuple[int, int, int, bool]], cob_id: int, transmission: int) -> None:
+    """Maps entries by the procedure of CiA 301: switch off, no entries, the entries, their number, switch on."""
+    pdo.read()
+    pdo.clear()
+    for index, sub, *_ in entries:
+        pdo.add_variable(index, sub)
+    pdo.cob_id, pdo.trans_type, pdo.enabled = cob_id, transmission, True
+    pdo.event_timer = None if pdo.event_timer is None else 0
+    pdo.inhibit_time = None if pdo.inhibit_time is None else 0
+    pdo.save()
+
+
+def packed(entries: list[tuple[int, int, int, bool]], values: list[int]) -> bytes:
+    return b"".join(v.to_bytes(e[2] // 8, "little", signed=e[3]) for e, v in zip(entries, values, strict=True))
+
+
+def check_transmit(check: Check, served: Served, network: canopen.Network, node: canopen.RemoteNode, entries: list) -> None:
+    """An event-driven TPDO, and one by SYNC where the device follows it."""
+    remap(node.tpdo[1], entries, TRANSMIT, 255)
+    check.that("mapping while the PDO is valid", code_of(node.sdo.download, 0x1A00, 0, b"\0"), IN_USE)
+    heard = Heard(network, TRANSMIT)
+    index, sub, *_ = entries[0]
+    served.say(f"set {index:04X}.{sub}=11")
+    check.that("a TPDO before start", heard.next(0.2), None)
+    node.nmt.state = "OPERATIONAL"
+    values = [11] + [3 + at for at in range(1, len(entries))]
+    for (index, sub, *_), value in list(zip(entries, values, strict=True))[1:]:
+        served.say(f"set {index:04X}.{sub}={value}")
+    if len(entries) == 1:
+        values = [12]
+        served.say(f"set {index:04X}.{sub}=12")
+    last = None
+    while (frame := heard.next(0.5)) is not None:
+        last = frame
+    check.that("the TPDO of an event", last, packed(entries, values))
+    read = [int.from_bytes(node.sdo.upload(index, sub), "little") for index, sub, *_ in entries]
+    check.that("what it tells by SDO", read, values)
+    node.nmt.state = "PRE-OPERATIONAL"
+    if code_of(node.sdo.upload, 0x1005, 0) == 0x06020000:
+        return
+    remap(node.tpdo[2], entries, TRANSMIT + 0x100, 2)
+    node.tpdo[1].enabled = False
+    node.tpdo[1].save()
+    by_sync = Heard(network, TRANSMIT + 0x100)
+    node.nmt.state = "OPERATIONAL"
+    has_counter = node.sdo.upload(0x1019, 0) != b"\0"
+    start = node.sdo.upload(0x1801, 6)[0] if has_counter else None
+    for counter in (start - 1, start) if has_counter else (None,):
+        network.sync.transmit(counter)
+    check.that("the first SYNC of two", by_sync.next(0.3), None)
+    network.sync.transmit(start + 1 if has_counter else None)
+    check.that("the second SYNC", by_sync.next(), packed(entries, values))
+    node.nmt.state = "PRE-OPERATIONAL"
+
+
+def check_receive(check: Check, node: canopen.RemoteNode, entries: list) -> None:
+    """An RPDO takes effect while the node is operational, and not before."""
+    remap(node.rpdo[1], entries, RECEIVE, 255)
+    before = [node.sdo.upload(index, sub) for index, sub, *_ in entries]
+    values = [5 + at for at in range(len(entries))]
+    for at, value in enumerate(values):
+        node.rpdo[1][at].raw = value
+    node.rpdo[1].transmit()
+    check.that("an RPDO before start", [node.sdo.upload(e[0], e[1]) for e in entries], before)
+    node.nmt.state = "OPERATIONAL"
+    node.rpdo[1].transmit()
+    read = b"".join(node.sdo.upload(index, sub) for index, sub, *_ in entries)
+    check.that("what an RPDO has written", read, packed(entries, values))
+    node.nmt.state = "PRE-OPERATIONAL"
+
+
+def check_emergencies(check: Check, served: Served, node: canopen.RemoteNode) -> None:
+    """An error occurs and goes."""
+    served.say("fault 0x4210")
+    heard = node.emcy.wait(0x4210, 3)
+    check.that("an emergency", heard and (heard.code, heard.register), (0x4210, 9))
+    check.that("the error register", node.sdo.upload(0x1001, 0), b"\x09")
+    newest = code_of(node.sdo.upload, 0x1003, 1)
+    check.that("the newest error", newest, 0x06020000 if 0x1003 not in node.object_dictionary else b"\x10\x42\0\0")
+    served.say("nonsense")
+    served.say("clear 0x4210")
+    heard = node.emcy.wait(0, 3)
+    check.that("the end of an emergency", heard and (heard.code, heard.register), (0, 0))
+    check.that("the error register then", node.sdo.upload(0x1001, 0), b"\0")
+
+
+def check_lss(check: Check, network: canopen.Network, device: dict) -> None:
+    """A device with LSS tells its node-ID, and one without says nothing."""
+    network.lss.RESPONSE_TIMEOUT = 1.0 if device["lss"] else 0.3
+    network.lss.send_switch_state_global(network.lss.CONFIGURATION_STATE)
+    try:
+        found = network.lss.inquire_node_id()
+    except LssError:
+        found = None
+    check.that("LSS", found, NODE if device["lss"] else None)
+    network.lss.send_switch_state_global(network.lss.WAITING_STATE)
+
+
+def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: dict[str, dict]) -> Check:
+    check = Check()
+    served = Served(odgen, spec, device["key"], "--script", "-")
+    network = canopen.Network(served.bus())
+    try:
+        network.notifier = can.Notifier(network.bus, network.listeners, 0.05)
+        node = canopen.RemoteNode(NODE, str(eds))
+        network.add_node(node)
+        reset(check, node)
+        check_lss(check, network, device)
+        check_transmit(check, served, network, node, candidates(device, types, "transmit"))
+        check_receive(check, node, candidates(device, types, "receive"))
+        check_emergencies(check, served, node)
+        reset(check, node)
+    finally:
+        network.disconnect()
+        served.end()
+    return check
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("--odgen", required=True)
+    parser.add_argument("specs", nargs="+", type=Path)
+    options = parser.parse_args()
+    failed = 0
+    for spec in options.specs:
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([options.odgen, "build", spec, "--out", folder], check=True, stdout=subprocess.DEVNULL)
+            (dump,) = (json.loads(path.read_text(encoding="utf-8")) for path in Path(folder).glob("*.json"))
+            types = {named["name"]: named for named in dump["types"]}
+            for device in dump["devices"]:
+                started = time.monotonic()
+                check = check_device(options.odgen, spec, Path(folder) / "eds" / f"{device['key']}.eds", device, types)
+                failed += bool(check.failures) or check.done < 13
+                for failure in check.failures:
+                    print(f"  {failure}")
+                verdict = "ok" if not check.failures else f"{len(check.failures)} differences"
+                print(f"PDOs of {device['key']}: {check.done} checks, {verdict}, {time.monotonic() - started:.1f} s")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
