@@ -140,8 +140,8 @@ fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     None
 }
 
-/// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue against
-/// a server that others wrote.
+/// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
+/// and `odgen node` against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let server = std::env::current_exe()?.with_file_name("sdo-server");
@@ -156,5 +156,13 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     }
     let client = std::env::current_exe()?.with_file_name("sdo-client");
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
-    runner.run(Command::new(&python).args(arguments).arg(&client))
+    runner.run(Command::new(&python).args(arguments).arg(&client))?;
+    for (stem, device) in [("pitch-control-system", "pmc"), ("fullmo-drive", "fullmo")] {
+        let spec = format!("od-spec/devices/{stem}.od.yaml");
+        let eds = format!("generated/eds/{device}.eds");
+        let arguments =
+            ["tests/readers/node_master.py", "--spec", &spec, "--device", device, "--eds", &eds, "--odgen"];
+        runner.run(Command::new(&python).args(arguments).arg(&odgen))?;
+    }
+    Ok(())
 }
