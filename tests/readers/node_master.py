@@ -141,7 +141,7 @@ def main() -> int:
         ]
         before = {at: value_of(node, *at) for at, _ in kept}
         changed = set()
-        for at, part in kept[::2]:
+        for at, _ in kept:
             if at[0] < 0x2000:
                 continue
             data = before[at]
