@@ -10,6 +10,8 @@ mod artifacts;
 pub mod boot;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "runtime")]
+pub mod client;
 #[cfg(feature = "eds")]
 pub mod concise;
 #[cfg(feature = "diff")]

@@ -46,11 +46,18 @@ pub struct About<'a> {
 
 /// The parameter file of a node; `left_out` is what is known already not to stand in it.
 pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> ParameterText {
-    let device = about.device;
     let mut node = node.clone();
     let mut left_out = left_out;
-    left_out.extend(views(device, &mut node));
-    node.keep_differences(device);
+    left_out.extend(views(about.device, &mut node));
+    node.keep_differences(about.device);
+    write_all(about, node, left_out)
+}
+
+/// The same with all values, also those that are the defaults: what a node has is written down whole. A bit rate of 0 is not known, and
+/// not said.
+pub fn write_all(about: About<'_>, node: Commissioning, left_out: Vec<String>) -> ParameterText {
+    let device = about.device;
+    let (mut node, mut left_out) = (node, left_out);
     node.unlocked = node.values.keys().copied().filter(|id| is_locked(device, *id)).collect();
     let mut findings = Vec::new();
     for (id, found) in found(about, &node) {
@@ -64,7 +71,9 @@ pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> P
             None => findings.push(found.message.clone()),
         }
     }
-    if let Err(refused) = bit_rate(device, &node.bit_rate.to_string()) {
+    if node.bit_rate != 0
+        && let Err(refused) = bit_rate(device, &node.bit_rate.to_string())
+    {
         left_out.push(refused.message);
     }
     left_out.extend(texts(&node));

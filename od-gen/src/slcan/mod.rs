@@ -6,12 +6,14 @@
 //! with a bell where it refuses. Frames from the bus come in the same form, on request (`Z1`) with a time stamp of four digits.
 
 mod adapter;
+mod host;
 
 use std::fmt::Write as _;
 
 use firmware_glue::frame::{CanId, Frame};
 
 pub use self::adapter::{Adapter, Reply};
+pub use self::host::{Heard, Host};
 
 /// What ends a line.
 pub const END: u8 = b'\r';

@@ -120,7 +120,7 @@ impl<'a> Node<'a> {
     }
 
     /// `6064h position actual value`, `3020h.5 battery: voltage`.
-    pub(super) fn entry(&self, id: EntryId) -> String {
+    pub fn entry(&self, id: EntryId) -> String {
         let number = id.to_string();
         match self.device.objects.get(&id.index) {
             None => format!("{number} (no such object)"),
@@ -134,7 +134,7 @@ impl<'a> Node<'a> {
 
     /// A value in words: in its unit, by its name, with the bits that it sets and the state that it tells; bytes where the type
     /// has no such value.
-    pub(super) fn value(&self, id: EntryId, bytes: &[u8]) -> String {
+    pub fn value(&self, id: EntryId, bytes: &[u8]) -> String {
         let object = self.device.objects.get(&id.index);
         let found = object.and_then(|object| Some((object, object.entry(id.sub)?)));
         let Some((object, entry)) = found else { return hexadecimal(bytes) };

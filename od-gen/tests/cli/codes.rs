@@ -1,8 +1,10 @@
 //! Codes that only the command provokes.
 
 use std::fs;
+use std::io::{Read as _, Write as _};
+use std::net::TcpListener;
 
-use crate::provoked::PROVOKED;
+use crate::provoked::{ADAPTER, PROVOKED};
 use crate::{Scratch, odgen, stderr};
 
 /// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
@@ -33,7 +35,29 @@ fn each_is_provoked() {
         for (name, text) in FILES {
             scratch.file(name, text);
         }
-        let said = stderr(&odgen(&scratch.0, provocation.arguments));
+        let address = if provocation.arguments.contains(&ADAPTER) { adapter() } else { String::new() };
+        let arguments: Vec<&str> = provocation
+            .arguments
+            .iter()
+            .map(|argument| if *argument == ADAPTER { address.as_str() } else { argument })
+            .collect();
+        let said = stderr(&odgen(&scratch.0, &arguments));
         assert!(said.contains(&format!("[{}]", provocation.code)), "{:?}: {said}", provocation.arguments);
     }
+}
+
+/// The address of an adapter that says yes to everything, for one client, on a bus without nodes.
+fn adapter() -> String {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut byte = [0];
+        while matches!(stream.read(&mut byte), Ok(1)) {
+            if byte == *b"\r" && stream.write_all(b"\r").is_err() {
+                return;
+            }
+        }
+    });
+    format!("tcp:{address}")
 }

@@ -22,6 +22,7 @@ mod import;
 #[path = "../../../tests/shared/shipped.rs"]
 mod in_one_file;
 mod new;
+mod node;
 mod parts;
 mod plant;
 mod provoked;

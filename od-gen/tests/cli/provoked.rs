@@ -6,6 +6,9 @@ pub(crate) struct Provocation {
     pub(crate) arguments: &'static [&'static str],
 }
 
+/// Stands for the address of an adapter on a bus without nodes.
+pub(crate) const ADAPTER: &str = "tcp:ADAPTER";
+
 /// What readers do not take in a file that nobody else minds.
 const READERS: &[&str] = &["check", "readers.eds", "--notes", "--all"];
 
@@ -38,6 +41,21 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation {
         code: "OD0715",
         arguments: &["serve", "lamp.od.yaml", "--node", "5", "--slcan", "tcp:192.0.2.1:4000"],
+    },
+    Provocation {
+        code: "OD0716",
+        arguments: &[
+            "node",
+            "read",
+            "lamp.od.yaml",
+            "--node",
+            "5",
+            "--timeout",
+            "1",
+            "--slcan",
+            ADAPTER,
+            "1000",
+        ],
     },
     Provocation { code: "OD0811", arguments: &["check", "lamp.od.yaml", "--notes"] },
     Provocation { code: "XDD101", arguments: &["check", "open.xdd"] },

@@ -13,7 +13,7 @@ fn readme() -> String {
 
 /// Demands that the README shows `lines` between its marks `<!-- mark -->` and `<!-- /mark -->`.
 #[track_caller]
-fn shows<'t>(mark: &str, lines: impl IntoIterator<Item = &'t str>) {
+pub(crate) fn shows<'t>(mark: &str, lines: impl IntoIterator<Item = &'t str>) {
     let readme = readme();
     let indented = |line: &str| if line.is_empty() { String::new() } else { format!("    {line}") };
     let screen: Vec<String> = lines.into_iter().map(indented).collect();

@@ -100,6 +100,7 @@ pub mod codes {
     pub(crate) use super::locked_entries_are_not_set::CODE as LOCKED;
     pub use super::names_are_unique::CODE as DUPLICATE_NAME;
     pub use super::set_entries_are_writable::CODE as NOT_WRITABLE;
+    pub use super::settings_have_an_order::CODE as NO_ORDER;
     pub use super::texts_fit_eds::CODE as NOT_FOR_EDS;
     pub use super::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
     pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;

@@ -8,7 +8,8 @@ use crate::model::{Course, EntryId, Outcome, Stuck};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Settings(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0838",
     severity: Severity::Warning,
     foreign: Severity::Warning,

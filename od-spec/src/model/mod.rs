@@ -113,7 +113,7 @@ pub struct System {
 
 impl System {
     /// The constraints that a device can break, in order.
-    pub(crate) fn constraints_about(&self, key: &str) -> impl Iterator<Item = &Constraint> {
+    pub fn constraints_about(&self, key: &str) -> impl Iterator<Item = &Constraint> {
         let positions = self.constraints_by_device.get(key).map_or(&[][..], Vec::as_slice);
         positions.iter().filter_map(|position| self.constraints.get(*position))
     }

@@ -2,6 +2,7 @@
 
 mod bus;
 mod node;
+mod on_bus;
 mod plant;
 
 use std::path::PathBuf;
@@ -12,6 +13,10 @@ use od_spec::eds::readers::Reader;
 
 pub(crate) use bus::{DecodeArgs, NodesArgs, ServeArgs};
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
+pub(crate) use on_bus::{
+    LinkArgs, NmtName, NodeArgs, NodeBackupArgs, NodeCommand, NodeFileArgs, NodeGroupArgs, NodeNmtArgs,
+    NodeReadArgs, NodeScanArgs, NodeWriteArgs, OneNodeArgs,
+};
 pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, ShowFormat};
 
 /// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
@@ -20,7 +25,7 @@ pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, S
     name = "odgen",
     version,
     after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line, \
-                  3 what `odgen diff --exit-code` looks for.\n\
+                  3 what `odgen diff --exit-code` looks for, or `odgen node compare` finds.\n\
                   `odgen explain OD0507` tells more about a message; `odgen reference` describes the language."
 )]
 pub(crate) struct Cli {
@@ -109,6 +114,7 @@ impl Cli {
             Command::Fix(args) => args.messages.format,
             Command::Fmt(args) => args.messages.format,
             Command::New(args) => args.messages.format,
+            Command::Node(args) => args.command.message_format(),
             Command::Params(args) => args.messages.format,
             Command::Plant(args) => args.command.message_format(),
             Command::Serve(args) => args.messages.format,
@@ -177,6 +183,8 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Write a commented specification to start from
     New(NewArgs),
+    /// Talk to a node on a bus, by SLCAN over TCP
+    Node(NodeArgs),
     /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
     Params(ParamsArgs),
     /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine

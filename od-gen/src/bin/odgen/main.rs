@@ -17,6 +17,7 @@ mod import;
 mod line_diff;
 mod listing;
 mod new;
+mod node;
 mod output;
 mod parallel;
 mod params;
@@ -47,7 +48,7 @@ const SUCCESS: u8 = 0;
 const ERRORS: u8 = 1;
 /// The command line cannot be understood.
 const USAGE: u8 = 2;
-/// `odgen diff --exit-code` found what it looked for.
+/// `odgen diff --exit-code` found what it looked for, or `odgen node compare` a difference.
 const DIFFERS: u8 = 3;
 
 fn main() -> ExitCode {
@@ -74,6 +75,7 @@ fn main() -> ExitCode {
         Command::Fix(args) => fix::run(&args, &report),
         Command::Fmt(args) => fmt::run(&args, directory, &report),
         Command::New(args) => new::run(&args, &report),
+        Command::Node(args) => node::run(&args, &report),
         Command::Params(args) => params::run(&args, &report),
         Command::Plant(args) => plant::run(&args, &report),
         Command::Serve(args) => serve::run(&args, directory, &report),

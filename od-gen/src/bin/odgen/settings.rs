@@ -61,6 +61,11 @@ impl ParameterFiles {
         Some(node)
     }
 
+    /// The node-ID that the last file states.
+    pub(crate) fn stated_node(&self) -> Option<u8> {
+        self.files.iter().rev().find_map(|(_, file)| Some(file.node?.value))
+    }
+
     /// Takes what the files say about the node beside its node-ID and its values, the last one over the others.
     pub(crate) fn settle(
         &self,

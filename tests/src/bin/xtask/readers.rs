@@ -140,8 +140,8 @@ fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     None
 }
 
-/// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue against
-/// a server that others wrote.
+/// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
+/// and `odgen node` against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let server = std::env::current_exe()?.with_file_name("sdo-server");
@@ -159,5 +159,14 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(virtual_pdo).args(specs).arg("--odgen").arg(&odgen))?;
     let client = std::env::current_exe()?.with_file_name("sdo-client");
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
-    runner.run(Command::new(&python).args(arguments).arg(&client))
+    runner.run(Command::new(&python).args(arguments).arg(&client))?;
+    // A drive without defaults would be a node without values.
+    for device in ["pmc", "pmm"] {
+        let eds = format!("generated/eds/{device}.eds");
+        let spec = "od-spec/devices/pitch-control-system.od.yaml";
+        let arguments =
+            ["tests/readers/node_master.py", "--spec", spec, "--device", device, "--eds", &eds, "--odgen"];
+        runner.run(Command::new(&python).args(arguments).arg(&odgen))?;
+    }
+    Ok(())
 }

@@ -1,0 +1,270 @@
+//! `odgen node backup`, `compare` and `restore`: the parameters of a node as a file.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use od_gen::Artifact;
+use od_gen::client::{Bus, Client, kept, plan, value};
+use od_gen::files::Existing;
+use od_gen::parameters::{About, write_all};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::model::{EntryId, Value, Write};
+use od_spec::source::SourceMap;
+use od_spec::{Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
+
+use super::super::args::{NodeBackupArgs, NodeFileArgs};
+use super::super::output::{forced, save};
+use super::super::report::{Report, print, shown};
+use super::super::settings::parameter_files;
+use super::super::{DIFFERS, ERRORS, SUCCESS};
+use super::access::not_written;
+use super::{Described, Target, connect};
+
+/// What a node has, and what it does not tell, with the reason.
+struct Had {
+    values: ParameterValues,
+    untold: Vec<(EntryId, String)>,
+}
+
+/// Reads entries; what a node refuses is noted. The exit code after a message where nothing can be read any more.
+fn had<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    ids: impl IntoIterator<Item = EntryId>,
+    report: &Report,
+) -> Result<Had, u8> {
+    let mut had = Had { values: ParameterValues::new(), untold: Vec::new() };
+    for id in ids {
+        let Some(entry) = target.device.entry(id) else { continue };
+        match client.read(target.id, id) {
+            Ok(bytes) => match value(entry, &bytes) {
+                Some(value) => {
+                    // A formula with the node-ID is what the value means, where it is the default.
+                    let default = entry.default.as_ref().filter(|default| {
+                        let raw = default.integer_for(target.id);
+                        raw.is_some() && raw == value.integer()
+                    });
+                    had.values.insert(id, default.cloned().unwrap_or(value));
+                }
+                None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
+            },
+            Err(error) if error.is_of_entry() => had.untold.push((id, error.to_string())),
+            Err(error) => return Err(report.refuse(target.failed("read", id, &error))),
+        }
+    }
+    Ok(had)
+}
+
+/// Writes a parameter file of what a node has; none where it does not answer.
+pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
+    let described = Described::read(&args.node, report)?;
+    let target = described.target(&args.node, None, None, report)?;
+    let name = args.out.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
+        let message = format!("cannot write `{}`: it names no file", args.out.display());
+        report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
+    })?;
+    let mut client = connect(&args.node.link, report)?;
+    let had = had(&mut client, target, kept(target.device), report)?;
+    let mut node = Commissioning::of_node(target.device, target.id);
+    // Nobody has asked the adapter.
+    node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
+    node.values = had.values;
+    let untold = had.untold.iter().map(|(id, why)| format!("{}: {why}", target.words().entry(*id)));
+    let about = About {
+        system: target.system,
+        sources: &described.sources,
+        device: target.device,
+        names_device: true,
+        node_id: Some(target.id),
+    };
+    let written = write_all(about, node, untold.collect());
+    for (lines, what) in [(&written.left_out, "left out"), (&written.findings, "wrong")] {
+        for line in lines {
+            report.note(&format!("{what}: {line}"));
+        }
+    }
+    let artifact =
+        Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
+    let directory = args.out.parent().unwrap_or(Path::new(""));
+    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::None))
+        .map_err(|diagnostic| report.refuse(diagnostic))?;
+    Ok(print(&format!("  {}  {} of {}\n", shown(&args.out), values(written.count), target.name())))
+}
+
+/// `1 value`, `2 values`.
+fn values(count: usize) -> String {
+    format!("{count} value{}", if count == 1 { "" } else { "s" })
+}
+
+/// A parameter file and the node that it is laid beside.
+struct Beside<'a> {
+    target: Target<'a>,
+    sources: SourceMap,
+    layers: Vec<Layer>,
+    /// The entries that the file sets, with their values.
+    meant: ParameterValues,
+}
+
+/// Reads a parameter file for a node and checks it as for a DCF. What is no error depends on what the node has, and is told then.
+fn beside<'a>(described: &'a Described, args: &NodeFileArgs, report: &Report) -> Result<Beside<'a>, u8> {
+    let (mut sources, mut diagnostics) = (described.sources.clone(), Diagnostics::new());
+    let files = parameter_files(std::slice::from_ref(&args.file), &mut sources, &mut diagnostics)
+        .map_err(|diagnostic| report.refuse(*diagnostic))?;
+    if diagnostics.has_errors() {
+        shown_errors(&diagnostics, &sources, report)?;
+    }
+    let system = &described.used.system;
+    let device = files.device(system, args.node.device.as_deref(), report)?;
+    let target = described.target(&args.node, Some(&device.key), files.stated_node(), report)?;
+    if let Some(stated) = files.stated_node().filter(|stated| *stated != target.id) {
+        report.note(&format!("{} is of node {stated}, and this is node {}", shown(&args.file), target.id));
+    }
+    files.check_device(system, target.device, &mut diagnostics);
+    let layers = files.into_layers();
+    let meant = assign_layers(system, target.device, target.id, &layers, &mut diagnostics).values;
+    if diagnostics.has_errors() {
+        shown_errors(&diagnostics, &sources, report)?;
+    }
+    Ok(Beside { target, sources, layers, meant })
+}
+
+/// Shows what a check says; its errors end the command. The order is worked out from what the node has.
+fn shown_errors(found: &Diagnostics, sources: &SourceMap, report: &Report) -> Result<(), u8> {
+    let mut counting = Diagnostics::new();
+    for one in found.iter().filter(|one| one.code != rule_codes::NO_ORDER) {
+        counting.push(one.clone());
+    }
+    counting.sort();
+    report.show(&counting, sources);
+    if counting.has_errors() { Err(ERRORS) } else { Ok(()) }
+}
+
+/// Whether two values are one on a node.
+fn is_same(one: &Value, other: &Value, node: u8) -> bool {
+    one == other || one.integer_for(node).is_some_and(|raw| other.integer_for(node) == Some(raw))
+}
+
+/// A value in words.
+fn words(target: Target<'_>, id: EntryId, value: &Value) -> String {
+    let bytes = target.device.entry(id).and_then(|entry| value.bytes_for(entry.data_type, target.id));
+    bytes.map_or_else(|| "no value".to_owned(), |bytes| target.words().value(id, &bytes))
+}
+
+/// Tells what a node has otherwise than a file, and what it does not tell; how many of each.
+fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, report: &Report) -> (usize, u8) {
+    let (mut count, mut code) = (0, SUCCESS);
+    for (id, wanted) in meant {
+        let name = target.words().entry(*id);
+        match had.values.get(id) {
+            Some(held) if is_same(held, wanted, target.id) => {}
+            Some(held) => {
+                count += 1;
+                let (wanted, held) = (words(target, *id, wanted), words(target, *id, held));
+                code = code.max(print(&format!("{name}: {held} in the node, {wanted} in the file\n")));
+            }
+            None => {
+                let why = had.untold.iter().find(|(untold, _)| untold == id);
+                let why = why.map_or("it cannot be read", |(_, why)| why.as_str());
+                let message = format!("{}: cannot compare {name}: {why}", target.name());
+                code = code.max(report.refuse(Diagnostic::without_place(codes::ACCESS_FAILED, message)));
+            }
+        }
+    }
+    (count, code)
+}
+
+/// Reads what a file sets, and tells where the node differs.
+pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
+    let described = Described::read(&args.node, report)?;
+    let Beside { target, meant, .. } = beside(&described, args, report)?;
+    let mut client = connect(&args.node.link, report)?;
+    let had = had(&mut client, target, meant.keys().copied(), report)?;
+    let (count, code) = told_differences(target, &meant, &had, report);
+    let not_in_file = kept(target.device).filter(|id| !meant.contains_key(id)).count();
+    let differ = if count == 1 { "differs" } else { "differ" };
+    let mut line = format!("{} of {} compared, {count} {differ}", values(meant.len()), shown(&args.file));
+    if not_in_file > 0 {
+        let _ = write!(line, "; {not_in_file} further parameters of {} are not in it", target.name());
+    }
+    let printed = print(&format!("{line}\n"));
+    Ok(match code.max(printed) {
+        SUCCESS if count > 0 => DIFFERS,
+        code => code,
+    })
+}
+
+/// Writes what a file sets and the node has otherwise, and reads all of it back.
+pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
+    let described = Described::read(&args.node, report)?;
+    let Beside { target, sources, layers, meant } = beside(&described, args, report)?;
+    let mut client = connect(&args.node.link, report)?;
+    let ids: BTreeSet<EntryId> = kept(target.device).chain(meant.keys().copied()).collect();
+    let before = had(&mut client, target, ids, report)?;
+    // What the file does not set stays as the node has it, and conditions ask for that.
+    let mut now = Commissioning::of_node(target.device, target.id);
+    now.values.clone_from(&before.values);
+    let mut diagnostics = Diagnostics::new();
+    let of_node = now.configured(target.device);
+    let assigned = assign_layers(target.system, &of_node, target.id, &layers, &mut diagnostics);
+    if diagnostics.has_errors() {
+        report.note("nothing was written; with what the node has beside the values of the file:");
+    }
+    shown_errors(&diagnostics, &sources, report)?;
+    let writes =
+        plan(target.system, target.device, target.id, &before.values, &meant).map_err(|no_value| {
+            let diagnostic = Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, no_value.to_string());
+            report.refuse(diagnostic.help("correct the value"))
+        })?;
+    for write in writes.iter().filter(|write| assigned.unlocked.contains(&write.id)) {
+        report.note(&format!(
+            "LOCKED {}: the device takes it only while it is unlocked for service",
+            target.words().entry(write.id)
+        ));
+    }
+    let code = written(&mut client, target, &writes, report)?;
+    let after = had(&mut client, target, meant.keys().copied(), report)?;
+    let (count, unread) = told_differences(target, &meant, &after, report);
+    let code = code.max(unread);
+    if count > 0 {
+        let has = if count == 1 { "has" } else { "have" };
+        let message = format!("{}: {} of the file {has} not come back", target.name(), values(count));
+        return Ok(code.max(
+            report.refuse(
+                Diagnostic::without_place(codes::ACCESS_FAILED, message)
+                    .help("see above what the node has in their place"),
+            ),
+        ));
+    }
+    let held = values(meant.len());
+    let line = format!("  {}  {held} read back as in {}\n", target.name(), shown(&args.file));
+    Ok(if code == SUCCESS { print(&line) } else { code })
+}
+
+/// Carries out writes. One that is refused is told, and the next ones are tried; the exit code where the node is gone.
+fn written<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    writes: &[Write],
+    report: &Report,
+) -> Result<u8, u8> {
+    let mut code = SUCCESS;
+    for (at, write) in writes.iter().enumerate() {
+        match client.write(target.id, write.id, &write.bytes) {
+            Ok(()) => {
+                let line = super::access::line(target, write.id, &write.bytes);
+                code = code.max(print(&format!("{line}  written\n")));
+            }
+            Err(error) => {
+                code = code.max(report.refuse(not_written(target, write.id, &error)));
+                if !error.is_of_entry() {
+                    for write in writes.iter().skip(at + 1) {
+                        report.note(&format!("not sent any more: {}", target.words().entry(write.id)));
+                    }
+                    return Err(code);
+                }
+            }
+        }
+    }
+    Ok(code)
+}

@@ -1,0 +1,229 @@
+//! SDO and NMT, one access after the other.
+
+use std::fmt;
+use std::time::Duration;
+
+use firmware_glue::AbortCode;
+use firmware_glue::frame::{CanId, Frame};
+use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Step};
+use od_spec::model::EntryId;
+
+use super::{Bus, BusError};
+
+/// No entry of a dictionary is longer; who sends more is not believed.
+const LONGEST: usize = 16 << 20;
+/// So long at most nobody asks whether a transfer is late.
+const NAP: Duration = Duration::from_millis(20);
+
+/// The master of a bus: one access at a time, to any node.
+#[derive(Debug)]
+pub struct Client<B> {
+    bus: B,
+    /// Microseconds without an answer after which a node is given up.
+    timeout: u32,
+}
+
+/// Why an access failed.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum AccessError {
+    /// The node refuses.
+    Refused(AbortCode),
+    /// The node says nothing, or nothing more.
+    Silent,
+    /// What the node sends is no answer.
+    Wrong(AbortCode),
+    /// Nothing goes over the bus.
+    Bus(BusError),
+}
+
+impl AccessError {
+    /// Whether the next access to the node is worth a try.
+    pub const fn is_of_entry(&self) -> bool {
+        match self {
+            Self::Refused(_) => true,
+            Self::Silent | Self::Wrong(_) | Self::Bus(_) => false,
+        }
+    }
+}
+
+impl fmt::Display for AccessError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refused(code) => write!(f, "the node refuses: {code}"),
+            Self::Silent => f.write_str("the node does not answer"),
+            Self::Wrong(code) => write!(f, "the node's answer is none: {code}"),
+            Self::Bus(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for AccessError {}
+
+impl From<BusError> for AccessError {
+    fn from(error: BusError) -> Self {
+        Self::Bus(error)
+    }
+}
+
+impl From<Failure> for AccessError {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Server(code) => Self::Refused(code),
+            Failure::Client(AbortCode::TIMEOUT) => Self::Silent,
+            Failure::Client(code) => Self::Wrong(code),
+        }
+    }
+}
+
+/// Grows with what is read.
+#[derive(Debug, Default)]
+struct Collected(Vec<u8>);
+
+impl Sink for Collected {
+    fn begin(&mut self, size: Option<u32>) -> Result<(), AbortCode> {
+        self.0.clear();
+        let fits = size.is_none_or(|size| usize::try_from(size).is_ok_and(|size| size <= LONGEST));
+        if fits { Ok(()) } else { Err(AbortCode::OUT_OF_MEMORY) }
+    }
+
+    fn put(&mut self, _: u32, data: &[u8]) -> Result<(), AbortCode> {
+        if self.0.len() + data.len() > LONGEST {
+            return Err(AbortCode::OUT_OF_MEMORY);
+        }
+        self.0.extend(data);
+        Ok(())
+    }
+}
+
+/// What a transfer is: frames go in, and now and then nothing.
+trait Transfer {
+    fn handle(&mut self, frame: &Frame, now: u32) -> Step;
+    fn poll(&mut self, now: u32) -> Step;
+}
+
+impl<S: Sink> Transfer for firmware_glue::sdo::SdoRead<S> {
+    fn handle(&mut self, frame: &Frame, now: u32) -> Step {
+        self.handle(frame, now)
+    }
+
+    fn poll(&mut self, now: u32) -> Step {
+        self.poll(now)
+    }
+}
+
+impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
+    fn handle(&mut self, frame: &Frame, now: u32) -> Step {
+        self.handle(frame, now)
+    }
+
+    fn poll(&mut self, now: u32) -> Step {
+        self.poll(now)
+    }
+}
+
+impl<B: Bus> Client<B> {
+    /// A client on a bus, which waits so long for an answer.
+    pub fn new(bus: B, timeout: Duration) -> Self {
+        // Differences of times are told apart up to half of what a count holds.
+        let timeout = u32::try_from(timeout.as_micros()).unwrap_or(u32::MAX).min(u32::MAX / 2);
+        Self { bus, timeout }
+    }
+
+    /// The bus.
+    pub const fn bus(&mut self) -> &mut B {
+        &mut self.bus
+    }
+
+    fn sdo(&self, node: u8) -> Result<SdoClient, AccessError> {
+        let channel = Channel::predefined(node).ok_or(AccessError::Wrong(AbortCode::NO_CONNECTION))?;
+        let mut client = SdoClient::new(channel);
+        client.timeout = self.timeout;
+        Ok(client)
+    }
+
+    /// Reads an entry of a node.
+    ///
+    /// # Errors
+    /// [`AccessError`]: nothing is known of the value.
+    pub fn read(&mut self, node: u8, id: EntryId) -> Result<Vec<u8>, AccessError> {
+        let (client, now) = (self.sdo(node)?, self.bus.now());
+        let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
+        self.bus.send(&request)?;
+        self.finish(&mut reading)?;
+        Ok(reading.into_sink().0)
+    }
+
+    /// Writes an entry of a node.
+    ///
+    /// # Errors
+    /// [`AccessError`]: refused by the node it has its old value; otherwise nobody knows which.
+    pub fn write(&mut self, node: u8, id: EntryId, bytes: &[u8]) -> Result<(), AccessError> {
+        let (client, now) = (self.sdo(node)?, self.bus.now());
+        let begun = client.start_write(of_bus(id), bytes, now);
+        let (mut writing, request) = begun.map_err(AccessError::Wrong)?;
+        self.bus.send(&request)?;
+        self.finish(&mut writing)
+    }
+
+    /// Brings a transfer to its end.
+    fn finish(&mut self, transfer: &mut impl Transfer) -> Result<(), AccessError> {
+        loop {
+            let heard = self.bus.receive(NAP)?;
+            let now = self.bus.now();
+            let step = match heard {
+                Some(frame) => transfer.handle(&frame, now),
+                None => Step { send: None, outcome: None },
+            };
+            if self.follow(step)? {
+                return Ok(());
+            }
+            // Other nodes may talk all the time.
+            let step = transfer.poll(self.bus.now());
+            if self.follow(step)? {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Sends what a step has to send; whether it was the last.
+    fn follow(&mut self, step: Step) -> Result<bool, AccessError> {
+        if let Some(frame) = step.send {
+            self.bus.send(&frame)?;
+        }
+        match step.outcome {
+            None => Ok(false),
+            Some(Ok(_)) => Ok(true),
+            Some(Err(failure)) => Err(failure.into()),
+        }
+    }
+
+    /// Gives an NMT command to a node, or with node-ID 0 to all. Nodes do not answer.
+    ///
+    /// # Errors
+    /// [`BusError`]: it was not sent.
+    pub fn command(&mut self, command: u8, node: u8) -> Result<(), BusError> {
+        let frame = CanId::new(0).and_then(|id| Frame::data(id, &[command, node]));
+        frame.map_or(Ok(()), |frame| self.bus.send(&frame))
+    }
+
+    /// Waits for the boot-up message of a node; whether it came in time.
+    ///
+    /// # Errors
+    /// [`BusError`]: nothing comes any more.
+    pub fn booted(&mut self, node: u8, within: Duration) -> Result<bool, BusError> {
+        let begin = self.bus.now();
+        let of_node = CanId::new(0x700 + u16::from(node));
+        while u128::from(self.bus.now().wrapping_sub(begin)) < within.as_micros() {
+            let heard = self.bus.receive(NAP)?;
+            if heard.is_some_and(|frame| Some(frame.id()) == of_node && frame.bytes() == Some(&[0])) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}
+
+const fn of_bus(id: EntryId) -> firmware_glue::EntryId {
+    firmware_glue::EntryId { index: id.index.0, sub: id.sub.0 }
+}

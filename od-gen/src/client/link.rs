@@ -1,0 +1,183 @@
+//! A bus behind a CAN adapter that speaks SLCAN.
+
+use std::collections::VecDeque;
+use std::fmt;
+use std::io::{ErrorKind, Read as _, Write as _};
+use std::net::{Shutdown, TcpStream};
+use std::time::{Duration, Instant};
+
+use firmware_glue::frame::Frame;
+
+use super::{Bus, BusError};
+use crate::slcan::{CanFrame, Heard, Host, line};
+
+/// An adapter answers a command within this time.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// So long at most an adapter is heard after the end.
+const FAREWELL: Duration = Duration::from_millis(300);
+
+/// Bit rates in kbit/s, by the digit of their command.
+const BIT_RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+/// A bus behind an adapter, whose channel is open for as long as it lives.
+#[derive(Debug)]
+pub struct SlcanBus {
+    stream: TcpStream,
+    host: Host,
+    /// Bytes that came and were not looked at.
+    bytes: VecDeque<u8>,
+    /// Frames that came while an answer was waited for.
+    waiting: VecDeque<Frame>,
+    start: Instant,
+}
+
+/// Why a channel is not open.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum OpenError {
+    /// The connection to the adapter broke.
+    Bus(BusError),
+    /// What is at the address does not answer as an adapter does.
+    Silent,
+    /// The adapter refuses the bit rate.
+    BitRate(u16),
+    /// SLCAN has no command for the bit rate.
+    NoSuchBitRate(u16),
+    /// The adapter refuses to open the channel.
+    Refused,
+}
+
+impl fmt::Display for OpenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bus(error) => error.fmt(f),
+            Self::Silent => f.write_str("what is there does not answer as an adapter with SLCAN does"),
+            Self::BitRate(rate) => write!(f, "the adapter refuses {rate} kbit/s"),
+            Self::NoSuchBitRate(rate) => {
+                write!(f, "SLCAN has no {rate} kbit/s, but")?;
+                BIT_RATES.iter().try_for_each(|rate| write!(f, " {rate}"))
+            }
+            Self::Refused => f.write_str("the adapter does not open its channel"),
+        }
+    }
+}
+
+impl std::error::Error for OpenError {}
+
+impl From<BusError> for OpenError {
+    fn from(error: BusError) -> Self {
+        Self::Bus(error)
+    }
+}
+
+fn broken(error: std::io::Error) -> BusError {
+    BusError::Connection(error)
+}
+
+impl SlcanBus {
+    /// Opens the channel of an adapter, at a bit rate in kbit/s, or at that which the adapter has.
+    ///
+    /// # Errors
+    /// [`OpenError`]: it is not open then.
+    pub fn open(stream: TcpStream, bit_rate: Option<u16>) -> Result<Self, OpenError> {
+        stream.set_nodelay(true).and_then(|()| stream.set_write_timeout(Some(PATIENCE))).map_err(broken)?;
+        let mut bus = Self {
+            stream,
+            host: Host::new(),
+            bytes: VecDeque::new(),
+            waiting: VecDeque::new(),
+            start: Instant::now(),
+        };
+        // Whoever was there before may have left it open; one that is closed may refuse.
+        bus.command("C\r")?;
+        if let Some(rate) = bit_rate {
+            let digit = BIT_RATES.iter().position(|known| *known == rate);
+            let digit = digit.ok_or(OpenError::NoSuchBitRate(rate))?;
+            if bus.command(&format!("S{digit}\r"))? == Heard::Refused {
+                return Err(OpenError::BitRate(rate));
+            }
+        }
+        match bus.command("O\r")? {
+            Heard::Refused => Err(OpenError::Refused),
+            Heard::Done | Heard::Frame(_) | Heard::Other => Ok(bus),
+        }
+    }
+
+    /// Gives a command and waits for its answer.
+    fn command(&mut self, text: &str) -> Result<Heard, OpenError> {
+        self.stream.write_all(text.as_bytes()).map_err(broken)?;
+        let until = Instant::now() + PATIENCE;
+        loop {
+            match self.hear(until)? {
+                Some(answer @ (Heard::Done | Heard::Refused)) => return Ok(answer),
+                Some(Heard::Frame(CanFrame::Standard(frame))) => self.waiting.push_back(frame),
+                Some(Heard::Frame(CanFrame::Extended { .. }) | Heard::Other) => {}
+                None => return Err(OpenError::Silent),
+            }
+        }
+    }
+
+    /// The next thing that the adapter says, until a time.
+    fn hear(&mut self, until: Instant) -> Result<Option<Heard>, BusError> {
+        loop {
+            while let Some(byte) = self.bytes.pop_front() {
+                if let Some(heard) = self.host.take(byte) {
+                    return Ok(Some(heard));
+                }
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Ok(None);
+            }
+            self.stream.set_read_timeout(Some(left)).map_err(broken)?;
+            let mut buffer = [0; 512];
+            match self.stream.read(&mut buffer) {
+                Ok(0) => return Err(BusError::Closed),
+                Ok(count) => self.bytes.extend(buffer.iter().take(count)),
+                Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
+                    return Ok(None);
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(broken(error)),
+            }
+        }
+    }
+}
+
+impl Bus for SlcanBus {
+    fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
+        self.stream.write_all(line(frame).as_bytes()).map_err(broken)
+    }
+
+    fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        if let Some(frame) = self.waiting.pop_front() {
+            return Ok(Some(frame));
+        }
+        let until = Instant::now() + within;
+        loop {
+            match self.hear(until)? {
+                Some(Heard::Frame(CanFrame::Standard(frame))) => return Ok(Some(frame)),
+                Some(Heard::Refused) => return Err(BusError::Refused),
+                // The answer to a frame that was sent, and what is no CANopen.
+                Some(Heard::Done | Heard::Other | Heard::Frame(CanFrame::Extended { .. })) => {}
+                None => return Ok(None),
+            }
+        }
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "it wraps around")]
+    fn now(&self) -> u32 {
+        self.start.elapsed().as_micros() as u32
+    }
+}
+
+impl Drop for SlcanBus {
+    fn drop(&mut self) {
+        // Who is gone has nothing to say about it any more. One that is closed with answers unread is reset, and the adapter may lose
+        // what was sent last: it is told the end, and heard to its own.
+        let until = Instant::now() + FAREWELL;
+        let _ = self.stream.write_all(b"C\r").and_then(|()| self.stream.shutdown(Shutdown::Write));
+        while Instant::now() < until && self.hear(until).is_ok_and(|heard| heard.is_some()) {}
+    }
+}

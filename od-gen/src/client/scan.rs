@@ -1,0 +1,126 @@
+//! Who is on the bus.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use firmware_glue::frame::{CanId, Frame};
+use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
+
+use super::{AccessError, Bus, BusError, Client};
+
+/// A node that answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Answered {
+    /// Its node-ID.
+    pub node: u8,
+    /// What it says of itself.
+    pub identity: Identity,
+}
+
+/// Device type (1000h), identity (1018h) and name (1008h); what a node does not have or does not tell is open.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Identity {
+    /// 1000h.
+    pub device_type: Option<u32>,
+    /// 1018h.1.
+    pub vendor: Option<u32>,
+    /// 1018h.2.
+    pub product: Option<u32>,
+    /// 1018h.3.
+    pub revision: Option<u32>,
+    /// 1018h.4.
+    pub serial: Option<u32>,
+    /// 1008h.
+    pub name: Option<String>,
+}
+
+/// So many frames of others are taken between two requests.
+const MEANWHILE: usize = 32;
+
+const DEVICE_TYPE: EntryId = id(0x1000, 0);
+const NAME: EntryId = id(0x1008, 0);
+
+const fn id(index: u16, sub: u8) -> EntryId {
+    EntryId { index: Index(index), sub: SubIndex(sub) }
+}
+
+impl Identity {
+    /// What a device is by its dictionary.
+    pub fn of(device: &Dictionary) -> Self {
+        let raw = |id| u32::try_from(device.entry(id)?.default.as_ref()?.integer()?).ok();
+        Self {
+            device_type: raw(DEVICE_TYPE),
+            vendor: raw(id(0x1018, 1)),
+            product: raw(id(0x1018, 2)),
+            revision: raw(id(0x1018, 3)),
+            serial: raw(id(0x1018, 4)),
+            name: match device.entry(NAME).and_then(|entry| entry.default.as_ref()) {
+                Some(Value::Text(text)) => Some(text.clone()),
+                _ => None,
+            },
+        }
+    }
+
+    /// Whether a node can be a device: device type, vendor, product and name are the same, as far as the dictionary states them.
+    pub fn fits(&self, device: &Self) -> bool {
+        let same = |own: Option<u32>, stated: Option<u32>| stated.is_none() || own == stated;
+        let is_stated = device.device_type.is_some() || device.vendor.is_some() || device.product.is_some();
+        is_stated
+            && same(self.device_type, device.device_type)
+            && same(self.vendor, device.vendor)
+            && same(self.product, device.product)
+            && (self.name.is_none() || device.name.is_none() || self.name == device.name)
+    }
+}
+
+/// Asks all 127 node-IDs, and those that answer for their identity.
+///
+/// # Errors
+/// [`BusError`]: nothing goes over the bus.
+pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Answered>, BusError> {
+    let mut answered: BTreeSet<u8> = BTreeSet::new();
+    let mut note = |frame: &Frame| {
+        let node = frame.id().get().checked_sub(0x580).and_then(|node| u8::try_from(node).ok());
+        let is_about = frame.bytes().is_some_and(|bytes| bytes.get(1..4) == Some(&[0x00, 0x10, 0x00]));
+        if let Some(node @ 1..=127) = node.filter(|_| is_about) {
+            answered.insert(node);
+        }
+    };
+    for node in 1..=127_u16 {
+        let Some(id) = CanId::new(0x600 + node) else { continue };
+        client.bus().send(&Frame::full(id, [0x40, 0x00, 0x10, 0, 0, 0, 0, 0]))?;
+        // What comes meanwhile is taken, so that nothing piles up in the adapter.
+        for _ in 0..MEANWHILE {
+            let Some(frame) = client.bus().receive(Duration::from_millis(1))? else { break };
+            note(&frame);
+        }
+    }
+    let begin = client.bus().now();
+    while u128::from(client.bus().now().wrapping_sub(begin)) < within.as_micros() {
+        if let Some(frame) = client.bus().receive(Duration::from_millis(20))? {
+            note(&frame);
+        }
+    }
+    let mut nodes = Vec::new();
+    for node in answered {
+        let mut bytes = |id| match client.read(node, id) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(AccessError::Bus(error)) => Err(error),
+            Err(_) => Ok(None),
+        };
+        let name = bytes(NAME)?.map(|name| String::from_utf8_lossy(&name).trim_end_matches('\0').to_owned());
+        let mut read = |id| Ok(bytes(id)?.and_then(|bytes| Some(u32::from_le_bytes(bytes.try_into().ok()?))));
+        let identity = Identity {
+            device_type: read(DEVICE_TYPE)?,
+            vendor: read(id(0x1018, 1))?,
+            product: read(id(0x1018, 2))?,
+            revision: read(id(0x1018, 3))?,
+            serial: read(id(0x1018, 4))?,
+            name,
+        };
+        nodes.push(Answered { node, identity });
+    }
+    Ok(nodes)
+}

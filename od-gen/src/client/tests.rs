@@ -1,0 +1,165 @@
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::time::Duration;
+
+use firmware_glue::AbortCode;
+use firmware_glue::frame::Frame;
+use od_spec::diag::Diagnostics;
+use od_spec::model::{EntryId, Index, SubIndex, System, Value};
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
+
+use super::*;
+use crate::runtime::{self, LiveDictionary, VirtualNode};
+
+const LAMP: &str = "
+od-spec: 1
+title: Lamp
+uses: [cia301]
+devices:
+  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}
+objects:
+  0x2000: {name: low, type: unsigned16, access: rw, default: 20}
+  0x2001: {name: high, type: unsigned16, access: rw, default: 40}
+  0x2002: {name: label, type: visible-string, access: rw, capacity: 20, default: A lamp of glass}
+  0x2003: {name: other, type: unsigned8, access: rw, default: 1}
+  0x2004: {name: service, type: unsigned8, access: rw, default: 0, writable-when: \"0x2003 == 2\"}
+  0x2005: {name: low too, alias: 0x2000, type: unsigned8, access: rw}
+  0x2006: {name: measured, type: unsigned8, access: ro}
+constraints:
+  thresholds keep their order: {require: \"0x2000 < 0x2001\"}
+";
+
+const fn id(index: u16) -> EntryId {
+    EntryId { index: Index(index), sub: SubIndex(0) }
+}
+
+fn lamp() -> System {
+    let mut sources = SourceMap::new();
+    let root = sources.add("lamp.od.yaml", LAMP);
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
+}
+
+/// Virtual nodes, and a time that passes while nobody says anything.
+struct Virtual<'t> {
+    bus: runtime::Bus<'t>,
+    heard: VecDeque<Frame>,
+    now: u64,
+}
+
+impl Bus for Virtual<'_> {
+    fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
+        // The first is what was sent.
+        self.heard.extend(self.bus.take(*frame, self.now).into_iter().skip(1));
+        Ok(())
+    }
+
+    fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        if self.heard.is_empty() {
+            self.now += u64::try_from(within.as_micros()).unwrap();
+            self.heard.extend(self.bus.poll(self.now));
+        }
+        Ok(self.heard.pop_front())
+    }
+
+    fn now(&self) -> u32 {
+        // It wraps around soon.
+        u32::MAX.wrapping_sub(50_000).wrapping_add(u32::try_from(self.now).unwrap())
+    }
+}
+
+/// Does something with lamps as nodes 5 and 6.
+fn with_lamps(test: impl FnOnce(&System, &mut Client<Virtual<'_>>)) {
+    let system = lamp();
+    let device = runtime::device(&system, &system.devices[0], &mut Diagnostics::new()).unwrap();
+    let lists = device.lists();
+    let table = lists.table().unwrap();
+    let node = |id| VirtualNode::new(id, LiveDictionary::new(&device, &table, id).unwrap()).unwrap();
+    let mut bus = runtime::Bus::new(vec![node(5), node(6)]);
+    bus.start(0);
+    let mut client = Client::new(Virtual { bus, heard: VecDeque::new(), now: 0 }, Duration::from_millis(500));
+    test(&system, &mut client);
+}
+
+#[test]
+fn entries_are_read_and_written_whatever_their_length() {
+    with_lamps(|_, client| {
+        assert_eq!(client.read(5, id(0x2000)).unwrap(), [20, 0]);
+        assert_eq!(client.read(5, id(0x2002)).unwrap(), b"A lamp of glass");
+        client.write(5, id(0x2002), b"More than seven").unwrap();
+        client.write(6, id(0x2000), &[30, 0]).unwrap();
+        assert_eq!(client.read(5, id(0x2002)).unwrap(), b"More than seven");
+        assert_eq!(
+            (client.read(5, id(0x2000)).unwrap(), client.read(6, id(0x2000)).unwrap()),
+            (vec![20, 0], vec![30, 0])
+        );
+    });
+}
+
+#[test]
+fn refusals_and_silence_are_told_apart() {
+    with_lamps(|_, client| {
+        let refused = client.write(5, id(0x2004), &[1]).unwrap_err();
+        assert!(matches!(refused, AccessError::Refused(AbortCode::DEVICE_STATE)), "{refused}");
+        assert!(refused.is_of_entry());
+        let silent = client.read(7, id(0x2000)).unwrap_err();
+        assert!(matches!(silent, AccessError::Silent), "{silent}");
+        assert!(!silent.is_of_entry());
+    });
+}
+
+#[test]
+fn a_reset_brings_a_boot_up_message() {
+    with_lamps(|_, client| {
+        client.command(129, 5).unwrap();
+        assert!(client.booted(5, Duration::from_secs(1)).unwrap());
+        assert!(!client.booted(6, Duration::from_secs(1)).unwrap());
+    });
+}
+
+#[test]
+fn a_scan_finds_who_is_there() {
+    with_lamps(|system, client| {
+        let found = scan(client, Duration::from_millis(100)).unwrap();
+        assert_eq!(found.iter().map(|one| one.node).collect::<Vec<_>>(), [5, 6]);
+        let device = Identity::of(&system.devices[0]);
+        assert_eq!(found[0].identity.device_type, device.device_type);
+        assert!(found[0].identity.fits(&device));
+        let maker = Identity { vendor: Some(7), product: Some(1), ..Identity::default() };
+        let own =
+            Identity { device_type: Some(0), revision: Some(3), name: Some("B".to_owned()), ..maker.clone() };
+        assert!(own.fits(&maker));
+        assert!(!Identity { product: Some(2), ..own.clone() }.fits(&maker));
+        assert!(!own.fits(&Identity { name: Some("A".to_owned()), ..maker }));
+        assert!(!own.fits(&Identity::default()), "nothing is known of the device");
+    });
+}
+
+#[test]
+fn what_conditions_ask_for_is_involved() {
+    let system = lamp();
+    let of = |index| involved(&system, &system.devices[0], &BTreeSet::from([id(index)]));
+    assert_eq!(of(0x2000), BTreeSet::from([id(0x2001)]));
+    assert_eq!(of(0x2005), BTreeSet::from([id(0x2001)]), "a view of 2000h");
+    assert_eq!(of(0x2004), BTreeSet::from([id(0x2003)]));
+    assert_eq!(of(0x2002), BTreeSet::new());
+    let kept: Vec<EntryId> = kept(&system.devices[0]).filter(|id| id.index.0 >= 0x2000).collect();
+    assert_eq!(kept, [0x2000, 0x2001, 0x2002, 0x2003, 0x2004].map(id));
+}
+
+#[test]
+fn a_plan_begins_with_what_the_node_has() {
+    let system = lamp();
+    let values = |pairs: &[(u16, i128)]| -> BTreeMap<EntryId, Value> {
+        pairs.iter().map(|(index, raw)| (id(*index), Value::Integer(*raw))).collect()
+    };
+    let order = |now: &[(u16, i128)], meant: &[(u16, i128)]| -> Vec<u16> {
+        let plan = plan(&system, &system.devices[0], 5, &values(now), &values(meant)).unwrap();
+        plan.iter().map(|write| write.id.index.0).collect()
+    };
+    let back = [(0x2000, 20), (0x2001, 40)];
+    assert_eq!(order(&[(0x2000, 50), (0x2001, 60)], &back), [0x2000, 0x2001], "down");
+    assert_eq!(order(&[(0x2000, 2), (0x2001, 4)], &back), [0x2001, 0x2000], "up");
+    assert_eq!(order(&back, &back), [0_u16; 0], "nothing to do");
+    assert_eq!(order(&[(0x2000, 20), (0x2001, 60)], &back), [0x2001]);
+}

@@ -1,0 +1,261 @@
+//! `odgen node`, against `odgen serve`.
+
+use std::fs;
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Output, Stdio};
+
+use insta::assert_snapshot;
+
+use crate::readme::shows;
+use crate::{Scratch, code, files, odgen, stderr, stdout};
+
+/// A device with everything that a master meets: units, an enum, bits, a text, a lock, a view, conditions, stored parameters.
+const HEATER: &str = "\
+od-spec: 1
+title: Heater
+uses: [cia301]
+vendor: {name: Makers of heaters, number: 0x1234}
+devices:
+  heater:
+    name: Heater
+    bit-rates: [125]
+    product: 7
+    product-revision: 0x00010002
+    device-type: 0
+    features: [device type, identity, device name, heartbeat producer, store parameters, restore defaults]
+units:
+  celsius: {symbol: \"°C\", scale: 0.1}
+types:
+  mode: {base: unsigned8, values: {0: off, 1: slow, 2: fast}}
+  status: {base: unsigned8, bits: {0: hot, 1: dry, 2..7: reserved}}
+objects:
+  0x2000: {name: wanted temperature, type: integer16, unit: celsius, access: rw, default: 40.0 °C, min: 0.0 °C, max: 90.0 °C, stored: application}
+  0x2001: {name: highest temperature, type: integer16, unit: celsius, access: rw, default: 60.0 °C, stored: application}
+  0x2002: {name: way, type: mode, access: rw, default: slow}
+  0x2003: {name: state, type: status, access: ro, default: [dry]}
+  0x2004: {name: place, type: visible-string, access: rw, capacity: 20, default: at the window}
+  0x2005: {name: calibration, type: unsigned16, access: rw locked, default: 1000}
+  0x2006: {name: fan, type: unsigned8, access: rw, default: 0, writable-when: \"0x2002 == 2\"}
+  0x2007: {name: secret, type: unsigned8, access: wo}
+constraints:
+  wanted below highest: {require: \"0x2000 < 0x2001\"}
+";
+
+/// A bus with a heater as node 5, ended with the test.
+struct Served {
+    child: Child,
+    address: String,
+    scratch: Scratch,
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Served {
+    fn new(name: &str) -> Self {
+        Self::of(name, "heater.od.yaml", HEATER)
+    }
+
+    fn of(name: &str, file: &str, specification: &str) -> Self {
+        let scratch = Scratch::new(name);
+        scratch.file(file, specification);
+        let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
+            .args(["serve", file, "--node", "5", "--slcan", "tcp:127.0.0.1:0"])
+            .current_dir(&scratch.0)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let address = line.trim().rsplit(' ').next().unwrap().to_owned();
+        assert!(address.starts_with("tcp:127.0.0.1:"), "{line}");
+        Self { child, address, scratch }
+    }
+
+    /// `odgen node` with node 5: what it says and how it ends, as a text.
+    fn node(&self, command: &str, arguments: &[&str]) -> String {
+        self.run(&[&[command, "heater.od.yaml", "--node", "5"], arguments].concat())
+    }
+
+    fn output(&self, arguments: &[&str]) -> Output {
+        odgen(&self.scratch.0, &[&["node"], arguments, &["--slcan", &self.address]].concat())
+    }
+
+    fn run(&self, arguments: &[&str]) -> String {
+        let output = self.output(arguments);
+        let shown: Vec<String> = arguments
+            .iter()
+            .map(
+                |argument| {
+                    if argument.contains(' ') { format!("\"{argument}\"") } else { (*argument).to_owned() }
+                },
+            )
+            .collect();
+        format!(
+            "$ odgen node {}\n{}{}-> {}\n",
+            shown.join(" "),
+            stdout(&output),
+            stderr(&output),
+            code(&output)
+        )
+    }
+}
+
+#[test]
+fn entries_are_read_with_their_words() {
+    let served = Served::new("node-read");
+    let said = [
+        served.node("read", &["2000", "way", "state", "place", "1018.4", "1018"]),
+        served.node("read", &["2007", "secret", "2001"]),
+        served.node("read", &["wanted temprature", "2000"]),
+    ];
+    assert_snapshot!("node-read", said.concat());
+}
+
+#[test]
+fn entries_are_written_after_a_check() {
+    let served = Served::new("node-write");
+    let said = [
+        served.node("write", &["wanted temperature=55.0 °C", "way=fast", "2006=3", "place=on the roof"]),
+        served.node("read", &["2000", "2002", "2006", "2004"]),
+        // Limits, types, names, access.
+        served.node("write", &["2000=90.1 °C"]),
+        served.node("write", &["2000=hot"]),
+        served.node("write", &["2003=1"]),
+        served.node("write", &["2009=1"]),
+        // By its default the highest would be 60 °C: what the node has counts.
+        served.node("write", &["2001=80.0 °C"]),
+        served.node("write", &["2000=70.0 °C"]),
+        served.node("write", &["2001=60.0 °C"]),
+        served.node("write", &["2001=60.0 °C", "way=off", "--force"]),
+        served.node("write", &["2005=999"]),
+        served.node("write", &["2005=999", "--unlock", "2005"]),
+        served.node("write", &["1010.1=0x65766173"]),
+    ];
+    assert_snapshot!("node-write", said.concat());
+}
+
+#[test]
+fn nobody_there_is_told() {
+    let served = Served::new("node-nobody");
+    let said = [
+        served.run(&["read", "heater.od.yaml", "--node", "9", "--timeout", "50", "2000", "2001"]),
+        served.run(&["write", "heater.od.yaml", "--node", "9", "--timeout", "50", "2004=roof"]),
+        served.run(&["read", "heater.od.yaml", "2000"]),
+        served.run(&["read", "heater.od.yaml", "--node", "5", "--bit-rate", "333", "2000"]),
+    ];
+    let said = said.concat().replace(&served.address, "tcp:ADDRESS");
+    assert_snapshot!("node-nobody", said.replace(served.address.trim_start_matches("tcp:"), "ADDRESS"));
+    assert_eq!(files(&served.scratch.0), ["heater.od.yaml"]);
+}
+
+#[test]
+fn parameters_are_kept_compared_and_given_back() {
+    let served = Served::new("node-keep");
+    let written = ["2000=55.0 °C", "2002=fast", "2004=roof", "2006=7", "1017=500"];
+    let mut said = vec![
+        served.node("write", &written),
+        served.node("backup", &["--out", "heater.yaml"]),
+        served.node("backup", &["--out", "heater.yaml"]),
+    ];
+    let kept = fs::read_to_string(served.scratch.0.join("heater.yaml")).unwrap();
+    assert_snapshot!("node-backup", kept);
+    said.extend([
+        served.node("compare", &["heater.yaml"]),
+        served.node("write", &["2001=85.0 °C", "2000=80.0 °C", "2006=0", "2002=slow"]),
+        served.node("compare", &["heater.yaml"]),
+        // 2000h first, as it has to stay below 2001h; 2002h before 2006h, which depends on it.
+        served.node("restore", &["heater.yaml"]),
+        served.node("restore", &["heater.yaml"]),
+        served.node("compare", &["heater.yaml"]),
+    ]);
+    assert_snapshot!("node-keep", said.concat());
+}
+
+#[test]
+fn what_cannot_be_given_back_is_told() {
+    let served = Served::new("node-restore");
+    let file = |name: &str, text: &str| {
+        served.scratch.file(name, format!("od-parameters: 1\ndevice: heater\n{text}"));
+    };
+    file("limits.yaml", "parameters: {wanted temperature: 95.0 °C}\n");
+    file("order.yaml", "node: 6\nparameters: {wanted temperature: 50.0 °C}\n");
+    file("locked.yaml", "parameters: {calibration: 999, place: roof}\nunlock: [calibration]\n");
+    file("condition.yaml", "parameters: {fan: 3, place: cellar}\n");
+    served.scratch.file("other.yaml", "od-parameters: 1\ndevice: boiler\nparameters: {place: roof}\n");
+    let said = [
+        served.node("restore", &["limits.yaml"]),
+        served.node("restore", &["other.yaml"]),
+        served.node("write", &["2000=10.0 °C", "2001=20.0 °C"]),
+        // By the defaults it would be right; the node has another limit.
+        served.node("restore", &["order.yaml"]),
+        served.node("restore", &["locked.yaml"]),
+        served.node("restore", &["condition.yaml"]),
+        served.node("compare", &["condition.yaml"]),
+        served.run(&["restore", "heater.od.yaml", "condition.yaml", "--node", "9", "--timeout", "50"]),
+        served.run(&["backup", "heater.od.yaml", "--out", "none.yaml", "--node", "9", "--timeout", "50"]),
+    ];
+    assert_snapshot!("node-restore", said.concat());
+    assert!(!served.scratch.0.join("none.yaml").exists(), "no half of a backup");
+}
+
+#[test]
+fn a_bus_is_scanned_and_commanded() {
+    let served = Served::new("node-network");
+    served.scratch.file("lamp.od.yaml", crate::LAMP);
+    let said = [
+        served.run(&["scan", "heater.od.yaml", "lamp.od.yaml", "--timeout", "100"]),
+        served.run(&["scan", "lamp.od.yaml", "--timeout", "100"]),
+        served.run(&["scan", "--timeout", "100"]),
+        served.node("write", &["2000=55.0 °C"]),
+        served.run(&["store", "--node", "5"]),
+        served.run(&["nmt", "reset-node", "--node", "5"]),
+        served.node("read", &["2000"]),
+        served.run(&["load-defaults", "--node", "5"]),
+        served.node("read", &["2000"]),
+        served.run(&["nmt", "reset-communication", "--node", "5"]),
+        served.run(&["nmt", "reset-node", "--node", "5"]),
+        served.node("read", &["2000"]),
+        served.run(&["store", "--node", "5", "--group", "9"]),
+        served.run(&["store", "--node", "9", "--timeout", "50"]),
+        served.run(&["nmt", "start", "--node", "0"]),
+        served.run(&["nmt", "stop", "--node", "all"]),
+        served.node("read", &["2000", "--timeout", "50"]),
+        served.run(&["scan", "--timeout", "50"]),
+        served.run(&["nmt", "start", "--node", "5"]),
+        served.node("read", &["2000"]),
+    ];
+    assert_snapshot!("node-network", said.concat());
+}
+
+#[test]
+fn a_node_is_talked_to_as_the_readme_shows() {
+    let valve = include_str!("../../../tests/readme/valve.od.yaml");
+    let served = Served::of("node-readme", "valve.od.yaml", valve);
+    let mut lines = Vec::new();
+    for (command, rest) in [
+        ("read", &["set pressure", "1018.1"][..]),
+        ("write", &["set pressure=6.0 bar"]),
+        ("write", &["set pressure=16.5 bar"]),
+        ("backup", &["--out", "kept.yaml"]),
+        ("write", &["set pressure=3.0 bar"]),
+        ("compare", &["kept.yaml"]),
+        ("restore", &["kept.yaml"]),
+    ] {
+        let output = served.output(&[&[command, "valve.od.yaml", "--node", "5"], rest].concat());
+        let rest: Vec<String> = rest
+            .iter()
+            .map(|word| if word.contains(' ') { format!("\"{word}\"") } else { (*word).to_owned() })
+            .collect();
+        lines.push(format!("$ odgen node {command} valve.od.yaml --node 5 {}", rest.join(" ")));
+        lines.extend(stdout(&output).lines().map(str::to_owned));
+        // The place is the command line.
+        lines.extend(stderr(&output).lines().take_while(|line| !line.contains("-->")).map(str::to_owned));
+    }
+    shows("node", lines.iter().map(String::as_str));
+}
