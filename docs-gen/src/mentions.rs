@@ -1,7 +1,11 @@
 //! Numbers of tables, figures and sections in running text, as people write them: `Table 13`, `sections 5.2, 5.3 and 5.4`,
 //! `Kapitel 1 bis 3`.
 
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
 use std::ops::Range;
+
+use crate::view::Target;
 
 /// What has a number in a manual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,6 +28,9 @@ pub(crate) struct Mention<'t> {
     /// Its number, as a heading or caption has it.
     pub number: &'t str,
 }
+
+/// Where each number stands in a document; filled when the first text names one.
+pub(crate) type Numbers = OnceCell<BTreeMap<(Numbered, String), Target>>;
 
 /// How many numbers a noun has behind it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

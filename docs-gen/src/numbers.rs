@@ -9,9 +9,6 @@ use crate::mentions::{self, Numbered};
 use crate::source::Source;
 use crate::view::{Cell, Target};
 
-/// Where each number stands; filled when the first text names one.
-pub(crate) type Numbers = OnceCell<BTreeMap<(Numbered, String), Target>>;
-
 impl Source<'_> {
     /// The numbers in a text that the document has, each as a link.
     pub(crate) fn links_to_numbers(&self, text: &str) -> impl Iterator<Item = (Range<usize>, Cell)> {

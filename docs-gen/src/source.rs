@@ -14,7 +14,7 @@ use od_spec::wording::Wording;
 use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::indices::{self, Written};
 use crate::language::{Language, Word};
-use crate::numbers::Numbers;
+use crate::mentions::Numbers;
 use crate::options::Options;
 use crate::outline::Outline;
 use crate::series::title;

@@ -67,7 +67,9 @@ fn of_concise(text: &str) -> (Diagnostics, SourceMap) {
     let bytes: Vec<u8> = numbers.map(|number| u8::from_str_radix(number, 16).unwrap()).collect();
     let mut diagnostics = Diagnostics::new();
     let fault = concise::read(&bytes).fault;
-    fault.into_iter().for_each(|fault| diagnostics.push(fault.diagnostic(Language::Concise.file_name())));
+    if let Some(fault) = fault {
+        diagnostics.push(fault.diagnostic(Language::Concise.file_name()));
+    }
     (diagnostics, SourceMap::new())
 }
 
@@ -96,7 +98,10 @@ fn each_is_refused_for_its_code_alone_and_accepted_when_put_right() {
         let (after, _) = said(&example, example.after).unwrap();
         if ids(&before) != BTreeSet::from([code.id]) || !after.is_empty() {
             let words = |all: &Diagnostics| {
-                all.iter().map(|one| format!("\n  {}: {}", one.code, one.message)).collect::<String>()
+                all.iter()
+                    .map(|one| format!("\n  {}: {}", one.code, one.message))
+                    .collect::<Vec<_>>()
+                    .concat()
             };
             wrong.push(format!("{code}, before:{}\n after:{}", words(&before), words(&after)));
         }
