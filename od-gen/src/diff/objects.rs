@@ -134,7 +134,13 @@ impl Devices<'_> {
             links.map(|change| change.so(Class::Documents, "a hint where to look; access is the same")),
         ];
         let warning = texts(&place, Fact::Warning, &old.warning, &new.warning, self.language);
-        let about = texts(&place, Fact::About, &old.about, &new.about, self.language);
+        // What is said about a PDO is told with its number.
+        let is_pdo = |object: &Object| object.role() == Role::PdoCommunication;
+        let about = if is_pdo(old) && is_pdo(new) {
+            Vec::new()
+        } else {
+            texts(&place, Fact::About, &old.about, &new.about, self.language)
+        };
         facts.into_iter().flatten().chain(warning).chain(about).collect()
     }
 
