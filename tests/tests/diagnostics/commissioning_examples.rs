@@ -96,7 +96,10 @@ fn each_is_refused_for_its_code_alone_and_accepted_when_put_right() {
         let (after, _) = said(&example, example.after).unwrap();
         if ids(&before) != BTreeSet::from([code.id]) || !after.is_empty() {
             let words = |all: &Diagnostics| {
-                all.iter().map(|one| format!("\n  {}: {}", one.code, one.message)).collect::<String>()
+                all.iter()
+                    .map(|one| format!("\n  {}: {}", one.code, one.message))
+                    .collect::<Vec<_>>()
+                    .concat()
             };
             wrong.push(format!("{code}, before:{}\n after:{}", words(&before), words(&after)));
         }
