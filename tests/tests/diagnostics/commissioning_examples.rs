@@ -43,7 +43,9 @@ fn of_plant(text: &str) -> (Diagnostics, SourceMap) {
     let root = sources.add(Language::Plant.file_name(), text);
     let read = plant(&mut sources, root, &mut Devices);
     let mut diagnostics = read.diagnostics;
-    read.files.into_iter().for_each(|file| diagnostics.append(file.diagnostics));
+    for file in read.files {
+        diagnostics.append(file.diagnostics);
+    }
     if let Some(plant) = &read.plant {
         let settled: Vec<Settled> =
             (0..plant.classes.len()).filter_map(|class| plant.settle(class)).collect();
@@ -67,7 +69,9 @@ fn of_concise(text: &str) -> (Diagnostics, SourceMap) {
     let bytes: Vec<u8> = numbers.map(|number| u8::from_str_radix(number, 16).unwrap()).collect();
     let mut diagnostics = Diagnostics::new();
     let fault = concise::read(&bytes).fault;
-    fault.into_iter().for_each(|fault| diagnostics.push(fault.diagnostic(Language::Concise.file_name())));
+    for fault in fault {
+        diagnostics.push(fault.diagnostic(Language::Concise.file_name()));
+    }
     (diagnostics, SourceMap::new())
 }
 
