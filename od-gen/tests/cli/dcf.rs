@@ -267,6 +267,29 @@ fn a_parameter_file_gives_what_settings_give() {
 }
 
 #[test]
+fn a_parameter_file_sets_what_an_eds_describes() {
+    let scratch = Scratch::new("params-eds");
+    scratch.file("oven.od.yaml", OVEN);
+    assert_eq!(code(&odgen(&scratch.0, &["build", "oven.od.yaml", "--device", "oven", "--out", "."])), 0);
+    // The specification is gone: all that is known is in the EDS.
+    fs::remove_file(scratch.0.join("oven.od.yaml")).unwrap();
+    let run = |parameters: &str| {
+        scratch.file("site.yaml", &format!("od-parameters: 1\nnode: 5\nparameters:\n{parameters}"));
+        let output =
+            odgen(&scratch.0, &["dcf", "eds/oven.eds", "--params", "site.yaml", "--out", "site.dcf"]);
+        (code(&output), stderr(&output))
+    };
+    assert_eq!(run("  2006.2: 232\n  mode of operation: 2\n"), (0, String::new()));
+    let text = fs::read_to_string(scratch.0.join("site.dcf")).unwrap();
+    let values: Vec<&str> = text.lines().filter(|line| line.starts_with("ParameterValue")).collect();
+    assert_eq!(values, ["ParameterValue=2", "ParameterValue=232"]);
+    let (code, said) = run("  2006.2: 232\n  2006.3: 70000\n");
+    assert!(code == 1 && said.contains("70000") && said.contains("site.yaml:5:11"), "{said}");
+    let (code, said) = run("  mode of operatoin: 2\n");
+    assert!(code == 1 && said.contains("did you mean `mode of operation`?"), "{said}");
+}
+
+#[test]
 fn parameter_files_and_options_are_laid_over_each_other() {
     let scratch = Scratch::new("params-layers");
     scratch.file("oven.od.yaml", OVEN);
