@@ -75,7 +75,9 @@ fn with_lamps(test: impl FnOnce(&System, &mut Client<Virtual<'_>>)) {
     let lists = device.lists();
     let table = lists.table().unwrap();
     let node = |id| VirtualNode::new(id, LiveDictionary::new(&device, &table, id).unwrap()).unwrap();
-    let bus = runtime::Bus::new(vec![node(5), node(6)]);
+    let mut bus = runtime::Bus::new(vec![node(5), node(6)]);
+    // The nodes start.
+    drop(bus.poll(0));
     let mut client = Client::new(Virtual { bus, heard: VecDeque::new(), now: 0 }, Duration::from_millis(500));
     test(&system, &mut client);
 }
