@@ -7,7 +7,7 @@ firmware::stand_in!(2, Pmm, Entry);
 
 /// Object dictionary of the Pitch Management Module: 688 bytes of values, 97 objects, 299 entries.
 ///
-/// Supplies the PMC with the DC link voltage, manages the battery, boosts its voltage to link level when the mains fail, and contains the brake chopper and temperature controllers. The printed manual has no PDOs of it: all are taken as switched off.
+/// Supplies the PMC with the DC link voltage, manages the battery, boosts its voltage to link level when the mains fail, and contains the brake chopper and temperature controllers. Its PDOs are assumed, all switched off.
 #[allow(unreachable_pub)]
 #[derive(Debug, Clone)]
 #[repr(C, align(4))]
