@@ -221,6 +221,8 @@
   // What was found: on this page, and on others.
   let hits = [], hitsElsewhere = [];
   let landing = 0, working = 0, found = null, marked = null, dressed = new Set(), round = 0;
+  // The row that the address names; the answer to the question beside it may still be looked for.
+  let aimed = null;
   // Cards that have marks or rows put away, of this question or of one before.
   const worn = new Set();
   const near = new Set();
@@ -302,7 +304,7 @@
         if (item.isWhole) break;
         const fits = asked.length === 0 || row.dataset.entry === undefined || fitsEntry(asked, factsOf(row));
         const away = !fits || (keep.size > 0 && !keep.has(row) && (isOfEntries ? hasEntries && list.length > 1 : true));
-        if (away) { show(row, false); item.off.push(row); }
+        if (away && row !== aimed) { show(row, false); item.off.push(row); }
       }
       const box = table.parentElement;
       // A table of which nothing is left goes with its caption and picture.
@@ -447,6 +449,7 @@
 
   const display = (value, asked, isAsked, named) => {
     dressed = new Set();
+    aimed = null;
     found = value;
     if (found && named) {
       // An entry by its address comes first, before anything else of its card.
@@ -649,6 +652,7 @@
     const item = itemOf.get(target.closest("article.object, .intro, .part"));
     // What the search has put away is shown again: the row, or the card with everything.
     if (item && !item.shown) clear();
+    aimed = target.closest("tr");
     if (target.closest(".off")) showRows(item);
     if (target.closest("details")) target.closest("details").open = true;
     settle(target);

@@ -274,7 +274,7 @@ fn a_parameter_file_sets_what_an_eds_describes() {
     // The specification is gone: all that is known is in the EDS.
     fs::remove_file(scratch.0.join("oven.od.yaml")).unwrap();
     let run = |parameters: &str| {
-        scratch.file("site.yaml", &format!("od-parameters: 1\nnode: 5\nparameters:\n{parameters}"));
+        scratch.file("site.yaml", format!("od-parameters: 1\nnode: 5\nparameters:\n{parameters}"));
         let output =
             odgen(&scratch.0, &["dcf", "eds/oven.eds", "--params", "site.yaml", "--out", "site.dcf"]);
         (code(&output), stderr(&output))
