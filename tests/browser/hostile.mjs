@@ -19,9 +19,9 @@ const same = (found, expected, text) => {
 };
 
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
-const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 } });
+// A context for each page: what one page stores (its theme, for one) reaches others of the same context at some time.
 const open = async (path) => {
-  const page = await browserContext.newPage();
+  const page = await (await browser.newContext({ viewport: { width: 1280, height: 900 } })).newPage();
   page.on("console", (message) => failures.push(`${path}: console: ${message.text()}`));
   page.on("pageerror", (error) => failures.push(`${path}: ${error.message}`));
   page.on("dialog", (dialog) => { failures.push(`${path}: dialog: ${dialog.message()}`); dialog.dismiss(); });
