@@ -5,7 +5,7 @@
 
 use od_spec::model::AxisReach;
 
-use super::flow_picture::{DrawnLine, LINE, Lines, height_of, label, length, placed};
+use super::picture_label::{DrawnLine, LINE, Lines, height_of, label, length, placed};
 use crate::view::{AxisMarkPicture, AxisPicture, AxisSpanPicture};
 
 /// A wider picture is tried with narrower texts.

@@ -1,5 +1,6 @@
 //! Layouts of random diagrams: boxes are apart, arrows lead from block to block around all others, texts are inside.
 
+use super::super::picture_label::DrawnLine;
 use super::*;
 
 /// Numbers that look random and are the same in every run.

@@ -4,7 +4,9 @@ use od_spec::model::{Axis, AxisReach, Block, Dictionary, EntryId, Flow, NamedBit
 
 use super::Columns;
 use super::axis_picture::{self, DrawnMark, DrawnSpan};
-use super::flow_picture::{self, DrawnBlock, DrawnLine};
+use super::flow_graph::DrawnBlock;
+use super::flow_picture;
+use super::picture_label::DrawnLine;
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::{Cell, Grid, Row};

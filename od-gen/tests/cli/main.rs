@@ -28,6 +28,7 @@ mod plant;
 mod provoked;
 mod readme;
 mod serve;
+mod served;
 mod shipped;
 mod specs;
 mod texts;

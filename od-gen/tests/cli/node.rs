@@ -1,12 +1,12 @@
 //! `odgen node`, against `odgen serve`.
 
 use std::fs;
-use std::io::{BufRead as _, BufReader};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 use insta::assert_snapshot;
 
 use crate::readme::shows;
+use crate::served::Served;
 use crate::{Scratch, code, files, odgen, stderr, stdout};
 
 /// A device with everything that a master meets: units, an enum, bits, a text, a lock, a view, conditions, stored parameters.
@@ -41,21 +41,13 @@ constraints:
   wanted below highest: {require: \"0x2000 < 0x2001\"}
 ";
 
-/// A bus with a heater as node 5, ended with the test.
-struct Served {
-    child: Child,
-    address: String,
+/// A bus with a heater as node 5.
+struct Bus {
+    served: Served,
     scratch: Scratch,
 }
 
-impl Drop for Served {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-impl Served {
+impl Bus {
     fn new(name: &str) -> Self {
         Self::of(name, "heater.od.yaml", HEATER)
     }
@@ -63,18 +55,8 @@ impl Served {
     fn of(name: &str, file: &str, specification: &str) -> Self {
         let scratch = Scratch::new(name);
         scratch.file(file, specification);
-        let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-            .args(["serve", file, "--node", "5", "--slcan", "tcp:127.0.0.1:0"])
-            .current_dir(&scratch.0)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        let address = line.trim().rsplit(' ').next().unwrap().to_owned();
-        assert!(address.starts_with("tcp:127.0.0.1:"), "{line}");
-        Self { child, address, scratch }
+        let served = Served::start(&scratch, &[file, "--node", "5"], Stdio::null());
+        Self { served, scratch }
     }
 
     /// `odgen node` with node 5: what it says and how it ends, as a text.
@@ -83,7 +65,7 @@ impl Served {
     }
 
     fn output(&self, arguments: &[&str]) -> Output {
-        odgen(&self.scratch.0, &[&["node"], arguments, &["--slcan", &self.address]].concat())
+        odgen(&self.scratch.0, &[&["node"], arguments, &["--slcan", self.served.address()]].concat())
     }
 
     fn run(&self, arguments: &[&str]) -> String {
@@ -108,127 +90,127 @@ impl Served {
 
 #[test]
 fn entries_are_read_with_their_words() {
-    let served = Served::new("node-read");
+    let bus = Bus::new("node-read");
     let said = [
-        served.node("read", &["2000", "way", "state", "place", "1018.4", "1018"]),
-        served.node("read", &["2007", "secret", "2001"]),
-        served.node("read", &["wanted temprature", "2000"]),
+        bus.node("read", &["2000", "way", "state", "place", "1018.4", "1018"]),
+        bus.node("read", &["2007", "secret", "2001"]),
+        bus.node("read", &["wanted temprature", "2000"]),
     ];
     assert_snapshot!("node-read", said.concat());
 }
 
 #[test]
 fn entries_are_written_after_a_check() {
-    let served = Served::new("node-write");
+    let bus = Bus::new("node-write");
     let said = [
-        served.node("write", &["wanted temperature=55.0 °C", "way=fast", "2006=3", "place=on the roof"]),
-        served.node("read", &["2000", "2002", "2006", "2004"]),
+        bus.node("write", &["wanted temperature=55.0 °C", "way=fast", "2006=3", "place=on the roof"]),
+        bus.node("read", &["2000", "2002", "2006", "2004"]),
         // Limits, types, names, access.
-        served.node("write", &["2000=90.1 °C"]),
-        served.node("write", &["2000=hot"]),
-        served.node("write", &["2003=1"]),
-        served.node("write", &["2009=1"]),
+        bus.node("write", &["2000=90.1 °C"]),
+        bus.node("write", &["2000=hot"]),
+        bus.node("write", &["2003=1"]),
+        bus.node("write", &["2009=1"]),
         // By its default the highest would be 60 °C: what the node has counts.
-        served.node("write", &["2001=80.0 °C"]),
-        served.node("write", &["2000=70.0 °C"]),
-        served.node("write", &["2001=60.0 °C"]),
-        served.node("write", &["2001=60.0 °C", "way=off", "--force"]),
-        served.node("write", &["2005=999"]),
-        served.node("write", &["2005=999", "--unlock", "2005"]),
-        served.node("write", &["1010.1=0x65766173"]),
+        bus.node("write", &["2001=80.0 °C"]),
+        bus.node("write", &["2000=70.0 °C"]),
+        bus.node("write", &["2001=60.0 °C"]),
+        bus.node("write", &["2001=60.0 °C", "way=off", "--force"]),
+        bus.node("write", &["2005=999"]),
+        bus.node("write", &["2005=999", "--unlock", "2005"]),
+        bus.node("write", &["1010.1=0x65766173"]),
     ];
     assert_snapshot!("node-write", said.concat());
 }
 
 #[test]
 fn nobody_there_is_told() {
-    let served = Served::new("node-nobody");
+    let bus = Bus::new("node-nobody");
     let said = [
-        served.run(&["read", "heater.od.yaml", "--node", "9", "--timeout", "50", "2000", "2001"]),
-        served.run(&["write", "heater.od.yaml", "--node", "9", "--timeout", "50", "2004=roof"]),
-        served.run(&["read", "heater.od.yaml", "2000"]),
-        served.run(&["read", "heater.od.yaml", "--node", "5", "--bit-rate", "333", "2000"]),
+        bus.run(&["read", "heater.od.yaml", "--node", "9", "--timeout", "50", "2000", "2001"]),
+        bus.run(&["write", "heater.od.yaml", "--node", "9", "--timeout", "50", "2004=roof"]),
+        bus.run(&["read", "heater.od.yaml", "2000"]),
+        bus.run(&["read", "heater.od.yaml", "--node", "5", "--bit-rate", "333", "2000"]),
     ];
-    let said = said.concat().replace(&served.address, "tcp:ADDRESS");
-    assert_snapshot!("node-nobody", said.replace(served.address.trim_start_matches("tcp:"), "ADDRESS"));
-    assert_eq!(files(&served.scratch.0), ["heater.od.yaml"]);
+    let said = said.concat().replace(bus.served.address(), "tcp:ADDRESS");
+    assert_snapshot!("node-nobody", said.replace(bus.served.address().trim_start_matches("tcp:"), "ADDRESS"));
+    assert_eq!(files(&bus.scratch.0), ["heater.od.yaml"]);
 }
 
 #[test]
 fn parameters_are_kept_compared_and_given_back() {
-    let served = Served::new("node-keep");
+    let bus = Bus::new("node-keep");
     let written = ["2000=55.0 °C", "2002=fast", "2004=roof", "2006=7", "1017=500"];
     let mut said = vec![
-        served.node("write", &written),
-        served.node("backup", &["--out", "heater.yaml"]),
-        served.node("backup", &["--out", "heater.yaml"]),
+        bus.node("write", &written),
+        bus.node("backup", &["--out", "heater.yaml"]),
+        bus.node("backup", &["--out", "heater.yaml"]),
     ];
-    let kept = fs::read_to_string(served.scratch.0.join("heater.yaml")).unwrap();
+    let kept = fs::read_to_string(bus.scratch.0.join("heater.yaml")).unwrap();
     assert_snapshot!("node-backup", kept);
     said.extend([
-        served.node("compare", &["heater.yaml"]),
-        served.node("write", &["2001=85.0 °C", "2000=80.0 °C", "2006=0", "2002=slow"]),
-        served.node("compare", &["heater.yaml"]),
+        bus.node("compare", &["heater.yaml"]),
+        bus.node("write", &["2001=85.0 °C", "2000=80.0 °C", "2006=0", "2002=slow"]),
+        bus.node("compare", &["heater.yaml"]),
         // 2000h first, as it has to stay below 2001h; 2002h before 2006h, which depends on it.
-        served.node("restore", &["heater.yaml"]),
-        served.node("restore", &["heater.yaml"]),
-        served.node("compare", &["heater.yaml"]),
+        bus.node("restore", &["heater.yaml"]),
+        bus.node("restore", &["heater.yaml"]),
+        bus.node("compare", &["heater.yaml"]),
     ]);
     assert_snapshot!("node-keep", said.concat());
 }
 
 #[test]
 fn what_cannot_be_given_back_is_told() {
-    let served = Served::new("node-restore");
+    let bus = Bus::new("node-restore");
     let file = |name: &str, text: &str| {
-        served.scratch.file(name, format!("od-parameters: 1\ndevice: heater\n{text}"));
+        bus.scratch.file(name, format!("od-parameters: 1\ndevice: heater\n{text}"));
     };
     file("limits.yaml", "parameters: {wanted temperature: 95.0 °C}\n");
     file("order.yaml", "node: 6\nparameters: {wanted temperature: 50.0 °C}\n");
     file("locked.yaml", "parameters: {calibration: 999, place: roof}\nunlock: [calibration]\n");
     file("condition.yaml", "parameters: {fan: 3, place: cellar}\n");
-    served.scratch.file("other.yaml", "od-parameters: 1\ndevice: boiler\nparameters: {place: roof}\n");
+    bus.scratch.file("other.yaml", "od-parameters: 1\ndevice: boiler\nparameters: {place: roof}\n");
     let said = [
-        served.node("restore", &["limits.yaml"]),
-        served.node("restore", &["other.yaml"]),
-        served.node("write", &["2000=10.0 °C", "2001=20.0 °C"]),
+        bus.node("restore", &["limits.yaml"]),
+        bus.node("restore", &["other.yaml"]),
+        bus.node("write", &["2000=10.0 °C", "2001=20.0 °C"]),
         // By the defaults it would be right; the node has another limit.
-        served.node("restore", &["order.yaml"]),
-        served.node("restore", &["locked.yaml"]),
-        served.node("restore", &["condition.yaml"]),
-        served.node("compare", &["condition.yaml"]),
-        served.run(&["restore", "heater.od.yaml", "condition.yaml", "--node", "9", "--timeout", "50"]),
-        served.run(&["backup", "heater.od.yaml", "--out", "none.yaml", "--node", "9", "--timeout", "50"]),
+        bus.node("restore", &["order.yaml"]),
+        bus.node("restore", &["locked.yaml"]),
+        bus.node("restore", &["condition.yaml"]),
+        bus.node("compare", &["condition.yaml"]),
+        bus.run(&["restore", "heater.od.yaml", "condition.yaml", "--node", "9", "--timeout", "50"]),
+        bus.run(&["backup", "heater.od.yaml", "--out", "none.yaml", "--node", "9", "--timeout", "50"]),
     ];
     assert_snapshot!("node-restore", said.concat());
-    assert!(!served.scratch.0.join("none.yaml").exists(), "no half of a backup");
+    assert!(!bus.scratch.0.join("none.yaml").exists(), "no half of a backup");
 }
 
 #[test]
 fn a_bus_is_scanned_and_commanded() {
-    let served = Served::new("node-network");
-    served.scratch.file("lamp.od.yaml", crate::LAMP);
+    let bus = Bus::new("node-network");
+    bus.scratch.file("lamp.od.yaml", crate::LAMP);
     let said = [
-        served.run(&["scan", "heater.od.yaml", "lamp.od.yaml", "--timeout", "100"]),
-        served.run(&["scan", "lamp.od.yaml", "--timeout", "100"]),
-        served.run(&["scan", "--timeout", "100"]),
-        served.node("write", &["2000=55.0 °C"]),
-        served.run(&["store", "--node", "5"]),
-        served.run(&["nmt", "reset-node", "--node", "5"]),
-        served.node("read", &["2000"]),
-        served.run(&["load-defaults", "--node", "5"]),
-        served.node("read", &["2000"]),
-        served.run(&["nmt", "reset-communication", "--node", "5"]),
-        served.run(&["nmt", "reset-node", "--node", "5"]),
-        served.node("read", &["2000"]),
-        served.run(&["store", "--node", "5", "--group", "9"]),
-        served.run(&["store", "--node", "9", "--timeout", "50"]),
-        served.run(&["nmt", "start", "--node", "0"]),
-        served.run(&["nmt", "stop", "--node", "all"]),
-        served.node("read", &["2000", "--timeout", "50"]),
-        served.run(&["scan", "--timeout", "50"]),
-        served.run(&["nmt", "start", "--node", "5"]),
-        served.node("read", &["2000"]),
+        bus.run(&["scan", "heater.od.yaml", "lamp.od.yaml", "--timeout", "100"]),
+        bus.run(&["scan", "lamp.od.yaml", "--timeout", "100"]),
+        bus.run(&["scan", "--timeout", "100"]),
+        bus.node("write", &["2000=55.0 °C"]),
+        bus.run(&["store", "--node", "5"]),
+        bus.run(&["nmt", "reset-node", "--node", "5"]),
+        bus.node("read", &["2000"]),
+        bus.run(&["load-defaults", "--node", "5"]),
+        bus.node("read", &["2000"]),
+        bus.run(&["nmt", "reset-communication", "--node", "5"]),
+        bus.run(&["nmt", "reset-node", "--node", "5"]),
+        bus.node("read", &["2000"]),
+        bus.run(&["store", "--node", "5", "--group", "9"]),
+        bus.run(&["store", "--node", "9", "--timeout", "50"]),
+        bus.run(&["nmt", "start", "--node", "0"]),
+        bus.run(&["nmt", "stop", "--node", "all"]),
+        bus.node("read", &["2000", "--timeout", "50"]),
+        bus.run(&["scan", "--timeout", "50"]),
+        bus.run(&["nmt", "start", "--node", "5"]),
+        bus.node("read", &["2000"]),
     ];
     assert_snapshot!("node-network", said.concat());
 }
@@ -236,7 +218,7 @@ fn a_bus_is_scanned_and_commanded() {
 #[test]
 fn a_node_is_talked_to_as_the_readme_shows() {
     let valve = include_str!("../../../tests/readme/valve.od.yaml");
-    let served = Served::of("node-readme", "valve.od.yaml", valve);
+    let bus = Bus::of("node-readme", "valve.od.yaml", valve);
     let mut lines = Vec::new();
     for (command, rest) in [
         ("read", &["set pressure", "1018.1"][..]),
@@ -247,7 +229,7 @@ fn a_node_is_talked_to_as_the_readme_shows() {
         ("compare", &["kept.yaml"]),
         ("restore", &["kept.yaml"]),
     ] {
-        let output = served.output(&[&[command, "valve.od.yaml", "--node", "5"], rest].concat());
+        let output = bus.output(&[&[command, "valve.od.yaml", "--node", "5"], rest].concat());
         let rest: Vec<String> = rest
             .iter()
             .map(|word| if word.contains(' ') { format!("\"{word}\"") } else { (*word).to_owned() })

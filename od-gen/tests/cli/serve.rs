@@ -1,44 +1,33 @@
 //! `odgen serve`.
 
-use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
-use std::process::{Child, Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
 use crate::plant::presses;
+use crate::served::Served;
 use crate::{LAMP, Scratch, code, odgen, stderr};
 
-/// A server with a client, ended with the test.
-struct Served {
-    child: Child,
+/// A server with a client.
+struct WithClient {
+    served: Served,
     client: TcpStream,
 }
 
-impl Drop for Served {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
-
-impl Served {
-    fn with(scratch: &Scratch, more: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-            .args(["serve", "lamp.od.yaml", "--node", "5", "--slcan", "tcp:127.0.0.1:0"])
-            .args(more)
-            .current_dir(&scratch.0)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+impl WithClient {
+    fn lamps(scratch: &Scratch, more: &[&str]) -> Self {
+        let arguments = [&["lamp.od.yaml", "--node", "5"], more].concat();
+        let served = Served::start(scratch, &arguments, Stdio::piped());
         let nodes = if more.contains(&"6") { "lamp (node 5), lamp (node 6)" } else { "lamp (node 5)" };
-        assert!(line.starts_with(&format!("serving {nodes} at tcp:127.0.0.1:")), "{line}");
-        let client = TcpStream::connect(line.trim().rsplit("tcp:").next().unwrap()).unwrap();
+        assert!(served.line.starts_with(&format!("serving {nodes} at tcp:127.0.0.1:")), "{}", served.line);
+        Self::of(served)
+    }
+
+    fn of(served: Served) -> Self {
+        let client = TcpStream::connect(served.address().trim_start_matches("tcp:")).unwrap();
         client.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
-        Self { child, client }
+        Self { served, client }
     }
 
     /// Sends bytes, and reads as many as are expected.
@@ -54,7 +43,7 @@ impl Served {
 fn clients_talk_to_nodes_by_slcan() {
     let scratch = Scratch::new("serve");
     scratch.file("lamp.od.yaml", LAMP);
-    let mut served = Served::with(&scratch, &["--node", "6", "--log"]);
+    let mut served = WithClient::lamps(&scratch, &["--node", "6", "--log"]);
     served.ask("C\rS6\r\rO\r", "\r\r\r\r");
     served.ask("V\rx\rt6059\r", "V1010\r\u{7}\u{7}");
     // Brightness is 80; 200 is too much.
@@ -67,9 +56,9 @@ fn clients_talk_to_nodes_by_slcan() {
     served.ask("T000000050\r", "Z\r");
     // A line that is too long, and one behind it.
     served.ask(&format!("t{}\rV\r", "0".repeat(100)), "\u{7}V1010\r");
-    served.child.kill().unwrap();
+    served.served.child.kill().unwrap();
     let mut log = String::new();
-    served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    served.served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
     let told: Vec<&str> =
         log.lines().filter_map(|line| line.split_once(")  ")).map(|(_, told)| told).collect();
     assert_eq!(
@@ -94,7 +83,7 @@ fn clients_talk_to_nodes_by_slcan() {
     );
 }
 
-impl Served {
+impl WithClient {
     /// Sends a frame, and waits for a line with this end; heartbeats of other nodes may come between.
     fn answers(&mut self, frame: &str, expected: &str) {
         self.client.write_all(frame.as_bytes()).unwrap();
@@ -119,9 +108,9 @@ fn lamp_that_tells() -> String {
 fn a_script_is_carried_out() {
     let scratch = Scratch::new("serve-script");
     scratch.file("lamp.od.yaml", lamp_that_tells());
-    let mut served = Served::with(&scratch, &["--script", "-", "--consistent"]);
+    let mut served = WithClient::lamps(&scratch, &["--script", "-", "--consistent"]);
     served.ask("O\r", "\r");
-    let mut input = served.child.stdin.take().unwrap();
+    let mut input = served.served.child.stdin.take().unwrap();
     writeln!(input, "# Nothing yet.\n\n5 fault 0x4210\n5 fault 0x4210").unwrap();
     served.ask("", "t08581042090000000000\r");
     served.ask("t60582F0020003C000000\r", "z\rt58588000200043000406\r");
@@ -132,9 +121,9 @@ fn a_script_is_carried_out() {
     )
     .unwrap();
     served.ask("", "t18513C\rt08580000000000000000\r");
-    served.child.kill().unwrap();
+    served.served.child.kill().unwrap();
     let mut log = String::new();
-    served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    served.served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
     assert!(log.contains("note: node 5: error 4210h is present already"), "{log}");
     assert!(log.contains("node 5: 2000h (brightness) cannot be set to this: 0609 0031h"), "{log}");
     assert!(log.contains("<stdin>:6:3"), "{log}");
@@ -167,19 +156,10 @@ fn an_address_has_its_protocol() {
 #[test]
 fn the_nodes_of_a_machine_are_served_as_the_plant_sets_them() {
     let scratch = presses("serve-plant");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-        .args(["serve", "plant.yaml", "--machine", "6", "--slcan", "tcp:127.0.0.1:0"])
-        .current_dir(&scratch.0)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-    assert!(line.starts_with("serving drive (node 11), supply (node 2), drive (node 22) at tcp:"), "{line}");
-    let client = TcpStream::connect(line.trim().rsplit("tcp:").next().unwrap()).unwrap();
-    client.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
-    let mut served = Served { child, client };
+    let served = Served::start(&scratch, &["plant.yaml", "--machine", "6"], Stdio::null());
+    let nodes = "drive (node 11), supply (node 2), drive (node 22)";
+    assert!(served.line.starts_with(&format!("serving {nodes} at tcp:")), "{}", served.line);
+    let mut served = WithClient::of(served);
     // Node 22: lowest voltage, which is 520.0 V, and the serial number.
     served.ask("O\r", "\r");
     served.answers("t61684000300000000000\r", "t59684B00300050140000\r");

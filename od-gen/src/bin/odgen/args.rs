@@ -1,6 +1,8 @@
 //! The command line.
 
 mod bus;
+mod concise;
+mod diff;
 mod node;
 mod on_bus;
 mod plant;
@@ -12,6 +14,8 @@ use od_spec::diag::render;
 use od_spec::eds::readers::Reader;
 
 pub(crate) use bus::{DecodeArgs, NodesArgs, ServeArgs};
+pub(crate) use concise::{ConciseArgs, ConciseCommand, ConciseFormat, ConciseShowArgs};
+pub(crate) use diff::{DiffArgs, DiffFormat};
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 pub(crate) use on_bus::{
     LinkArgs, NmtName, NodeArgs, NodeBackupArgs, NodeCommand, NodeFileArgs, NodeGroupArgs, NodeNmtArgs,
@@ -328,124 +332,6 @@ pub(crate) struct CheckArgs {
     /// How findings are written [default: human]
     #[arg(long, value_enum)]
     pub format: Option<CheckFormat>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ConciseArgs {
-    #[command(subcommand)]
-    pub command: ConciseCommand,
-}
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum ConciseCommand {
-    /// List the records in their order: entry, name, bytes, value in its unit or by its name, and what the device refuses
-    Show(ConciseShowArgs),
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ConciseShowArgs {
-    /// The concise DCF
-    pub file: PathBuf,
-
-    /// The specification, EDS, DCF, XDD or XDC of the node's device [default: the only `*.od.yaml` of the current directory]
-    pub spec: Option<PathBuf>,
-
-    /// Key of the device [default: the only one]
-    #[arg(long, value_name = "KEY")]
-    pub device: Option<String>,
-
-    /// Node-ID, 1 to 127, to recognise defaults that depend on it [default: of a DCF its own]
-    #[arg(long, value_name = "ID")]
-    pub node: Option<String>,
-
-    /// How the records are written
-    #[arg(long, value_enum, default_value_t)]
-    pub format: ConciseFormat,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ConciseFormat {
-    /// For people, a line for each record
-    #[default]
-    Human,
-    /// One JSON object
-    Json,
-    /// The values that they leave in the node, as `odgen dcf --set-file` takes them
-    Settings,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct DiffArgs {
-    /// The dictionary before the changes; with --git the specification
-    #[arg(value_name = "OLD")]
-    pub old: PathBuf,
-
-    /// The dictionary after the changes
-    #[arg(value_name = "NEW", required_unless_present = "git", conflicts_with = "git")]
-    pub new: Option<PathBuf>,
-
-    /// Specification of the device that parameter files are for; they are compared with each other, or with a DCF
-    #[arg(long, value_name = "SPEC", conflicts_with = "git")]
-    pub spec: Option<PathBuf>,
-
-    /// Compare a specification with itself as it was at a revision of git, such as `HEAD` or `v1.08`
-    #[arg(long, value_name = "REV")]
-    pub git: Option<String>,
-
-    /// Only this device
-    #[arg(long, value_name = "KEY")]
-    pub device: Option<String>,
-
-    /// How the differences are written
-    #[arg(long, value_enum, default_value_t)]
-    pub format: DiffFormat,
-
-    /// Fail with exit code 3 when a change is of this class or of a heavier one
-    #[arg(long, value_enum, value_name = "CLASS")]
-    pub exit_code: Option<DiffClass>,
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum DiffFormat {
-    /// For people, with reasons and proposals
-    #[default]
-    Human,
-    /// One line for each change
-    Short,
-    /// Tables and an entry for a changelog
-    Markdown,
-    /// One JSON object
-    Json,
-}
-
-/// The classes of changes, the lightest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum DiffClass {
-    /// Documents only: whatever differs
-    Documents,
-    /// Compatible additions
-    Addition,
-    /// The device does something else
-    Behaviour,
-    /// Firmware does not compile any more
-    Firmware,
-    /// Stored parameters are lost
-    Stored,
-    /// PLC projects break
-    Plc,
-}
-
-impl From<DiffClass> for od_gen::diff::Class {
-    fn from(class: DiffClass) -> Self {
-        match class {
-            DiffClass::Documents => Self::Documents,
-            DiffClass::Addition => Self::Addition,
-            DiffClass::Behaviour => Self::Behaviour,
-            DiffClass::Firmware => Self::Firmware,
-            DiffClass::Stored => Self::Stored,
-            DiffClass::Plc => Self::Plc,
-        }
-    }
 }
 
 #[derive(Debug, Clone, Args)]

@@ -1,0 +1,44 @@
+//! A running `odgen serve`.
+
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Stdio};
+
+use crate::Scratch;
+
+/// Nodes on a bus at a free port, ended with the test.
+pub(crate) struct Served {
+    pub(crate) child: Child,
+    /// The line that tells where it is.
+    pub(crate) line: String,
+}
+
+impl Served {
+    /// `odgen serve` with these arguments, in a directory.
+    pub(crate) fn start(scratch: &Scratch, arguments: &[&str], stderr: Stdio) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
+            .args([&["serve"], arguments, &["--slcan", "tcp:127.0.0.1:0"]].concat())
+            .current_dir(&scratch.0)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(stderr)
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        Self { child, line }
+    }
+
+    /// `tcp:127.0.0.1:PORT`.
+    pub(crate) fn address(&self) -> &str {
+        let address = self.line.trim().rsplit(' ').next().unwrap();
+        assert!(address.starts_with("tcp:127.0.0.1:"), "{}", self.line);
+        address
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
