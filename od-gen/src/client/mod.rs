@@ -18,7 +18,7 @@ use firmware_glue::frame::Frame;
 pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
 pub use self::restore::{involved, kept, plan, value};
-pub use self::scan::{Answered, Identity, scan};
+pub use self::scan::{Answered, Contradiction, Identity, recognize, scan};
 
 /// Where frames go and come from, and what time it is there.
 pub trait Bus {

@@ -40,7 +40,11 @@ pub struct Identity {
 const MEANWHILE: usize = 32;
 
 const DEVICE_TYPE: EntryId = id(0x1000, 0);
+const VENDOR: EntryId = id(0x1018, 1);
+const PRODUCT: EntryId = id(0x1018, 2);
 const NAME: EntryId = id(0x1008, 0);
+/// What tells devices apart.
+const TELLING: [EntryId; 3] = [DEVICE_TYPE, VENDOR, PRODUCT];
 
 const fn id(index: u16, sub: u8) -> EntryId {
     EntryId { index: Index(index), sub: SubIndex(sub) }
@@ -52,8 +56,8 @@ impl Identity {
         let raw = |id| u32::try_from(device.entry(id)?.default.as_ref()?.integer()?).ok();
         Self {
             device_type: raw(DEVICE_TYPE),
-            vendor: raw(id(0x1018, 1)),
-            product: raw(id(0x1018, 2)),
+            vendor: raw(VENDOR),
+            product: raw(PRODUCT),
             revision: raw(id(0x1018, 3)),
             serial: raw(id(0x1018, 4)),
             name: match device.entry(NAME).and_then(|entry| entry.default.as_ref()) {
@@ -65,14 +69,63 @@ impl Identity {
 
     /// Whether a node can be a device: device type, vendor, product and name are the same, as far as the dictionary states them.
     pub fn fits(&self, device: &Self) -> bool {
-        let same = |own: Option<u32>, stated: Option<u32>| stated.is_none() || own == stated;
-        let is_stated = device.device_type.is_some() || device.vendor.is_some() || device.product.is_some();
-        is_stated
-            && same(self.device_type, device.device_type)
-            && same(self.vendor, device.vendor)
-            && same(self.product, device.product)
+        let told = |(id, stated)| self.number(id).is_some_and(|told| told == stated);
+        device.stated().next().is_some()
+            && device.stated().all(told)
             && (self.name.is_none() || device.name.is_none() || self.name == device.name)
     }
+
+    /// The numbers by which a dictionary tells a device from others. Vendor or product 0 says that nobody knows it.
+    fn stated(&self) -> impl Iterator<Item = (EntryId, u32)> {
+        TELLING.into_iter().filter_map(|id| {
+            let number = self.number(id)?;
+            (id == DEVICE_TYPE || number != 0).then_some((id, number))
+        })
+    }
+
+    fn number(&self, id: EntryId) -> Option<u32> {
+        match id {
+            DEVICE_TYPE => self.device_type,
+            VENDOR => self.vendor,
+            PRODUCT => self.product,
+            _ => None,
+        }
+    }
+}
+
+/// A number of a node that is another one in the dictionary of its device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Contradiction {
+    /// Device type, vendor or product code.
+    pub id: EntryId,
+    /// What the node says.
+    pub told: u32,
+    /// What the dictionary states.
+    pub stated: u32,
+}
+
+/// Asks a node whether it is the device of a dictionary: before values are taken for what that dictionary says they are.
+///
+/// # Errors
+/// [`AccessError`], but for a number that the node refuses to tell.
+pub fn recognize<B: Bus>(
+    client: &mut Client<B>,
+    node: u8,
+    device: &Dictionary,
+) -> Result<Option<Contradiction>, AccessError> {
+    let stated = Identity::of(device);
+    for (id, number) in stated.stated() {
+        let told = match client.read(node, id) {
+            Ok(bytes) => bytes.try_into().map(u32::from_le_bytes).ok(),
+            Err(error) if error.is_of_entry() => None,
+            Err(error) => return Err(error),
+        };
+        if let Some(told) = told.filter(|told| *told != number) {
+            return Ok(Some(Contradiction { id, told, stated: number }));
+        }
+    }
+    Ok(None)
 }
 
 /// Asks all 127 node-IDs, and those that answer for their identity.
@@ -114,8 +167,8 @@ pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Answ
         let mut read = |id| Ok(bytes(id)?.and_then(|bytes| Some(u32::from_le_bytes(bytes.try_into().ok()?))));
         let identity = Identity {
             device_type: read(DEVICE_TYPE)?,
-            vendor: read(id(0x1018, 1))?,
-            product: read(id(0x1018, 2))?,
+            vendor: read(VENDOR)?,
+            product: read(PRODUCT)?,
             revision: read(id(0x1018, 3))?,
             serial: read(id(0x1018, 4))?,
             name,

@@ -46,17 +46,24 @@ fn each_is_provoked() {
     }
 }
 
-/// The address of an adapter that says yes to everything, for one client, on a bus without nodes.
+/// The address of an adapter that says yes to everything, for one client, on a bus with a node 5 that tells nothing but its device type.
 fn adapter() -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();
     std::thread::spawn(move || {
         let (mut stream, _) = listener.accept().unwrap();
-        let mut byte = [0];
+        let (mut byte, mut line) = ([0], Vec::new());
         while matches!(stream.read(&mut byte), Ok(1)) {
-            if byte == *b"\r" && stream.write_all(b"\r").is_err() {
+            line.extend(byte);
+            if byte != *b"\r" {
+                continue;
+            }
+            let answer: &[u8] =
+                if line.starts_with(b"t6058400010") { b"z\rt58584300100078563412\r" } else { b"\r" };
+            if stream.write_all(answer).is_err() {
                 return;
             }
+            line.clear();
         }
     });
     format!("tcp:{address}")

@@ -187,6 +187,44 @@ fn what_cannot_be_given_back_is_told() {
 }
 
 #[test]
+fn a_node_that_is_another_device_is_left_alone() {
+    let bus = Bus::new("node-other");
+    bus.scratch.file("other.od.yaml", HEATER.replace("product: 7", "product: 8"));
+    bus.scratch.file("unknown.od.yaml", HEATER.replace("product: 7", "product: 0"));
+    bus.scratch.file("place.yaml", "od-parameters: 1\nparameters: {place: roof}\n");
+    let said = [
+        bus.run(&["read", "other.od.yaml", "--node", "5", "2004"]),
+        bus.run(&["write", "other.od.yaml", "--node", "5", "2004=cellar"]),
+        bus.run(&["write", "other.od.yaml", "--node", "5", "2004=cellar", "--force"]),
+        bus.run(&["backup", "other.od.yaml", "--node", "5", "--out", "none.yaml"]),
+        bus.run(&["compare", "other.od.yaml", "--node", "5", "place.yaml"]),
+        bus.run(&["restore", "other.od.yaml", "--node", "5", "place.yaml"]),
+        // Nothing has come.
+        bus.node("read", &["2004"]),
+        bus.run(&["write", "other.od.yaml", "--node", "5", "2004=cellar", "--any-device"]),
+        // 0 is no product of its own: nobody knows it.
+        bus.run(&["read", "unknown.od.yaml", "--node", "5", "2004"]),
+        bus.run(&["scan", "other.od.yaml", "unknown.od.yaml", "--timeout", "100"]),
+    ];
+    assert_snapshot!("node-other", said.concat());
+    assert!(!bus.scratch.0.join("none.yaml").exists());
+}
+
+#[test]
+fn what_belongs_with_a_refused_value_is_held_back() {
+    let more = "  0x2008: {name: top calibration, type: unsigned16, access: rw, default: 2000}\n\
+                constraints:\n  calibration below top: {require: \"0x2005 < 0x2008\"}\n";
+    let bus = Bus::of("node-held-back", "heater.od.yaml", &HEATER.replace("constraints:\n", more));
+    bus.scratch.file(
+        "low.yaml",
+        "od-parameters: 1\nparameters: {calibration: 100, top calibration: 500, place: roof}\nunlock: [calibration]\n",
+    );
+    // 500 without the 100 would leave the node with 1000 below 500.
+    let said = [bus.node("restore", &["low.yaml"]), bus.node("read", &["2005", "2008", "2004"])];
+    assert_snapshot!("node-held-back", said.concat());
+}
+
+#[test]
 fn a_bus_is_scanned_and_commanded() {
     let bus = Bus::new("node-network");
     bus.scratch.file("lamp.od.yaml", crate::LAMP);

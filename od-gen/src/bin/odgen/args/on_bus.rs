@@ -82,6 +82,10 @@ pub(crate) struct OneNodeArgs {
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
 
+    /// Go on with a node that says by its device type, vendor or product that it is another device
+    #[arg(long)]
+    pub any_device: bool,
+
     #[command(flatten)]
     pub link: LinkArgs,
 }

@@ -11,7 +11,7 @@ use od_spec::{Commissioning, Layer, SettingNames, assign_layers, nearest, rule_c
 use super::super::args::{NodeReadArgs, NodeWriteArgs};
 use super::super::report::{Report, print};
 use super::super::{ERRORS, SUCCESS};
-use super::{Described, Target, connect};
+use super::{Described, Target, reach};
 
 /// Reads entries. What cannot be read is told, and the others are read all the same.
 pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
@@ -21,7 +21,7 @@ pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
     for text in &args.entries {
         ids.extend(entries(target.device, text).map_err(|diagnostic| report.refuse(diagnostic))?);
     }
-    let mut client = connect(&args.node.link, report)?;
+    let mut client = reach(&args.node, target, report)?;
     let mut code = SUCCESS;
     for id in ids {
         match client.read(target.id, id) {
@@ -87,7 +87,7 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
         report.show(&diagnostics, &sources);
         return Err(ERRORS);
     }
-    let mut client = connect(&args.node.link, report)?;
+    let mut client = reach(&args.node, target, report)?;
     let written: BTreeSet<EntryId> = meant.iter().map(|(id, _)| *id).collect();
     let mut now = Commissioning::of_node(target.device, target.id);
     for id in involved(target.system, target.device, &written) {
@@ -123,11 +123,14 @@ fn asked<B: Bus>(
         Err(error) if error.is_of_entry() => error.to_string(),
         Err(error) => return Err(report.refuse(target.failed("read", id, &error))),
     };
-    report.note(&format!(
-        "a condition asks for {}, which cannot be read ({why}): it is taken to have its default",
-        target.words().entry(id)
-    ));
+    report.note(&has_default(target, id, &why));
     Ok(None)
+}
+
+/// What is said of an entry that a condition asks for and a node does not tell.
+pub(super) fn has_default(target: Target<'_>, id: EntryId, why: &str) -> String {
+    let name = target.words().entry(id);
+    format!("a condition asks for {name}, which cannot be read ({why}): it is taken to have its default")
 }
 
 /// Shows what the check says, except what is about files that are loaded at boot: commands are given here by intention, and in the order

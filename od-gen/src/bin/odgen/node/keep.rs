@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use od_gen::Artifact;
-use od_gen::client::{Bus, Client, kept, plan, value};
+use od_gen::client::{Bus, Client, involved, kept, plan, value};
 use od_gen::files::Existing;
 use od_gen::parameters::{About, write_all};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::{EntryId, Value, Write};
+use od_spec::model::{EntryId, Index, Role, Value, Write};
 use od_spec::source::SourceMap;
 use od_spec::{Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
 
@@ -18,8 +18,8 @@ use super::super::output::{forced, save};
 use super::super::report::{Report, print, shown};
 use super::super::settings::parameter_files;
 use super::super::{DIFFERS, ERRORS, SUCCESS};
-use super::access::not_written;
-use super::{Described, Target, connect};
+use super::access::{has_default, not_written};
+use super::{Described, Target, reach};
 
 /// What a node has, and what it does not tell, with the reason.
 struct Had {
@@ -64,7 +64,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
         let message = format!("cannot write `{}`: it names no file", args.out.display());
         report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
     })?;
-    let mut client = connect(&args.node.link, report)?;
+    let mut client = reach(&args.node, target, report)?;
     let had = had(&mut client, target, kept(target.device), report)?;
     let mut node = Commissioning::of_node(target.device, target.id);
     // Nobody has asked the adapter.
@@ -178,7 +178,7 @@ fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, repo
 pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
     let Beside { target, meant, .. } = beside(&described, args, report)?;
-    let mut client = connect(&args.node.link, report)?;
+    let mut client = reach(&args.node, target, report)?;
     let had = had(&mut client, target, meant.keys().copied(), report)?;
     let (count, code) = told_differences(target, &meant, &had, report);
     let not_in_file = kept(target.device).filter(|id| !meant.contains_key(id)).count();
@@ -198,10 +198,16 @@ pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
 pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
     let Beside { target, sources, layers, meant } = beside(&described, args, report)?;
-    let mut client = connect(&args.node.link, report)?;
-    let ids: BTreeSet<EntryId> = kept(target.device).chain(meant.keys().copied()).collect();
+    let mut client = reach(&args.node, target, report)?;
+    let written_ids: BTreeSet<EntryId> = meant.keys().copied().collect();
+    let asked_for = involved(target.system, target.device, &written_ids);
+    let ids: BTreeSet<EntryId> =
+        kept(target.device).chain(written_ids).chain(asked_for.iter().copied()).collect();
     let before = had(&mut client, target, ids, report)?;
     // What the file does not set stays as the node has it, and conditions ask for that.
+    for (id, why) in before.untold.iter().filter(|(id, _)| asked_for.contains(id)) {
+        report.note(&has_default(target, *id, why));
+    }
     let mut now = Commissioning::of_node(target.device, target.id);
     now.values.clone_from(&before.values);
     let mut diagnostics = Diagnostics::new();
@@ -241,7 +247,43 @@ pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     Ok(if code == SUCCESS { print(&line) } else { code })
 }
 
-/// Carries out writes. One that is refused is told, and the next ones are tried; the exit code where the node is gone.
+/// What must not be written any more, as a node has refused something that belongs with it.
+struct HeldBack<'a> {
+    target: Target<'a>,
+    /// What was refused, or held back itself.
+    first: BTreeSet<EntryId>,
+    /// What conditions join with that.
+    joined: BTreeSet<EntryId>,
+}
+
+impl HeldBack<'_> {
+    fn add(&mut self, id: EntryId) {
+        self.first.insert(id);
+        self.joined.extend(involved(self.target.system, self.target.device, &BTreeSet::from([id])));
+    }
+
+    /// A value beside one that did not come may break a condition, or switch on a PDO that carries something else; and what is not
+    /// whole must not be stored.
+    fn has(&self, id: EntryId) -> bool {
+        let keeps = Role::of(id.index) == Role::StoreParameters || id.index == CONFIGURATION_DATE;
+        let is_of_same_pdo =
+            |one: &EntryId| pdo_of(one.index).is_some() && pdo_of(one.index) == pdo_of(id.index);
+        self.joined.contains(&id)
+            || self.first.iter().any(is_of_same_pdo)
+            || (keeps && !self.first.is_empty())
+    }
+}
+
+/// Verify configuration (1020h): what a configuration tool leaves behind when everything is written.
+const CONFIGURATION_DATE: Index = Index(0x1020);
+
+/// The PDO that an object is a parameter of, by the index of its communication parameters; mappings stand 200h behind them.
+fn pdo_of(index: Index) -> Option<Index> {
+    Role::of(index).is_pdo_parameter().then_some(Index(index.0 & !0x200))
+}
+
+/// Carries out writes. One that is refused is told, and of the next ones those are tried that have nothing to do with it; the exit code
+/// where the node is gone.
 fn written<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
@@ -249,7 +291,14 @@ fn written<B: Bus>(
     report: &Report,
 ) -> Result<u8, u8> {
     let mut code = SUCCESS;
+    let mut held_back = HeldBack { target, first: BTreeSet::new(), joined: BTreeSet::new() };
     for (at, write) in writes.iter().enumerate() {
+        if held_back.has(write.id) {
+            let name = target.words().entry(write.id);
+            report.note(&format!("not sent, as it belongs with what was refused: {name}"));
+            held_back.add(write.id);
+            continue;
+        }
         match client.write(target.id, write.id, &write.bytes) {
             Ok(()) => {
                 let line = super::access::line(target, write.id, &write.bytes);
@@ -257,6 +306,7 @@ fn written<B: Bus>(
             }
             Err(error) => {
                 code = code.max(report.refuse(not_written(target, write.id, &error)));
+                held_back.add(write.id);
                 if !error.is_of_entry() {
                     for write in writes.iter().skip(at + 1) {
                         report.note(&format!("not sent any more: {}", target.words().entry(write.id)));

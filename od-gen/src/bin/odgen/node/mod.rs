@@ -7,7 +7,7 @@ mod network;
 use std::net::{TcpStream, ToSocketAddrs as _};
 use std::time::Duration;
 
-use od_gen::client::{AccessError, Client, OpenError, SlcanBus};
+use od_gen::client::{AccessError, Client, Contradiction, OpenError, SlcanBus, recognize};
 use od_gen::trace;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, EntryId, System};
@@ -92,11 +92,40 @@ impl<'a> Target<'a> {
     /// What is said about an access that failed.
     fn failed(self, what: &str, id: EntryId, error: &AccessError) -> Diagnostic {
         let message = format!("{}: cannot {what} {}: {error}", self.name(), self.words().entry(id));
-        let diagnostic = Diagnostic::without_place(codes::ACCESS_FAILED, message);
-        match error {
-            AccessError::Silent => diagnostic
-                .help("check node-ID, bit rate and power; a node that is stopped does not answer; `--timeout MS` waits longer"),
-            _ => diagnostic,
+        helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), error)
+    }
+}
+
+/// A message with what can be done about the failure.
+fn helped(diagnostic: Diagnostic, error: &AccessError) -> Diagnostic {
+    match error {
+        AccessError::Silent => diagnostic
+            .help("check node-ID, bit rate and power; a node that is stopped does not answer; `--timeout MS` waits longer"),
+        _ => diagnostic,
+    }
+}
+
+/// Connects to the bus of a node, which has to be the device that it is taken for: elsewhere the same entries mean other things.
+fn reach(args: &OneNodeArgs, target: Target<'_>, report: &Report) -> Result<Client<SlcanBus>, u8> {
+    let mut client = connect(&args.link, report)?;
+    if args.any_device {
+        return Ok(client);
+    }
+    let found = recognize(&mut client, target.id, target.device).map_err(|error| {
+        let message = format!("cannot ask node {} what it is: {error}", target.id);
+        report.refuse(helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), &error))
+    })?;
+    match found {
+        None => Ok(client),
+        Some(Contradiction { id, told, stated, .. }) => {
+            let entry = target.words().entry(id);
+            let message = format!(
+                "node {} is no `{}`: {entry} is 0x{told:08X} there, 0x{stated:08X} in the specification",
+                target.id, target.device.key
+            );
+            Err(report.refuse(Diagnostic::without_place(codes::OTHER_DEVICE, message).help(
+                "check node-ID, device and specification; `odgen node scan SPEC…` tells who is on the bus, `--any-device` goes on all the same",
+            )))
         }
     }
 }
