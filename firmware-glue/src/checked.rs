@@ -8,7 +8,6 @@ use crate::fault::{Fault, TableError};
 use crate::mapping::{MAPPING, Mapped, RECEIVE, TRANSMIT, width};
 use crate::stored::at_row;
 use crate::table::{Alias, Attributes, EntryRow, Flags, Found, NONE, Parts, Pdo, Place, Row, Storage, Table};
-use crate::text::prefix;
 
 impl<'t> Table<'t> {
     /// A table of parts that a program has made at run time, of an EDS for instance. Everything that another part relies on is
@@ -128,18 +127,11 @@ fn check_attributes(parts: &Parts<'_>, shared: &Attributes) -> Result<(), Fault>
     }
 }
 
-/// Bytes of a value in the image, where it is there.
-fn bytes_in_image(found: Found<'_>) -> Option<Range<usize>> {
-    let before = found.shared.data_type.string().map_or(0, prefix);
-    let start = found.offset();
-    (found.shared.place == Place::Image).then_some(start..start + usize::from(found.shared.size) + before)
-}
-
 fn check_entry(parts: &Parts<'_>, entry: EntryRow) -> Result<(), Fault> {
     let shared = parts.attributes.get(usize::from(entry.attributes)).ok_or(Fault::EntryAttributes)?;
     let found = Found::new(0, entry.place, shared);
     let lies = match shared.place {
-        Place::Image => bytes_in_image(found).is_some_and(|bytes| bytes.end <= parts.factory.len()),
+        Place::Image => found.place_in_image().is_some_and(|bytes| bytes.end <= parts.factory.len()),
         Place::Constant => found.offset() + usize::from(shared.size) <= parts.constants.len(),
         Place::Alias => {
             let alias = parts.aliases.get(usize::from(entry.place)).ok_or(Fault::EntryPlace)?;
@@ -198,7 +190,7 @@ fn check_regions(parts: &Parts<'_>) -> Result<(), TableError> {
 /// Values of the image, with their rows.
 fn values_in_image<'a>(table: &'a Table<'_>) -> impl Iterator<Item = (Found<'a>, Range<usize>)> {
     let rows = (0..).zip(table.parts().entries);
-    rows.map(|(row, _)| table.found(row)).filter_map(|found| Some((found, bytes_in_image(found)?)))
+    rows.map(|(row, _)| table.found(row)).filter_map(|found| Some((found, found.place_in_image()?)))
 }
 
 fn check_storage(table: &Table<'_>) -> Result<(), TableError> {

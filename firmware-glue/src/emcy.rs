@@ -8,7 +8,7 @@
 //! ```
 
 use crate::clock::{Duration, Instant};
-use crate::cob_id::{NOT_VALID, can_id};
+use crate::cob_id::valid_id;
 use crate::dictionary::Dictionary;
 use crate::frame::{CanId, Frame};
 use crate::parameters::{Parameters, set};
@@ -223,22 +223,11 @@ impl<const N: usize> EmergencyProducer<N> {
         raised
     }
 
-    /// Tells of something that is over as soon as it has happened, such as a PDO of a wrong length: a message and a line in
-    /// the history, and nothing that stays present. What the newest line says is not told again before something else
-    /// has happened, so that a sender's mistake does not push everything else out.
-    pub fn report<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
-        let parameters = Parameters::of(dictionary);
-        let is_filled = parameters.byte(0x1003, 0) > 0;
-        if !is_filled || parameters.number(0x1003, 1) != Some(line(emergency)) {
-            self.tell(dictionary, emergency);
-        }
-    }
-
     fn tell<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
         let register = self.register();
         set(dictionary, 0x1001, 0, register.0.into());
         remember(dictionary, emergency);
-        self.wait(Message::new(emergency.code, register.with(emergency.register), emergency.details));
+        self.wait(Message::new(emergency.code, register, emergency.details));
     }
 
     /// An error is gone. A message says so with the code 0000h and the bits of errors that remain. `false` if it was not
@@ -253,10 +242,22 @@ impl<const N: usize> EmergencyProducer<N> {
 
     /// Every error is gone. `false` if there was none.
     pub fn clear_all<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) -> bool {
-        if self.register() == ErrorRegister::NONE {
+        self.clear_all_but(dictionary, |_| false)
+    }
+
+    /// Every error is gone but those with some codes. `false` if there was none.
+    pub(crate) fn clear_all_but<'t, D: Dictionary<'t>>(
+        &mut self,
+        dictionary: &mut D,
+        stays: impl Fn(u16) -> bool,
+    ) -> bool {
+        let goes = |present: &Emergency| !stays(present.code);
+        if self.others == ErrorRegister::NONE && !self.present().any(|present| goes(&present)) {
             return false;
         }
-        self.present = [None; N];
+        for place in &mut self.present {
+            place.take_if(|present| goes(present));
+        }
         self.others = ErrorRegister::NONE;
         self.reset_told(dictionary);
         true
@@ -331,8 +332,7 @@ impl<const N: usize> EmergencyProducer<N> {
 
 /// 1014h, if it is switched on.
 fn identifier<'t, D: Dictionary<'t>>(dictionary: &D) -> Option<CanId> {
-    let cob_id = Parameters::of(dictionary).number(0x1014, 0)?;
-    if cob_id & NOT_VALID == 0 { can_id(cob_id) } else { None }
+    valid_id(Parameters::of(dictionary).number(0x1014, 0)?)
 }
 
 /// Puts an error at the top of the history (1003h): the newest is sub-index 1, the oldest is lost when there is no room. A client

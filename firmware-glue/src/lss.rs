@@ -227,6 +227,11 @@ impl Lss {
         node
     }
 
+    /// Nobody sets the slave up any more: the node works, and does not hear the master's end.
+    pub const fn leave(&mut self) {
+        (self.state, self.selected, self.identified, self.scanned) = (LssState::Waiting, 0, 0, 0);
+    }
+
     /// Whether nothing may be sent, because the bit rate is being switched.
     #[must_use]
     pub const fn is_silent(&self) -> bool {

@@ -113,10 +113,10 @@ fn copy_exactly<const N: usize>(place: &mut [u8], data: &[u8]) -> bool {
 
 /// Puts the values of a part of the image back to those after a factory reset, for a node-ID.
 pub(crate) fn reset(table: &Table<'_>, image: &mut [u8], part: &Range<usize>, node_id: u8) {
-    for (at, (byte, factory)) in image.iter_mut().zip(table.parts().factory).enumerate() {
-        if part.contains(&at) {
-            *byte = *factory;
-        }
+    let factory = table.parts().factory;
+    let part = part.start..part.end.min(image.len()).min(factory.len());
+    if let (Some(now), Some(factory)) = (image.get_mut(part.clone()), factory.get(part.clone())) {
+        now.iter_mut().zip(factory).for_each(|(byte, factory)| *byte = *factory);
     }
     for place in table.parts().node_id_places {
         let at = usize::try_from(place.offset).unwrap_or(usize::MAX);

@@ -9,6 +9,7 @@ use crate::id::EntryId;
 pub use crate::rows::{
     Alias, Attributes, EntryRow, Limits, NONE, Parts, Pdo, Place, Region, Row, SparseObject, Storage, entries,
 };
+use crate::text::prefix;
 
 /// Everything about a dictionary but the values in RAM, of which every part fits the others. Of generated code, it is
 /// constant and lies in flash (`Table<'static>`); [`checked`](Self::checked) makes one at run time.
@@ -30,6 +31,13 @@ impl<'t> Found<'t> {
     /// An entry with what it is and the low half of its offset.
     pub(crate) const fn new(row: Row, place: u16, shared: &'t Attributes) -> Self {
         Self { row, place, shared }
+    }
+
+    /// Its bytes in the image, with what tells the length of a string, where it is there.
+    pub(crate) fn place_in_image(self) -> Option<Range<usize>> {
+        let before = self.shared.data_type.string().map_or(0, prefix);
+        let start = self.offset();
+        (self.shared.place == Place::Image).then_some(start..start + usize::from(self.shared.size) + before)
     }
 
     /// Its offset in the image or in the constants.

@@ -122,24 +122,6 @@ fn more_errors_than_there_is_room_for_stay_in_the_register() {
 }
 
 #[test]
-fn what_is_over_at_once_stays_in_the_history_only() {
-    let (mut device, mut producer) = (device(), EmergencyProducer::<2>::new());
-    producer.report(&mut device, Emergency::PDO_LENGTH);
-    assert_eq!(sent(&mut producer, &device, 0), Some([0x10, 0x82, 0x11, 0, 0, 0, 0, 0]));
-    assert_eq!((read(&device, 0x1001, 0), read(&device, 0x1003, 1)), (Ok(0), Ok(0x8210)));
-    assert_eq!(sent(&mut producer, &device, 100), None);
-    producer.report(&mut device, Emergency::PDO_LENGTH);
-    assert_eq!(
-        (sent(&mut producer, &device, 200), read(&device, 0x1003, 0)),
-        (None, Ok(1)),
-        "the same again"
-    );
-    producer.report(&mut device, Emergency::PDO_TOO_LONG);
-    producer.report(&mut device, Emergency::PDO_LENGTH);
-    assert_eq!(read(&device, 0x1003, 0), Ok(3));
-}
-
-#[test]
 fn a_device_without_the_objects_tells_nothing_and_breaks_nothing() {
     let mut device = dictionary(&[value(0x1000, 0, 4, 0)]);
     let mut none = EmergencyProducer::<0>::new();

@@ -108,8 +108,16 @@ impl ErrorControl {
         Some((answer, resumed))
     }
 
-    /// Whether the master's questions have stopped: said once.
+    /// The master is guarding from its next question on, as after a time in which nobody could ask.
+    pub const fn forget_master(&mut self) {
+        self.life = Life::Unguarded;
+    }
+
+    /// Whether the master's questions have stopped: said once. A life time that was set to 0 since ends the guarding, also one that was lost.
     pub fn check_life<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, now: Instant) -> Option<Guarding> {
+        if life_time(dictionary).is_zero() && self.is_lost() {
+            self.forget_master();
+        }
         if now < self.life_ends(dictionary)? {
             return None;
         }
@@ -117,7 +125,7 @@ impl ErrorControl {
         Some(Guarding::Lost)
     }
 
-    /// Whether the master's questions have stopped.
+    /// Whether the master's questions have stopped, as [`check_life`](Self::check_life) saw it last.
     #[must_use]
     pub fn is_lost(&self) -> bool {
         self.life == Life::Lost
@@ -134,9 +142,7 @@ impl ErrorControl {
 
     /// When the master has to have asked again (CiA 301 9.6.3, 100Ch and 100Dh): from its first question on.
     fn life_ends<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
-        let parameters = Parameters::of(dictionary);
-        let guard_time = Duration::from_millis(parameters.word(0x100C, 0).into());
-        let life_time = guard_time.times(parameters.byte(0x100D, 0).into());
+        let life_time = life_time(dictionary);
         match self.life {
             Life::Guarded(asked) if !life_time.is_zero() && heartbeat_time(dictionary).is_zero() => {
                 Some(asked + life_time)
@@ -144,6 +150,12 @@ impl ErrorControl {
             Life::Guarded(_) | Life::Unguarded | Life::Lost => None,
         }
     }
+}
+
+/// 100Ch × 100Dh; no time is off.
+fn life_time<'t, D: Dictionary<'t>>(dictionary: &D) -> Duration {
+    let parameters = Parameters::of(dictionary);
+    Duration::from_millis(parameters.word(0x100C, 0).into()).times(parameters.byte(0x100D, 0).into())
 }
 
 /// 1017h; no time is off.

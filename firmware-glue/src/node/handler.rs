@@ -37,8 +37,9 @@ pub enum Event {
 
 /// An application with a node.
 pub trait NodeHandler<D: Entries>: PdoHandler<D> + LssHandler {
-    /// Called when the node starts again, before its boot-up message: the dictionary has the factory's values, those of the
-    /// communication objects alone if only the communication starts again. The moment to load stored parameters, to put in what the device finds out
+    /// Called when the node starts again, before its boot-up message: the dictionary has the factory's values, of the communication objects alone
+    /// if only the communication starts again. What the device keeps by itself ([`Storage::Remanent`](crate::Storage::Remanent)) is as it was: put in what your memory has
+    /// of it before the node starts for the first time. The moment to load stored parameters, to put in what the device finds out
     /// about itself (serial number), and, at [`Reset::Node`], to bring the application to its beginning.
     fn restart(&mut self, dictionary: &mut D, node: NodeId, reset: Reset) {
         let _ = (dictionary, node, reset);
@@ -78,12 +79,14 @@ impl<'t, D: crate::dictionary::Dictionary<'t>, A: PdoHandler<D>, const ERRORS: u
         };
         match event {
             PdoEvent::TooShort { number } => {
-                self.emergencies.report(dictionary, numbered(Emergency::PDO_LENGTH, number));
+                self.emergencies.raise(dictionary, numbered(Emergency::PDO_LENGTH, number));
             }
             PdoEvent::TooLong { number } => {
-                self.emergencies.report(dictionary, numbered(Emergency::PDO_TOO_LONG, number));
+                self.emergencies.raise(dictionary, numbered(Emergency::PDO_TOO_LONG, number));
             }
-            PdoEvent::SyncLength { .. } => self.emergencies.report(dictionary, Emergency::SYNC_LENGTH),
+            PdoEvent::SyncLength { .. } => {
+                self.emergencies.raise(dictionary, Emergency::SYNC_LENGTH);
+            }
             PdoEvent::Overdue { number } => {
                 self.emergencies.raise(dictionary, numbered(Emergency::RPDO_TIMEOUT, number));
             }

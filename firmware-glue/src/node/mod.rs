@@ -34,28 +34,30 @@
 //! ```
 
 mod handler;
+mod room;
 #[cfg(test)]
 mod tests;
 
 pub use handler::{Event, NodeHandler, Reset};
+pub use room::NoRoom;
 
 use crate::clock::{Instant, earlier};
 use crate::dictionary::Dictionary;
 use crate::emcy::{Emergency, EmergencyProducer, Raised};
 use crate::frame::Frame;
-use crate::lss::{Identity, Lss, LssState, MaybeNode};
+use crate::lss::{Identity, Lss, LssEvent, LssState, MaybeNode};
 use crate::nmt::{
     Command, Consumer, ErrorBehaviour, ErrorControl, Nmt, NodeEvent, Service, State, Transition,
 };
 use crate::node::handler::WithEmergencies;
 use crate::node_id::NodeId;
-use crate::pdo_engine::{PdoEngine, TooManyPdos};
+use crate::pdo_engine::PdoEngine;
 use crate::sdo::{Channel, SdoServer};
 use crate::stored::reset;
-use crate::table::{Place, Table};
-use crate::text::prefix;
+use crate::table::{Region, Storage, Table};
 
-/// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at once and `WATCHED` nodes whose heartbeats it hears. The buffer `B` is that of its
+/// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at once, of which up to five are its own (see [`raise`](Self::raise)), and `WATCHED`
+/// nodes whose heartbeats it hears. The buffer `B` is that of its
 /// SDO server, of `LARGEST_VALUE` bytes.
 #[derive(Debug)]
 pub struct Node<B, const T: usize, const R: usize, const ERRORS: usize, const WATCHED: usize> {
@@ -78,14 +80,18 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     /// A node that starts with the first poll. Without a node-ID, it takes part in nothing but LSS until a master gives it one.
     ///
     /// # Errors
-    /// [`TooManyPdos`] when the dictionary has more than `T` TPDOs or `R` RPDOs.
-    pub fn new(table: &Table<'_>, id: MaybeNode, buffer: B) -> Result<Self, TooManyPdos> {
+    /// [`NoRoom`] when the dictionary has more than `T` TPDOs or `R` RPDOs, or watches more than `WATCHED` nodes.
+    pub fn new(table: &Table<'_>, id: MaybeNode, buffer: B) -> Result<Self, NoRoom> {
+        let watched = watchable(table);
+        if watched > WATCHED {
+            return Err(NoRoom::Watched(watched));
+        }
         Ok(Self {
             nmt: Nmt::new(),
             restart: Some(Reset::Node),
             control: ErrorControl::new(),
             consumer: Consumer::new(),
-            pdos: PdoEngine::new(table)?,
+            pdos: PdoEngine::new(table).map_err(NoRoom::Pdos)?,
             emergencies: EmergencyProducer::new(),
             sdo: SdoServer::new(NO_CHANNEL, buffer),
             lss: Lss::new(id),
@@ -123,7 +129,8 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         &self.emergencies
     }
 
-    /// An error of the device occurs. The codes 8130h (heartbeat) and 8250h (RPDO overdue) belong to the node.
+    /// An error of the device occurs. The codes 8130h (heartbeat), 8210h, 8220h (length of an RPDO), 8240h (length of a SYNC) and 8250h
+    /// (RPDO overdue) belong to the node.
     pub fn raise<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) -> Raised {
         self.emergencies.raise(dictionary, emergency)
     }
@@ -131,6 +138,12 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     /// An error of the device, by its code, is gone. `false` if it was not present.
     pub fn clear<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, code: u16) -> bool {
         self.emergencies.clear(dictionary, code)
+    }
+
+    /// Every error of the device is gone, also those that there was no room for ([`Raised::NotKept`]); what the node itself finds wrong stays.
+    /// `false` if there was none.
+    pub fn clear_all<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) -> bool {
+        self.emergencies.clear_all_but(dictionary, |code| OWN_ERRORS.contains(&code))
     }
 
     /// An event of a TPDO, 1 to 512; see [`PdoEngine::trigger`].
@@ -204,6 +217,11 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         now: Instant,
     ) -> Option<Frame> {
         while let Some(event) = self.lss.poll(now) {
+            if event == LssEvent::Switched {
+                // All were silent: whoever is watched is so from the next frame on.
+                self.consumer = Consumer::new();
+                self.control.forget_master();
+            }
             application.node_event(dictionary, Event::Lss(event));
         }
         // A node that had no node-ID starts as soon as the master has given it one and lets it go.
@@ -222,15 +240,14 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if let Some(heartbeat) = self.control.poll(dictionary, id, self.state(), now) {
             return Some(heartbeat);
         }
-        if self.state().allows(Service::Emergency)
-            && let Some(emergency) = self.emergencies.poll(dictionary, now)
-        {
+        if let Some(emergency) = self.emergency(dictionary, now) {
             return Some(emergency);
         }
         let emergencies = &mut self.emergencies;
-        if let Some(pdo) = self.pdos.poll(dictionary, &mut WithEmergencies { application, emergencies }, now)
-        {
-            return Some(pdo);
+        let pdo = self.pdos.poll(dictionary, &mut WithEmergencies { application, emergencies }, now);
+        // Looking for a PDO may have found one that is overdue.
+        if let Some(frame) = pdo.or_else(|| self.emergency(dictionary, now)) {
+            return Some(frame);
         }
         if self.state().allows(Service::Sdo) {
             self.sdo.poll(dictionary, application, micros(now))
@@ -264,7 +281,12 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         .fold(lss, earlier)
     }
 
-    /// Looks at the nodes that this one relies on.
+    /// An emergency message that is to be sent now.
+    fn emergency<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, now: Instant) -> Option<Frame> {
+        if self.state().allows(Service::Emergency) { self.emergencies.poll(dictionary, now) } else { None }
+    }
+
+    /// Looks at the nodes that this one relies on, and whether what was wrong still is.
     fn watch<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
         &mut self,
         dictionary: &mut D,
@@ -287,8 +309,15 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if !self.consumer.is_any_lost() && !self.control.is_lost() {
             self.emergencies.clear(dictionary, Emergency::HEARTBEAT.code());
         }
-        if !self.pdos.is_any_overdue() {
-            self.emergencies.clear(dictionary, Emergency::RPDO_TIMEOUT.code());
+        for (goes_on, error) in [
+            (self.pdos.is_any_overdue(), Emergency::RPDO_TIMEOUT),
+            (self.pdos.is_any_too_short(), Emergency::PDO_LENGTH),
+            (self.pdos.is_any_too_long(), Emergency::PDO_TOO_LONG),
+            (self.pdos.is_sync_wrong(), Emergency::SYNC_LENGTH),
+        ] {
+            if !goes_on {
+                self.emergencies.clear(dictionary, error.code());
+            }
         }
     }
 
@@ -302,7 +331,10 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     ) {
         match transition {
             Transition::None => return,
-            Transition::To(State::Operational) => self.pdos.start(dictionary, now),
+            Transition::To(State::Operational) => {
+                self.lss.leave();
+                self.pdos.start(dictionary, now);
+            }
             Transition::To(state) => {
                 self.pdos.stop();
                 if !state.allows(Service::Sdo) {
@@ -331,7 +363,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         let id = self.id?;
         match kind {
             Reset::Node => {
-                dictionary.reset(id.get());
+                reset_all(dictionary, id);
                 self.emergencies = EmergencyProducer::new();
             }
             Reset::Communication => reset_communication(dictionary, id),
@@ -346,6 +378,21 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     }
 }
 
+/// Codes of errors that the node finds by itself, and clears as they end.
+const OWN_ERRORS: [u16; 5] = [
+    Emergency::HEARTBEAT.code(),
+    Emergency::PDO_LENGTH.code(),
+    Emergency::PDO_TOO_LONG.code(),
+    Emergency::SYNC_LENGTH.code(),
+    Emergency::RPDO_TIMEOUT.code(),
+];
+
+/// The highest sub-index of 1016h: as many nodes can be watched.
+fn watchable(table: &Table<'_>) -> usize {
+    let last = table.object(0x1016).ok().and_then(Iterator::last);
+    last.map_or(0, |row| table.id(row).sub.into())
+}
+
 /// The channel of an SDO server that has none: NMT commands are no requests.
 const NO_CHANNEL: Channel = Channel { request: crate::frame::CanId::ZERO, answer: crate::frame::CanId::ZERO };
 
@@ -357,18 +404,26 @@ fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Option<Channel>
     }
 }
 
-/// Puts communication objects back to the factory's values, those that are not stored among them, but for the errors that are present and those
-/// that were (1001h to 1003h): they outlive a reset of the communication.
+/// Puts every value back to the factory's, but for those that the device keeps by itself ([`Storage::Remanent`]).
+fn reset_all<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
+    let table = dictionary.table();
+    let kept = table.region(Storage::Remanent).map_or(0..0, Region::range);
+    for part in [0..kept.start, kept.end..usize::MAX] {
+        reset(table, dictionary.image_mut(), &part, id.get());
+    }
+}
+
+/// Puts communication objects back to the factory's values, those that are not stored among them, but for what other commands store, and the
+/// errors that are present and those that were (1001h to 1003h): they outlive a reset of the communication.
 fn reset_communication<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
     let table = dictionary.table();
     for row in 0..table.parts().first_application_row {
         let found = table.found(row);
-        if found.shared.place != Place::Image || matches!(table.id(row).index, 0x1001..=0x1003) {
-            continue;
+        let is_reset = matches!(found.shared.storage, Storage::No | Storage::Communication)
+            && !matches!(table.id(row).index, 0x1001..=0x1003);
+        if let Some(place) = found.place_in_image().filter(|_| is_reset) {
+            reset(table, dictionary.image_mut(), &place, id.get());
         }
-        let before = found.shared.data_type.string().map_or(0, prefix);
-        let end = found.offset() + usize::from(found.shared.size) + before;
-        reset(table, dictionary.image_mut(), &(found.offset()..end), id.get());
     }
 }
 

@@ -1,5 +1,7 @@
 extern crate std;
 
+mod restarts;
+
 use std::vec;
 use std::vec::Vec;
 
@@ -10,9 +12,9 @@ use crate::id::EntryId;
 use crate::lss::{BitRate, LssEvent, LssHandler, Reply};
 use crate::nmt::Guarding;
 use crate::parameters::{Parameters, set};
-use crate::pdo_engine::{PdoEvent, PdoHandler};
+use crate::pdo_engine::{PdoEvent, PdoHandler, TooManyPdos};
 use crate::table::Storage;
-use crate::test_table::{TestDictionary, dictionary, stored, value};
+use crate::test_table::{TestDictionary, TestValue, dictionary, stored, value};
 
 /// What an application hears.
 #[derive(Default)]
@@ -53,35 +55,44 @@ struct Bench {
     heard: Heard,
 }
 
+/// Entries of the node's dictionary.
+fn values() -> Vec<TestValue> {
+    let mut values = vec![
+        value(0x1001, 0, 1, 0),
+        value(0x1003, 0, 1, 0),
+        value(0x1003, 1, 4, 0),
+        value(0x1003, 2, 4, 0),
+        value(0x1005, 0, 4, 0x80),
+        value(0x100C, 0, 2, 100),
+        value(0x100D, 0, 1, 2),
+        value(0x1014, 0, 4, 0x85),
+        value(0x1016, 0, 1, 1),
+        value(0x1016, 1, 4, 0x0007_0064),
+        value(0x1017, 0, 2, 0),
+        value(0x1018, 0, 1, 4),
+        value(0x1018, 1, 4, 1),
+        value(0x1018, 2, 4, 2),
+        value(0x1018, 3, 4, 3),
+        value(0x1018, 4, 4, 4),
+        value(0x1029, 0, 1, 1),
+        value(0x1029, 1, 1, 0),
+    ];
+    for (index, cob_id, mapped) in [(0x1400, 0x205, 0x2000_0010), (0x1800, 0x185, 0x2001_0010)] {
+        values.extend([value(index, 0, 1, 5), value(index, 1, 4, cob_id), value(index, 2, 1, 255)]);
+        values.extend([value(index, 3, 2, 0), value(index, 4, 1, 0), value(index, 5, 2, 50)]);
+        values.extend([value(index + 0x200, 0, 1, 1), value(index + 0x200, 1, 4, mapped)]);
+    }
+    values.extend([value(0x2000, 0, 2, 0), stored(0x2001, 0, 2, 0, Storage::Application)]);
+    values
+}
+
 impl Bench {
     fn new(node: u8) -> Self {
-        let mut values = vec![
-            value(0x1001, 0, 1, 0),
-            value(0x1003, 0, 1, 0),
-            value(0x1003, 1, 4, 0),
-            value(0x1003, 2, 4, 0),
-            value(0x1005, 0, 4, 0x80),
-            value(0x100C, 0, 2, 100),
-            value(0x100D, 0, 1, 2),
-            value(0x1014, 0, 4, 0x85),
-            value(0x1016, 0, 1, 1),
-            value(0x1016, 1, 4, 0x0007_0064),
-            value(0x1017, 0, 2, 0),
-            value(0x1018, 0, 1, 4),
-            value(0x1018, 1, 4, 1),
-            value(0x1018, 2, 4, 2),
-            value(0x1018, 3, 4, 3),
-            value(0x1018, 4, 4, 4),
-            value(0x1029, 0, 1, 1),
-            value(0x1029, 1, 1, 0),
-        ];
-        for (index, cob_id, mapped) in [(0x1400, 0x205, 0x2000_0010), (0x1800, 0x185, 0x2001_0010)] {
-            values.extend([value(index, 0, 1, 5), value(index, 1, 4, cob_id), value(index, 2, 1, 255)]);
-            values.extend([value(index, 3, 2, 0), value(index, 4, 1, 0), value(index, 5, 2, 50)]);
-            values.extend([value(index + 0x200, 0, 1, 1), value(index + 0x200, 1, 4, mapped)]);
-        }
-        values.extend([value(0x2000, 0, 2, 0), stored(0x2001, 0, 2, 0, Storage::Application)]);
-        values.sort_by_key(crate::test_table::TestValue::id);
+        Self::of(values(), node)
+    }
+
+    fn of(mut values: Vec<TestValue>, node: u8) -> Self {
+        values.sort_by_key(TestValue::id);
         let dictionary = dictionary(&values);
         let node = Node::new(dictionary.table(), NodeId::new(node), [0; 16]).expect("two of each");
         Self { dictionary, node, heard: Heard::default() }
@@ -89,7 +100,11 @@ impl Bench {
 
     /// A node that has started at 0, and what was said before is forgotten.
     fn started() -> Self {
-        let mut bench = Self::new(5);
+        Self::started_with(values())
+    }
+
+    fn started_with(values: Vec<TestValue>) -> Self {
+        let mut bench = Self::of(values, 5);
         assert_eq!(bench.sent(0), [(0x705, vec![0])]);
         bench.heard = Heard::default();
         bench
@@ -212,15 +227,70 @@ fn a_master_that_stops_guarding_is_a_lost_heartbeat() {
 #[test]
 fn what_is_wrong_with_pdos_is_an_emergency() {
     let mut bench = Bench::operational();
+    set(&mut bench.dictionary, 0x1800, 5, 0);
+    let sent = |bench: &mut Bench, now| {
+        let emergencies = bench.sent(now).into_iter();
+        emergencies
+            .map(|(_, data)| (u16::from_le_bytes([data[0], data[1]]), data[2], data[3]))
+            .collect::<Vec<_>>()
+    };
     bench.handle(0x205, &[1], 0);
     bench.handle(0x205, &[1, 2, 3], 0);
     bench.handle(0x80, &[1], 0);
-    let codes: Vec<_> =
-        bench.sent(0).into_iter().map(|(_, data)| (data[1], data[0], data[2], data[3])).collect();
-    assert_eq!(codes, [(0x82, 0x10, 0x11, 1), (0x82, 0x20, 0x11, 1), (0x82, 0x40, 0x11, 0)]);
-    assert!(bench.sent(50).contains(&(0x85, vec![0x50, 0x82, 0x11, 1, 0, 0, 0, 0])));
+    assert_eq!(sent(&mut bench, 0), [(0x8210, 0x11, 1), (0x8220, 0x11, 1), (0x8240, 0x11, 0), (0, 0x11, 0)]);
+    assert_eq!((sent(&mut bench, 50), bench.read(0x1001, 0)), (vec![(0x8250, 0x11, 1)], Some(0x11)));
     bench.handle(0x205, &[1, 2], 60);
-    assert_eq!((bench.sent(60), bench.read(0x1001, 0)), (vec![(0x85, vec![0; 8])], Some(0)));
+    assert_eq!(sent(&mut bench, 60), [(0, 0x11, 0), (0, 0x11, 0)]);
+    bench.handle(0x80, &[], 70);
+    assert_eq!((sent(&mut bench, 70), bench.read(0x1001, 0)), (vec![(0, 0, 0)], Some(0)));
+}
+
+#[test]
+fn a_sender_with_another_mapping_does_not_push_an_error_out() {
+    let mut bench = Bench::operational();
+    set(&mut bench.dictionary, 0x1800, 5, 0);
+    bench.node.raise(&mut bench.dictionary, Emergency::new(0x2310));
+    for _ in 0..100 {
+        bench.handle(0x205, &[1], 0);
+        bench.handle(0x80, &[1], 0);
+    }
+    let codes: Vec<_> = bench.sent(0).into_iter().map(|(_, data)| (data[1], data[0])).collect();
+    assert_eq!(codes, [(0x23, 0x10), (0x82, 0x10), (0x82, 0x40)]);
+    bench.handle(0, &[128, 5], 0);
+    assert_eq!(
+        (bench.sent(0).len(), bench.read(0x1001, 0)),
+        (2, Some(3)),
+        "PDOs are over, the current is not"
+    );
+}
+
+#[test]
+fn what_was_not_kept_can_be_cleared_all_the_same() {
+    let mut bench = Bench::operational();
+    bench.handle(0x80, &[1], 0);
+    for code in [0x2310, 0x3110, 0x4210] {
+        bench.node.raise(&mut bench.dictionary, Emergency::new(code));
+    }
+    let not_kept = bench.node.raise(&mut bench.dictionary, Emergency::new(0xFF01));
+    assert_eq!((not_kept, bench.read(0x1001, 0)), (Raised::NotKept, Some(0x9F)));
+    assert!(!bench.node.clear(&mut bench.dictionary, 0xFF01));
+    assert!(bench.node.clear_all(&mut bench.dictionary));
+    assert_eq!(bench.read(0x1001, 0), Some(0x11), "the wrong SYNC stays");
+    assert!(!bench.node.clear_all(&mut bench.dictionary));
+}
+
+#[test]
+fn a_dictionary_that_watches_more_nodes_than_there_is_room_for_has_no_node() {
+    let watching = |nodes| {
+        let mut values = values();
+        values.retain(|value| value.id().0 != 0x1016);
+        values.extend((0..=nodes).map(|sub| value(0x1016, sub, if sub == 0 { 1 } else { 4 }, 0)));
+        values.sort_by_key(TestValue::id);
+        Node::<_, 2, 2, 4, 2>::new(dictionary(&values).table(), NodeId::new(5), [0; 16]).map(drop)
+    };
+    assert_eq!((watching(2), watching(3)), (Ok(()), Err(NoRoom::Watched(3))));
+    let pdos = Node::<_, 0, 2, 4, 2>::new(Bench::new(5).dictionary.table(), None, [0; 16]).map(drop);
+    assert_eq!(pdos, Err(NoRoom::Pdos(TooManyPdos { transmit: 1, receive: 1 })));
 }
 
 #[test]
@@ -338,11 +408,21 @@ fn no_frame_breaks_a_node() {
                 bench.node.raise(&mut bench.dictionary, Emergency::new(0x1000));
             }
         }
-        let mut bench = Bench {
-            node: Node::new(bench.dictionary.table(), NodeId::new(5), [0; 16]).expect("room"),
-            ..bench
-        };
-        assert_eq!(bench.sent(now).first(), Some(&(0x705, vec![0])));
-        assert!(bench.handle(0x605, &UPLOAD_1017H, now).is_some());
+        // The longest silence of LSS ends, before and after switching.
+        for _ in 0..2 {
+            now += 70_000;
+            bench.sent(now);
+        }
+        bench.handle(0, &[129, 0], now);
+        // LSS has taken its node-ID, or it never had one.
+        if bench.sent(now).is_empty() {
+            for request in [[4, 1, 0, 0, 0, 0, 0, 0], [0x11, 5, 0, 0, 0, 0, 0, 0], [4, 0, 0, 0, 0, 0, 0, 0]] {
+                bench.handle(0x7E5, &request, now);
+            }
+            assert_eq!(bench.sent(now), [(0x705, vec![0])]);
+        }
+        let id = bench.node.id().expect("it has started").get();
+        assert_eq!(bench.node.state(), State::PreOperational);
+        assert!(bench.handle(0x600 + u16::from(id), &UPLOAD_1017H, now).is_some());
     }
 }

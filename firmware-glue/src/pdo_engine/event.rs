@@ -10,19 +10,19 @@ use crate::pdo::{PdoError, Refused};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum PdoEvent<E> {
-    /// The values of an RPDO took effect, but for one that was refused and others after it.
+    /// The values of an RPDO took effect, but for those that were refused.
     Received {
         /// Number of the RPDO.
         number: u16,
         /// The first entry that did not take its value.
         refused: Option<Refused<E>>,
     },
-    /// An RPDO has less data than its mapping; nothing took effect. Emergency 8210h (CiA 301 table 21).
+    /// An RPDO has less data than its mapping; nothing took effect. Said once, until a frame has another length. Emergency 8210h (CiA 301 table 21).
     TooShort {
         /// Number of the RPDO.
         number: u16,
     },
-    /// An RPDO has more data than its mapping; the values took effect. Emergency 8220h.
+    /// An RPDO has more data than its mapping; the values take effect. Said once, until a frame has another length. Emergency 8220h.
     TooLong {
         /// Number of the RPDO.
         number: u16,
@@ -51,8 +51,8 @@ pub enum PdoEvent<E> {
         /// Why.
         error: PdoError,
     },
-    /// A SYNC has another length than 1019h says (1 byte if there is a counter, else none), and was not followed.
-    /// Emergency 8240h.
+    /// A SYNC has another length than 1019h says (1 byte if there is a counter, else none), and was not followed. Said once, until one has
+    /// the right length. Emergency 8240h.
     SyncLength {
         /// Bytes that it has.
         length: u8,

@@ -30,7 +30,7 @@ use crate::frame::Frame;
 use crate::mapping::{RECEIVE, TRANSMIT};
 use crate::parameters::Parameters;
 use crate::pdo;
-use crate::pdo_engine::receive::Receive;
+use crate::pdo_engine::receive::{Length, Receive};
 use crate::pdo_engine::settings::Settings;
 use crate::pdo_engine::transmit::Transmit;
 use crate::table::{Pdo, Table};
@@ -41,6 +41,7 @@ pub struct PdoEngine<const T: usize, const R: usize> {
     transmit: [Transmit; T],
     receive: [Receive; R],
     state: Running,
+    sync: SyncLength,
     /// The TPDO that is looked at first, so that each has its turn.
     first: usize,
 }
@@ -50,6 +51,13 @@ pub struct PdoEngine<const T: usize, const R: usize> {
 enum Running {
     No,
     Yes,
+}
+
+/// Whether the last SYNC had the length that 1019h says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum SyncLength {
+    Right,
+    Wrong,
 }
 
 /// A dictionary has more PDOs than an engine has room for.
@@ -80,7 +88,13 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         if transmit > T || receive > R {
             return Err(TooManyPdos { transmit, receive });
         }
-        Ok(Self { transmit: [Transmit::NEW; T], receive: [Receive::NEW; R], state: Running::No, first: 0 })
+        Ok(Self {
+            transmit: [Transmit::NEW; T],
+            receive: [Receive::NEW; R],
+            state: Running::No,
+            sync: SyncLength::Right,
+            first: 0,
+        })
     }
 
     /// The node becomes operational: PDOs begin.
@@ -89,6 +103,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
             slot.start(Settings::of(dictionary, pdo), now);
         }
         self.receive = [Receive::NEW; R];
+        self.sync = SyncLength::Right;
         self.state = Running::Yes;
     }
 
@@ -96,6 +111,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     pub fn stop(&mut self) {
         self.transmit = [Transmit::NEW; T];
         self.receive = [Receive::NEW; R];
+        self.sync = SyncLength::Right;
         self.state = Running::No;
     }
 
@@ -146,15 +162,16 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
             }
             return;
         };
-        // Bits 30 and 31 of 1005h say nothing about its identifier.
-        let sync =
-            Parameters::of(dictionary).number(0x1005, 0).and_then(|cob_id| can_id(cob_id & !(3 << 30)));
+        let sync = Parameters::of(dictionary).number(0x1005, 0).and_then(can_id);
         if sync == Some(frame.id()) {
             let has_counter = Parameters::of(dictionary).byte(0x1019, 0) != 0;
             return match *data {
                 [] if !has_counter => self.sync(None, dictionary, application, now),
                 [counter] if has_counter => self.sync(Some(counter), dictionary, application, now),
-                _ => application.pdo_event(dictionary, PdoEvent::SyncLength { length: frame.length() }),
+                _ if core::mem::replace(&mut self.sync, SyncLength::Wrong) == SyncLength::Right => {
+                    application.pdo_event(dictionary, PdoEvent::SyncLength { length: frame.length() });
+                }
+                _ => {}
             };
         }
         for (slot, pdo) in self.receive.iter_mut().zip(receive_pdos(table)) {
@@ -173,6 +190,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         if self.state == Running::No {
             return;
         }
+        self.sync = SyncLength::Right;
         let table = dictionary.table();
         for (slot, pdo) in self.transmit.iter_mut().zip(transmit_pdos(table)) {
             slot.sync(Settings::of(dictionary, pdo), number(pdo), counter, dictionary, application, now);
@@ -215,6 +233,28 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     #[must_use]
     pub fn is_any_overdue(&self) -> bool {
         self.receive.iter().any(Receive::is_missing)
+    }
+
+    /// Whether the last frame of any RPDO was too short.
+    #[must_use]
+    pub fn is_any_too_short(&self) -> bool {
+        self.is_any(Length::TooShort)
+    }
+
+    /// Whether the last frame of any RPDO was too long.
+    #[must_use]
+    pub fn is_any_too_long(&self) -> bool {
+        self.is_any(Length::TooLong)
+    }
+
+    fn is_any(&self, length: Length) -> bool {
+        self.receive.iter().any(|slot| slot.length() == length)
+    }
+
+    /// Whether the last SYNC had a wrong length.
+    #[must_use]
+    pub fn is_sync_wrong(&self) -> bool {
+        self.sync == SyncLength::Wrong
     }
 
     /// When there is something to do next, unless something happens before.

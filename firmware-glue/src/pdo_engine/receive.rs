@@ -1,9 +1,11 @@
 //! An RPDO (CiA 301 9.2.1).
 
+use core::cmp::Ordering;
+
 use crate::clock::Instant;
 use crate::dictionary::Dictionary;
 use crate::frame::Frame;
-use crate::pdo::{self, PdoError};
+use crate::pdo::{self, PdoError, Received};
 use crate::pdo_engine::event::{PdoEvent, PdoHandler};
 use crate::pdo_engine::settings::{Settings, Transmission};
 
@@ -14,6 +16,7 @@ pub(super) struct Receive {
     /// Data that waits for the next SYNC.
     waiting: Option<Frame>,
     watch: Watch,
+    length: Length,
 }
 
 /// Deadline monitoring by the event timer: from the first reception on.
@@ -24,8 +27,28 @@ enum Watch {
     Overdue,
 }
 
+/// How much data the last frame had, beside the mapping.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Length {
+    /// As much; or none has come.
+    Right,
+    TooShort,
+    TooLong,
+}
+
+impl Length {
+    fn of(found: usize, expected: usize) -> Self {
+        match found.cmp(&expected) {
+            Ordering::Less => Self::TooShort,
+            Ordering::Equal => Self::Right,
+            Ordering::Greater => Self::TooLong,
+        }
+    }
+}
+
 impl Receive {
-    pub(super) const NEW: Self = Self { settings: None, waiting: None, watch: Watch::Awaited };
+    pub(super) const NEW: Self =
+        Self { settings: None, waiting: None, watch: Watch::Awaited, length: Length::Right };
 
     /// Takes up the present parameters; with others, it begins anew.
     fn update(&mut self, settings: Option<Settings>) -> Option<Settings> {
@@ -50,16 +73,17 @@ impl Receive {
         if settings.id != frame.id() {
             return;
         }
-        match pdo::received_length(dictionary, number) {
-            Ok(length) if data.len() < length => {
-                return application.pdo_event(dictionary, PdoEvent::TooShort { number });
-            }
-            Ok(_) => {}
+        let length = match pdo::received_length(dictionary, number) {
+            Ok(expected) => Length::of(data.len(), expected),
             Err(error) => return application.pdo_event(dictionary, PdoEvent::NotReceived { number, error }),
+        };
+        self.judge(length, number, dictionary, application);
+        if length == Length::TooShort {
+            return;
         }
         match settings.transmission {
             Transmission::SyncAfterEvent | Transmission::EverySync(_) => self.waiting = Some(*frame),
-            Transmission::Event => take(number, data, dictionary, application),
+            Transmission::Event => self.take(number, data, dictionary, application),
             // Not for RPDOs: the dictionary refuses them, but a table may begin with one.
             Transmission::RemoteAfterSync | Transmission::Remote | Transmission::Reserved => return,
         }
@@ -79,7 +103,43 @@ impl Receive {
     ) {
         self.update(settings);
         if let Some(data) = self.waiting.take().as_ref().and_then(Frame::bytes) {
-            take(number, data, dictionary, application);
+            self.take(number, data, dictionary, application);
+        }
+    }
+
+    /// A wrong length is told once: every frame of a sender that has another mapping has it.
+    fn judge<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
+        &mut self,
+        length: Length,
+        number: u16,
+        dictionary: &mut D,
+        application: &mut A,
+    ) {
+        if core::mem::replace(&mut self.length, length) == length {
+            return;
+        }
+        match length {
+            Length::Right => {}
+            Length::TooShort => application.pdo_event(dictionary, PdoEvent::TooShort { number }),
+            Length::TooLong => application.pdo_event(dictionary, PdoEvent::TooLong { number }),
+        }
+    }
+
+    /// The values take effect.
+    fn take<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
+        &mut self,
+        number: u16,
+        data: &[u8],
+        dictionary: &mut D,
+        application: &mut A,
+    ) {
+        match pdo::unpack(dictionary, number, data, application) {
+            Ok(Received { refused, .. }) => {
+                application.pdo_event(dictionary, PdoEvent::Received { number, refused });
+            }
+            // The mapping has grown since the data came.
+            Err(PdoError::TooShort) => self.judge(Length::TooShort, number, dictionary, application),
+            Err(error) => application.pdo_event(dictionary, PdoEvent::NotReceived { number, error }),
         }
     }
 
@@ -98,6 +158,11 @@ impl Receive {
         matches!(self.watch, Watch::Overdue)
     }
 
+    /// How much data its last frame had.
+    pub(super) const fn length(&self) -> Length {
+        self.length
+    }
+
     /// When it has to have come.
     pub(super) fn deadline(&self, settings: Option<Settings>) -> Option<Instant> {
         let timer = settings?.timer;
@@ -105,25 +170,5 @@ impl Receive {
             Watch::Came(at) if !timer.is_zero() => Some(at + timer),
             Watch::Awaited | Watch::Came(_) | Watch::Overdue => None,
         }
-    }
-}
-
-/// The values take effect.
-fn take<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
-    number: u16,
-    data: &[u8],
-    dictionary: &mut D,
-    application: &mut A,
-) {
-    match pdo::unpack(dictionary, number, data, application) {
-        Ok(received) => {
-            if received.too_long {
-                application.pdo_event(dictionary, PdoEvent::TooLong { number });
-            }
-            application.pdo_event(dictionary, PdoEvent::Received { number, refused: received.refused });
-        }
-        // The mapping has grown since the data came.
-        Err(PdoError::TooShort) => application.pdo_event(dictionary, PdoEvent::TooShort { number }),
-        Err(error) => application.pdo_event(dictionary, PdoEvent::NotReceived { number, error }),
     }
 }

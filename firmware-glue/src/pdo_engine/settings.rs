@@ -1,7 +1,7 @@
 //! The communication parameters of a PDO (CiA 301 9.6.3, 1400h and 1800h).
 
 use crate::clock::Duration;
-use crate::cob_id::{NO_REMOTE_FRAMES, NOT_VALID, can_id};
+use crate::cob_id::{NO_REMOTE_FRAMES, valid_id};
 use crate::dictionary::Dictionary;
 use crate::frame::CanId;
 use crate::parameters::Parameters;
@@ -51,9 +51,7 @@ impl Settings {
     pub(super) fn of<'t, D: Dictionary<'t>>(dictionary: &D, pdo: &Pdo<'_>) -> Option<Self> {
         let table = dictionary.table();
         let cob_id = at_row(table, dictionary.image(), table.found(pdo.cob_id))?;
-        if cob_id & NOT_VALID != 0 {
-            return None;
-        }
+        let id = valid_id(cob_id)?;
         let parameters = Parameters::of(dictionary);
         let transmission = match parameters.byte(pdo.index, 2) {
             0 => Transmission::SyncAfterEvent,
@@ -66,7 +64,7 @@ impl Settings {
         let remote =
             if cob_id & NO_REMOTE_FRAMES == 0 { RemoteFrames::Answered } else { RemoteFrames::Ignored };
         Some(Self {
-            id: can_id(cob_id & !NO_REMOTE_FRAMES)?,
+            id,
             remote,
             transmission,
             inhibit: Duration::from_tenth_millis(parameters.word(pdo.index, 3).into()),

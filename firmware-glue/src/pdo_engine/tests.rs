@@ -232,6 +232,54 @@ fn a_sync_of_another_length_than_1019h_says_is_told_and_not_followed() {
 }
 
 #[test]
+fn a_wrong_length_is_told_once_until_it_is_right_again() {
+    let long = PdoEvent::TooLong { number: 1 };
+    let short = |number| PdoEvent::TooShort { number };
+    let mut bench = Bench::new([(0x205, 255, 0, 0, 0), (0x206, 1, 0, 0, 0)], [OFF; 2], 0);
+    for _ in 0..10 {
+        bench.handle(&frame(0x205, &[1]), 0);
+        bench.handle(&frame(0x206, &[1]), 0);
+    }
+    assert_eq!(bench.events(), [short(1), short(2)], "two senders in turn");
+    assert!(bench.engine.is_any_too_short() && !bench.engine.is_any_too_long());
+    bench.handle(&frame(0x205, &[1, 0, 0]), 0);
+    bench.handle(&frame(0x205, &[1, 0, 0]), 0);
+    assert_eq!(bench.events(), [long, received(1), received(1)]);
+    bench.handle(&frame(0x206, &[1, 0]), 0);
+    assert!(!bench.engine.is_any_too_short() && bench.engine.is_any_too_long());
+    bench.handle(&frame(0x205, &[1, 0]), 0);
+    assert!(!bench.engine.is_any_too_long());
+    bench.handle(&frame(0x205, &[1]), 0);
+    assert_eq!(bench.events(), [received(1), short(1)], "again");
+    // Other parameters are another beginning.
+    set(&mut bench.dictionary, 0x1400, 1, 0x207);
+    bench.sent(0);
+    assert!(!bench.engine.is_any_too_short());
+    for data in [&[1][..], &[1, 2], &[1]] {
+        bench.handle(&frame(0x80, data), 0);
+    }
+    assert_eq!(
+        (bench.events(), bench.engine.is_sync_wrong()),
+        (vec![PdoEvent::SyncLength { length: 1 }], true)
+    );
+    bench.sync(0);
+    assert_eq!((bench.events(), bench.engine.is_sync_wrong()), (vec![received(2)], false));
+    bench.handle(&frame(0x80, &[1]), 0);
+    bench.engine.stop();
+    assert!(!bench.engine.is_sync_wrong());
+}
+
+#[test]
+fn data_that_waits_may_be_too_short_at_the_sync() {
+    let mut bench = Bench::receiving((0x205, 1, 0, 0, 0));
+    set(&mut bench.dictionary, 0x1600, 1, 0x2000_0008);
+    bench.handle(&frame(0x205, &[1]), 0);
+    set(&mut bench.dictionary, 0x1600, 1, 0x2000_0010);
+    bench.sync(0);
+    assert_eq!((bench.read(0x2000), bench.events()), (0, vec![PdoEvent::TooShort { number: 1 }]));
+}
+
+#[test]
 fn remote_frames_are_answered_as_the_type_says() {
     // 253: at once.
     let mut bench = Bench::transmitting((0x185, 253, 0, 0, 0));

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
-use firmware_glue::nmt::State;
-use firmware_glue::node::{Event, NodeHandler, Reset};
+use firmware_glue::node::{NodeHandler, Reset};
 use firmware_glue::pdo_engine::PdoHandler;
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, NodeId, Storage};
 
@@ -29,8 +28,6 @@ pub enum Checks {
 pub(super) struct Host {
     /// What was stored on command.
     stored: BTreeMap<Storage, Vec<u8>>,
-    /// What the device keeps by itself, as it was before the reset that goes on.
-    kept: Vec<u8>,
     /// Entries that were written and not yet told.
     changed: Vec<EntryId>,
     has_restarted: bool,
@@ -41,10 +38,9 @@ pub(super) struct Host {
 
 impl Host {
     pub(super) fn new(dictionary: &LiveDictionary<'_>) -> Self {
-        let kept = dictionary.stored(Storage::Remanent).to_vec();
         let bit_rates = dictionary.lss().map(|lss| lss.bit_rates.clone()).unwrap_or_default();
         let checks = Checks::None;
-        Self { stored: BTreeMap::new(), kept, changed: Vec::new(), has_restarted: false, checks, bit_rates }
+        Self { stored: BTreeMap::new(), changed: Vec::new(), has_restarted: false, checks, bit_rates }
     }
 
     pub(super) const fn check(&mut self, checks: Checks) {
@@ -109,10 +105,9 @@ impl NodeHandler<LiveDictionary<'_>> for Host {
     fn restart(&mut self, dictionary: &mut LiveDictionary<'_>, _: NodeId, reset: Reset) {
         let mut restore = |storage, bytes: &[u8]| {
             let layout = dictionary.layout(storage);
-            // It has given the bytes itself; there is nothing to take where it keeps nothing.
+            // It has given the bytes itself.
             let _ = dictionary.restore(storage, layout, bytes);
         };
-        restore(Storage::Remanent, &self.kept);
         for (storage, bytes) in &self.stored {
             match (reset, storage) {
                 (Reset::Node, _) | (Reset::Communication, Storage::Communication) => restore(*storage, bytes),
@@ -120,13 +115,6 @@ impl NodeHandler<LiveDictionary<'_>> for Host {
             }
         }
         self.has_restarted = true;
-    }
-
-    fn node_event(&mut self, dictionary: &mut LiveDictionary<'_>, event: Event) {
-        // A reset begins: what the device keeps by itself outlives it.
-        if event == Event::State(State::Initialising) {
-            self.kept = dictionary.stored(Storage::Remanent).to_vec();
-        }
     }
 }
 

@@ -6,7 +6,7 @@ use firmware_glue::clock::Instant;
 use firmware_glue::emcy::{Emergency, Raised};
 use firmware_glue::frame::Frame;
 use firmware_glue::nmt::Service;
-use firmware_glue::pdo_engine::TooManyPdos;
+use firmware_glue::node::NoRoom;
 use firmware_glue::sdo::{Channel, SdoServer};
 use firmware_glue::{AbortCode, Dictionary, EntryId, Node, NodeId};
 
@@ -17,8 +17,8 @@ use super::host::{Checks, Host};
 const PDOS: usize = 512;
 /// Errors at once; with more, those that are too many cannot be cleared one by one.
 const ERRORS: usize = 256;
-/// As many nodes as 1016h can name.
-const WATCHED: usize = 127;
+/// As many nodes as 1016h can have sub-indices.
+const WATCHED: usize = 254;
 
 /// What an LSS master sends; a device without LSS does not hear it.
 const LSS_REQUEST: u16 = 0x7E5;
@@ -46,15 +46,15 @@ pub struct VirtualNode<'t> {
 pub enum NoNode {
     /// The node-ID is none.
     NodeId,
-    /// The dictionary has more PDOs than CANopen.
-    Pdos(TooManyPdos),
+    /// The dictionary has more PDOs, or watches more nodes, than CANopen.
+    Room(NoRoom),
 }
 
 impl fmt::Display for NoNode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NodeId => f.write_str("a node-ID is 1 to 127"),
-            Self::Pdos(pdos) => pdos.fmt(f),
+            Self::Room(room) => room.fmt(f),
         }
     }
 }
@@ -70,7 +70,7 @@ impl<'t> VirtualNode<'t> {
         let id = NodeId::new(id).ok_or(NoNode::NodeId)?;
         let table = dictionary.table();
         let buffer = vec![0; table.largest_value()];
-        let node = Box::new(Node::new(table, Some(id), buffer).map_err(NoNode::Pdos)?);
+        let node = Box::new(Node::new(table, Some(id), buffer).map_err(NoNode::Room)?);
         Ok(Self { node, host: Host::new(&dictionary), dictionary, further: Vec::new() })
     }
 
