@@ -1,7 +1,7 @@
 //! Rules of single communication objects (CiA 301 9.6.3), beyond type and limits.
 
 use crate::abort::AbortCode;
-use crate::cob_id::{check_client_cob_id, check_cob_id, check_produced};
+use crate::cob_id::{NOT_VALID, check_client_cob_id, check_cob_id, check_produced};
 use crate::effect::Effect;
 use crate::id::EntryId;
 use crate::number::unsigned;
@@ -14,30 +14,50 @@ const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// "load", the signature of 1011h.
 const LOAD: u32 = u32::from_le_bytes(*b"load");
 
+/// What a value replaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Before {
+    /// The one of now: a client writes it, and some values change only while a message does not exist.
+    Present,
+    /// None: it comes from a memory.
+    Nothing,
+}
+
 /// Checks a value of the right type and within its limits for the row of a communication object.
 #[inline(never)]
-pub(crate) fn check(table: &Table<'_>, image: &[u8], row: Row, data: &[u8]) -> Result<Effect, AbortCode> {
+pub(crate) fn check(
+    table: &Table<'_>,
+    image: &[u8],
+    row: Row,
+    data: &[u8],
+    before: Before,
+) -> Result<Effect, AbortCode> {
     let EntryId { index, sub } = table.id(row);
     // None of the objects below has more than 32 bits.
     let new = u32::try_from(unsigned(data)).unwrap_or(u32::MAX);
-    let old = || current(table, image, index, sub).unwrap_or(u32::MAX);
+    let old = |nothing| match before {
+        Before::Present => current(table, image, index, sub).unwrap_or(u32::MAX),
+        Before::Nothing => nothing,
+    };
     match (index, sub) {
+        // What the device itself holds, and no client writes.
+        (0x1003, 0) | (0x1010 | 0x1011, _) if before == Before::Nothing => {}
         (0x1003, 0) if new != 0 => return Err(AbortCode::INVALID_VALUE),
-        (0x1005 | 0x1012, 0) => check_produced(old(), new)?,
+        (0x1005 | 0x1012, 0) => check_produced(old(0), new)?,
         (0x1010, 1..) => return command(new, SAVE),
         (0x1011, 1..) => return command(new, LOAD),
-        (0x1014, 0) | (0x1028, 1..) | (0x1200..0x1280, 1 | 2) => check_cob_id(old(), new)?,
-        (0x1280..0x1300, 1 | 2) => check_client_cob_id(sub, old(), new)?,
+        (0x1014, 0) | (0x1028, 1..) | (0x1200..0x1280, 1 | 2) => check_cob_id(old(NOT_VALID), new)?,
+        (0x1280..0x1300, 1 | 2) => check_client_cob_id(sub, old(NOT_VALID), new)?,
         // The node-ID of the other side of an SDO channel, and reactions that CiA 301 reserves.
         (0x1201..0x1300, 3) if new > 127 => return Err(AbortCode::INVALID_VALUE),
         (0x1029, 1..) if matches!(new, 3..=127) => return Err(AbortCode::INVALID_VALUE),
         (0x1016, 1..) => check_heartbeat(table, image, sub, new)?,
-        (0x1019, 0) => check_counter(table, image, new)?,
+        (0x1019, 0) => check_counter(table, image, new, before)?,
         (0x1400..0x1600 | 0x1800..0x1A00, _) => {
-            pdo_parameters::check_communication(table, image, index, sub, new)?;
+            pdo_parameters::check_communication(table, image, index, sub, new, before)?;
         }
         (0x1600..0x1800 | 0x1A00..0x1C00, _) => {
-            pdo_parameters::check_mapping(table, image, index, sub, new)?;
+            pdo_parameters::check_mapping(table, image, index, sub, new, before)?;
         }
         _ => {}
     }
@@ -68,10 +88,11 @@ fn check_heartbeat(table: &Table<'_>, image: &[u8], sub: u8, new: u32) -> Result
 }
 
 /// 1019h: 0 or 2 to 240, and only while no SYNC is produced (1006h is 0).
-fn check_counter(table: &Table<'_>, image: &[u8], new: u32) -> Result<(), AbortCode> {
+fn check_counter(table: &Table<'_>, image: &[u8], new: u32, before: Before) -> Result<(), AbortCode> {
     if matches!(new, 1 | 241..) {
         Err(AbortCode::INVALID_VALUE)
-    } else if current(table, image, 0x1006, 0).is_some_and(|period| period != 0) {
+    } else if before == Before::Present && current(table, image, 0x1006, 0).is_some_and(|period| period != 0)
+    {
         Err(AbortCode::DEVICE_STATE)
     } else {
         Ok(())

@@ -3,12 +3,13 @@
 use crate::abort::AbortCode;
 use crate::application::Application;
 use crate::check::check_value;
-use crate::communication;
+use crate::communication::{self, Before};
+use crate::corrected::correct;
 use crate::effect::Effect;
 use crate::entries::Entries;
 use crate::info::Info;
 use crate::stored::{put, reset, value_of};
-use crate::table::{Attributes, Flags, Found, NONE, Place, Row, Storage, Table};
+use crate::table::{Attributes, Flags, Found, NONE, Place, Region, Row, Storage, Table};
 use crate::value::{Value, number};
 
 /// A dictionary: values in a byte image, everything else in a table that lives for `'t`, of generated code for `'static`. The
@@ -227,7 +228,8 @@ pub trait Dictionary<'t>: Entries {
     }
 
     /// Takes back bytes that [`stored`](Self::stored) gave, with the number that [`layout`](Self::layout) had then. The values
-    /// themselves are not checked: keep a checksum beside them. Entries that follow the node-ID come back as they were saved.
+    /// themselves are not checked: keep a checksum beside them, and let [`correct_stored`](Self::correct_stored) look at what another firmware may have
+    /// saved. Entries that follow the node-ID come back as they were saved: where the region has such ([`follows_node_id`](Self::follows_node_id)), keep the node-ID beside them, too.
     ///
     /// # Errors
     /// [`OtherLayout`] if they are not of this layout; nothing changes then.
@@ -241,6 +243,22 @@ pub trait Dictionary<'t>: Entries {
             }
             _ => Err(OtherLayout),
         }
+    }
+
+    /// Looks at the values of a storage group that came from a memory: what its entry cannot have any more, as it has other limits in
+    /// this firmware, gets the value after a factory reset for a node-ID from 1 to 127; parameters of a PDO, all of that PDO. The first such entry.
+    fn correct_stored(&mut self, storage: Storage, node_id: u8) -> Option<Self::Entry> {
+        let table = self.table();
+        let part = table.region(storage)?.range();
+        let row = correct(table, self.image_mut(), &part, node_id)?;
+        self.entry(row)
+    }
+
+    /// Whether values of a storage group have the node-ID added to them after a factory reset: then they are of no use to another node.
+    fn follows_node_id(&self, storage: Storage) -> bool {
+        let part = self.table().region(storage).map_or(0..0, Region::range);
+        let places = self.table().parts().node_id_places;
+        places.iter().any(|place| usize::try_from(place.offset).is_ok_and(|at| part.contains(&at)))
     }
 
     /// A number that changes whenever another set of entries, types or places is stored in a group; 0 where nothing is stored.
@@ -307,7 +325,7 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
     let effect = if holder.row >= table.parts().first_application_row {
         Effect::Store
     } else {
-        communication::check(table, dictionary.image(), holder.row, data)?
+        communication::check(table, dictionary.image(), holder.row, data, Before::Present)?
     };
     check_condition(dictionary, found.shared)?;
     if holder.row != found.row {

@@ -36,6 +36,7 @@ pub mod clock;
 mod cob_id;
 mod communication;
 mod constraint;
+mod corrected;
 mod data_type;
 mod dictionary;
 mod directory;
@@ -61,9 +62,9 @@ pub mod named;
 pub mod nmt;
 #[cfg(feature = "node")]
 pub mod node;
-#[cfg(any(feature = "node", feature = "storage"))]
 mod node_id;
 mod number;
+pub mod parameter_groups;
 #[cfg(feature = "node")]
 mod parameters;
 pub mod pdo;
@@ -109,7 +110,6 @@ pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
 #[cfg(feature = "node")]
 pub use node::Node;
-#[cfg(any(feature = "node", feature = "storage"))]
 pub use node_id::NodeId;
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]

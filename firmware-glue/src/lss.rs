@@ -9,8 +9,8 @@ use crate::frame::{CanId, Frame};
 use crate::node_id::NodeId;
 use crate::parameters::Parameters;
 
-/// Identifier of the master's requests.
-const REQUEST: u16 = 0x7E5;
+/// Identifier of the master's requests. [`Node`](crate::Node) answers them: a device without LSS leaves out frames with it.
+pub const REQUEST: u16 = 0x7E5;
 /// Identifier of the slave's answers.
 const ANSWER: u16 = 0x7E4;
 

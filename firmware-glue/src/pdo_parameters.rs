@@ -2,6 +2,7 @@
 
 use crate::abort::AbortCode;
 use crate::cob_id::{NO_REMOTE_FRAMES, NOT_VALID, check_cob_id};
+use crate::communication::Before;
 use crate::mapping::{FRAME_BITS, MAPPING, Mapped, TRANSMIT, width};
 use crate::stored::current;
 use crate::table::{Flags, Found, Table};
@@ -13,8 +14,9 @@ pub(crate) fn check_communication(
     index: u16,
     sub: u8,
     new: u32,
+    before: Before,
 ) -> Result<(), AbortCode> {
-    let cob_id = current(table, image, index, 1).unwrap_or(NOT_VALID);
+    let cob_id = cob_id(table, image, index, before);
     let is_valid = cob_id & NOT_VALID == 0;
     let refused = match sub {
         1 if index < TRANSMIT && new & NO_REMOTE_FRAMES != 0 => true,
@@ -35,10 +37,13 @@ pub(crate) fn check_mapping(
     index: u16,
     sub: u8,
     new: u32,
+    before: Before,
 ) -> Result<(), AbortCode> {
-    let cob_id = current(table, image, index - MAPPING, 1).unwrap_or(NOT_VALID);
-    let count = current(table, image, index, 0).unwrap_or_default();
-    if cob_id & NOT_VALID == 0 || sub != 0 && count != 0 {
+    let is_used = match before {
+        Before::Present => sub != 0 && current(table, image, index, 0).unwrap_or_default() != 0,
+        Before::Nothing => false,
+    };
+    if cob_id(table, image, index - MAPPING, before) & NOT_VALID == 0 || is_used {
         return Err(AbortCode::UNSUPPORTED_ACCESS);
     }
     let direction = if index >= TRANSMIT { Flags::TRANSMIT } else { Flags::RECEIVE };
@@ -56,6 +61,14 @@ pub(crate) fn check_mapping(
         bits += check_mapped(table, direction, parameter)?;
     }
     if bits > FRAME_BITS { Err(AbortCode::PDO_LENGTH) } else { Ok(()) }
+}
+
+/// The COB-ID of a PDO before a change.
+fn cob_id(table: &Table<'_>, image: &[u8], index: u16, before: Before) -> u32 {
+    match before {
+        Before::Present => current(table, image, index, 1).unwrap_or(NOT_VALID),
+        Before::Nothing => NOT_VALID,
+    }
 }
 
 /// Whether a mapping parameter can be used in a direction; its bits.

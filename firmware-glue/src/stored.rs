@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use crate::abort::AbortCode;
-use crate::image;
+use crate::image::{self, NodeIdPlace};
 use crate::number::unsigned;
 use crate::table::{Attributes, Found, Place, Row, Table};
 use crate::text::{prefix, store_string, trimmed};
@@ -124,4 +124,21 @@ pub(crate) fn reset(table: &Table<'_>, image: &mut [u8], part: &Range<usize>, no
             image::add(image, at, place.size.into(), node_id);
         }
     }
+}
+
+/// Whether an entry of the image has the value of a factory reset, for a node-ID; by its bytes.
+pub(crate) fn is_reset(table: &Table<'_>, image: &[u8], part: &Range<usize>, node_id: u8) -> bool {
+    let (Some(now), Some(factory)) = (image.get(part.clone()), table.parts().factory.get(part.clone()))
+    else {
+        return false;
+    };
+    let mut places = table.parts().node_id_places.iter();
+    let follows = |place: &&NodeIdPlace| usize::try_from(place.offset) == Ok(part.start);
+    let Some(place) = places.find(follows) else { return now == factory };
+    // What follows the node-ID is a number.
+    let mut number = [0; 8];
+    let Some(expected) = number.get_mut(..factory.len()) else { return false };
+    expected.iter_mut().zip(factory).for_each(|(byte, factory)| *byte = *factory);
+    image::add(expected, 0, place.size.into(), node_id);
+    now == expected
 }

@@ -7,8 +7,10 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::data_type::DataType;
+use crate::image::NodeIdPlace;
 use crate::table::{
-    Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Pdo, Place, Region, Row, Storage, Table,
+    Attributes, Block, Directory, EntryRow, Flags, Limits, NONE, Parts, Pdo, Place, Region, Row, Storage,
+    Table,
 };
 use crate::table_dictionary::TableDictionary;
 
@@ -23,9 +25,28 @@ pub(crate) struct TestValue {
     size: u16,
     factory: u32,
     storage: Storage,
+    follows: Follows,
+    most: Option<i64>,
+}
+
+/// Whether the node-ID is added to the factory value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Follows {
+    Nothing,
+    NodeId,
 }
 
 impl TestValue {
+    /// With the node-ID added to its factory value.
+    pub(crate) fn and_node_id(self) -> Self {
+        Self { follows: Follows::NodeId, ..self }
+    }
+
+    /// With a largest value.
+    pub(crate) fn at_most(self, most: i64) -> Self {
+        Self { most: Some(most), ..self }
+    }
+
     /// Where it is.
     pub(crate) fn id(&self) -> (u16, u8) {
         (self.index, self.sub)
@@ -39,7 +60,7 @@ pub(crate) fn value(index: u16, sub: u8, size: u16, factory: u32) -> TestValue {
 
 /// An entry of a storage group.
 pub(crate) fn stored(index: u16, sub: u8, size: u16, factory: u32, storage: Storage) -> TestValue {
-    TestValue { index, sub, size, factory, storage }
+    TestValue { index, sub, size, factory, storage, follows: Follows::Nothing, most: None }
 }
 
 /// A dictionary of entries in order, the sub-indices of an object without gaps.
@@ -74,7 +95,13 @@ fn table(values: &[TestValue], layout: u32) -> Table<'static> {
             regions.push(Region { storage: group, start, end, layout: layout + start });
         }
     }
-    let attributes = values.iter().map(attributes).collect();
+    let attributes = (0..).zip(values).map(|(row, value)| attributes(row, value)).collect();
+    let limits = values.iter().map(|value| Limits { low: 0, high: value.most.unwrap_or(u32::MAX.into()) });
+    let follow = values.iter().zip(&places).filter(|(value, _)| value.follows == Follows::NodeId);
+    let node_id_places = follow.map(|(value, place)| NodeIdPlace {
+        offset: (*place).into(),
+        size: u8::try_from(value.size).expect("a number"),
+    });
     let numbered = (0..).zip(&places);
     let entries = numbered.map(|(attributes, place)| EntryRow { attributes, place: *place }).collect();
     let first = |value: &&TestValue| value.sub == 0;
@@ -113,12 +140,14 @@ fn table(values: &[TestValue], layout: u32) -> Table<'static> {
         attributes: leak(attributes),
         factory: leak(factory),
         regions: leak(regions),
+        limits: leak(limits.collect()),
+        node_id_places: leak(node_id_places.collect()),
         ..Parts::EMPTY
     })
     .expect("parts that fit")
 }
 
-fn attributes(value: &TestValue) -> Attributes {
+fn attributes(row: Row, value: &TestValue) -> Attributes {
     let data_type = match value.size {
         1 => DataType::Unsigned8,
         2 => DataType::Unsigned16,
@@ -133,7 +162,7 @@ fn attributes(value: &TestValue) -> Attributes {
         storage: value.storage,
         page: 0,
         size,
-        limits: NONE,
+        limits: if value.most.is_some() { row } else { NONE },
         values: NONE,
         condition: NONE,
     }

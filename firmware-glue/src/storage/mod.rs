@@ -8,7 +8,8 @@
 //! - values that are not as they were written are never taken: where both slots are lost, the factory's values remain.
 //!
 //! "Restore defaults" writes a record without the group, and so takes effect when the values are loaded the next time, after a reset, as
-//! CiA 301 says. Values of another layout (of a firmware with other entries) are not taken, either.
+//! CiA 301 says. Values of another layout (of a firmware with other entries) are not taken, either, nor those of another node-ID where they follow it, nor
+//! single ones that their entries cannot have any more.
 //!
 //! ```ignore
 //! let mut store = ParameterStore::<_, 64>::new(flash, 0x0800_C000, 2048)?;
@@ -25,6 +26,8 @@
 //! ```
 
 mod crc;
+mod groups;
+mod loaded;
 mod record;
 #[cfg(all(test, feature = "node"))]
 mod tests;
@@ -33,23 +36,23 @@ use core::fmt;
 
 use embedded_storage::nor_flash::NorFlash;
 
+pub use crate::parameter_groups::{ALL, Command};
+pub use crate::storage::loaded::{Copies, Loaded, Outcome};
+
 use crate::abort::AbortCode;
 use crate::dictionary::Dictionary;
-use crate::id::EntryId;
 use crate::node_id::NodeId;
-use crate::storage::record::{
-    EMPTY_RECORD, Part, Reader, SECTION, STORED, Section, Slot, Unreadable, Writer,
-};
+use crate::storage::groups::{PerGroup, STORED};
+use crate::storage::record::{EMPTY_RECORD, Part, Reader, SECTION, Section, Slot, Unreadable, Writer};
 use crate::table::{Region, Storage};
-
-/// The groups that a client stores: those of sub-index 1.
-pub const ALL: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
 
 /// Parameters in two slots of a flash, read and written `CHUNK` bytes at a time: a multiple of the sizes that the flash reads and writes.
 #[derive(Debug)]
 pub struct ParameterStore<F, const CHUNK: usize> {
     flash: F,
     slots: [Slot; 2],
+    /// The node that the values of a group in the dictionary are for.
+    nodes: PerGroup<Option<NodeId>>,
 }
 
 /// Why a part of a flash cannot be used.
@@ -64,7 +67,7 @@ pub enum BadArea {
     Capacity,
 }
 
-/// Why parameters were not stored; those of before are kept.
+/// Why parameters were not stored. The next load finds those of before; or the new ones, if the flash has taken everything and only said that it had not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StoreError<E> {
@@ -74,12 +77,17 @@ pub enum StoreError<E> {
     TooLarge,
     /// What was written is not what is read.
     NotVerified,
+    /// Values of a group follow the node-ID, and the group was not loaded, so that nobody knows whose they are.
+    NotLoaded,
 }
 
 /// A store that failed is a hardware error (CiA 301 9.6.3, 1010h).
 impl<E> From<StoreError<E>> for AbortCode {
-    fn from(_: StoreError<E>) -> Self {
-        Self::HARDWARE
+    fn from(error: StoreError<E>) -> Self {
+        match error {
+            StoreError::Flash(_) | StoreError::TooLarge | StoreError::NotVerified => Self::HARDWARE,
+            StoreError::NotLoaded => Self::INTERNAL,
+        }
     }
 }
 
@@ -89,92 +97,12 @@ impl<E: fmt::Debug> fmt::Display for StoreError<E> {
             Self::Flash(error) => write!(f, "flash: {error:?}"),
             Self::TooLarge => f.write_str("the parameters are larger than a slot"),
             Self::NotVerified => f.write_str("the parameters are not as they were written"),
+            Self::NotLoaded => f.write_str("the parameters were not loaded for a node-ID"),
         }
     }
 }
 
 impl<E: fmt::Debug> core::error::Error for StoreError<E> {}
-
-/// In how many slots the newest record is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Copies {
-    /// None: nothing was stored, or everything is lost.
-    None,
-    /// One; [`ParameterStore::repair`] makes it two.
-    One,
-    /// Both.
-    Both,
-}
-
-/// What became of a storage group at loading.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Outcome {
-    /// It has the factory's values: it was not stored, or is to be.
-    Defaults,
-    /// It has its stored values.
-    Restored,
-    /// It has the factory's values, because the stored ones are of another layout.
-    OtherLayout,
-}
-
-/// What was loaded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Loaded {
-    /// Where the values were.
-    pub copies: Copies,
-    outcomes: [Outcome; STORED.len()],
-}
-
-impl Loaded {
-    /// What became of a group.
-    pub fn outcome(&self, storage: Storage) -> Outcome {
-        let at = STORED.iter().position(|stored| *stored == storage);
-        at.and_then(|at| self.outcomes.get(at)).copied().unwrap_or(Outcome::Defaults)
-    }
-
-    fn set(&mut self, storage: Storage, outcome: Outcome) {
-        let outcomes = STORED.iter().zip(&mut self.outcomes);
-        outcomes.filter(|(stored, _)| **stored == storage).for_each(|(_, place)| *place = outcome);
-    }
-}
-
-/// What a client tells by a signature in 1010h or 1011h.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Command {
-    /// Store the values of now (1010h), by sub-index.
-    Save(u8),
-    /// The factory's values, from the next reset on (1011h), by sub-index.
-    Restore(u8),
-}
-
-impl Command {
-    /// The command of an entry, if it is one.
-    #[must_use]
-    pub const fn of(entry: EntryId) -> Option<Self> {
-        match (entry.index, entry.sub) {
-            (0x1010, sub @ 1..=127) => Some(Self::Save(sub)),
-            (0x1011, sub @ 1..=127) => Some(Self::Restore(sub)),
-            _ => None,
-        }
-    }
-
-    /// The groups that it is about (CiA 301 9.6.3, 1010h): sub-index 1 all, 2 communication, 3 application, others the manufacturer's.
-    #[must_use]
-    pub const fn groups(self) -> &'static [Storage] {
-        let (Self::Save(sub) | Self::Restore(sub)) = self;
-        match sub {
-            1 => &ALL,
-            2 => &[Storage::Communication],
-            3 => &[Storage::Application],
-            4..=127 => &[Storage::Manufacturer],
-            _ => &[],
-        }
-    }
-}
 
 /// The newest record.
 #[derive(Debug, Clone, Copy)]
@@ -205,7 +133,8 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         if usize::try_from(end).map_or(true, |end| end > flash.capacity()) {
             return Err(BadArea::Capacity);
         }
-        Ok(Self { flash, slots: [Slot { start, end: middle }, Slot { start: middle, end }] })
+        let slots = [Slot { start, end: middle }, Slot { start: middle, end }];
+        Ok(Self { flash, slots, nodes: PerGroup::all(None) })
     }
 
     /// The flash.
@@ -214,20 +143,24 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
     }
 
     /// Puts groups to the values that hold after a reset: the stored ones, else the factory's for the node-ID. At power-on and
-    /// "reset node" that is all groups, at "reset communication" [`Storage::Communication`].
+    /// "reset node" that is [`ALL`], at "reset communication" [`Storage::Communication`]. Values that follow another node-ID than this one are not taken;
+    /// a group without such values is the same for every node-ID.
     pub fn load<'t, D: Dictionary<'t>>(
         &mut self,
         dictionary: &mut D,
         node: NodeId,
         groups: &[Storage],
     ) -> Loaded {
-        let none = Loaded { copies: Copies::None, outcomes: [Outcome::Defaults; STORED.len()] };
+        for storage in groups {
+            self.nodes.set(*storage, Some(node));
+        }
         // The newest first; what turns out not to be intact after all leaves the other one.
         let mut lost = None;
         while let Some(newest) = self.newest(lost) {
             reset(dictionary, node, groups);
-            let mut loaded = Loaded { copies: newest.copies, ..none };
-            if self.load_record(newest.slot, dictionary, groups, &mut loaded).is_ok() {
+            let mut loaded = Loaded::new(newest.copies);
+            if self.load_record(newest.slot, dictionary, node, groups, &mut loaded).is_ok() {
+                correct(dictionary, node, &mut loaded);
                 return loaded;
             }
             if lost.replace(newest.slot).is_some() {
@@ -235,13 +168,14 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
             }
         }
         reset(dictionary, node, groups);
-        none
+        Loaded::new(Copies::None)
     }
 
     fn load_record<'t, D: Dictionary<'t>>(
         &mut self,
         slot: Slot,
         dictionary: &mut D,
+        node: NodeId,
         groups: &[Storage],
         loaded: &mut Loaded,
     ) -> Result<(), Unreadable> {
@@ -249,22 +183,28 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         let table = dictionary.table();
         while let Part::Section(section) = reader.part(&mut self.flash)? {
             let Section { storage, length, .. } = section;
+            if !groups.contains(&storage) {
+                reader.skip(&mut self.flash, length)?;
+                continue;
+            }
+            let follows = dictionary.follows_node_id(storage).then_some(node);
             let region = table.region(storage).filter(|region| is_of(section, region));
             let place = region.and_then(|region| dictionary.image_mut().get_mut(region.range()));
-            match place.filter(|_| groups.contains(&storage)) {
-                Some(place) => {
+            let outcome = match (place, section.node, follows) {
+                (Some(place), saved, now) if saved == now => {
                     for byte in place {
                         *byte = reader.byte(&mut self.flash)?;
                     }
-                    loaded.set(storage, Outcome::Restored);
+                    Outcome::Restored
                 }
-                None => {
-                    reader.skip(&mut self.flash, length)?;
-                    if groups.contains(&storage) {
-                        loaded.set(storage, Outcome::OtherLayout);
-                    }
-                }
+                (Some(_), Some(_), Some(_)) => Outcome::OtherNode,
+                // Also where a firmware added the node-ID to values, or did not, and this one does otherwise.
+                (Some(_), Some(_), None) | (Some(_), None, _) | (None, _, _) => Outcome::OtherLayout,
+            };
+            if outcome != Outcome::Restored {
+                reader.skip(&mut self.flash, length)?;
             }
+            loaded.set(storage, outcome);
         }
         reader.is_intact(&mut self.flash)
     }
@@ -272,7 +212,7 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
     /// Carries out a command of a client.
     ///
     /// # Errors
-    /// [`StoreError`]; what was stored before is kept.
+    /// [`StoreError`].
     pub fn command<'t, D: Dictionary<'t>>(
         &mut self,
         dictionary: &D,
@@ -284,10 +224,11 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         }
     }
 
-    /// Stores the values of now of some groups; those of others stay as they are stored.
+    /// Stores the values of now of some groups; those of others stay as they are stored, also for another node-ID. A group that follows the node-ID
+    /// belongs to the node that it was [loaded](Self::load) for last.
     ///
     /// # Errors
-    /// [`StoreError`]; what was stored before is kept. [`Copies::One`] if it is stored, but the second copy failed.
+    /// [`StoreError`]. [`Copies::One`] if it is stored, but the second copy failed.
     pub fn save<'t, D: Dictionary<'t>>(
         &mut self,
         dictionary: &D,
@@ -334,6 +275,9 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         if largest(dictionary) > usize::try_from(first.end - first.start).unwrap_or(0) {
             return Err(StoreError::TooLarge);
         }
+        for storage in with {
+            self.node_of(dictionary, *storage)?;
+        }
         let newest = self.newest(None);
         let slot = newest.map_or(first, |newest| self.other(newest.slot));
         let number = newest.map_or(0, |newest| newest.number.wrapping_add(1));
@@ -343,7 +287,8 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         }
         for storage in STORED.into_iter().filter(|storage| with.contains(storage)) {
             if let Some(region) = dictionary.table().region(storage) {
-                writer.section(&mut self.flash, section_of(region))?;
+                let section = section_of(region, self.node_of(dictionary, storage)?);
+                writer.section(&mut self.flash, section)?;
                 writer.bytes(&mut self.flash, dictionary.stored(storage))?;
             }
         }
@@ -432,6 +377,18 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         }
     }
 
+    /// Whose the values of a group are, if they follow the node-ID.
+    fn node_of<'t, D: Dictionary<'t>>(
+        &self,
+        dictionary: &D,
+        storage: Storage,
+    ) -> Result<Option<NodeId>, StoreError<F::Error>> {
+        if !dictionary.follows_node_id(storage) {
+            return Ok(None);
+        }
+        self.nodes.of(storage).flatten().map(Some).ok_or(StoreError::NotLoaded)
+    }
+
     fn other(&self, slot: Slot) -> Slot {
         let [first, second] = self.slots;
         if slot == first { second } else { first }
@@ -449,18 +406,30 @@ fn reset<'t, D: Dictionary<'t>>(dictionary: &mut D, node: NodeId, groups: &[Stor
     }
 }
 
+/// Puts right what entries cannot have of what was restored.
+fn correct<'t, D: Dictionary<'t>>(dictionary: &mut D, node: NodeId, loaded: &mut Loaded) {
+    for storage in STORED {
+        if loaded.outcome(storage) == Outcome::Restored
+            && let Some(entry) = dictionary.correct_stored(storage, node.get())
+        {
+            loaded.set(storage, Outcome::RestoredBut(dictionary.info(entry).id()));
+        }
+    }
+}
+
 /// The section of a region.
-fn section_of(region: &Region) -> Section {
+fn section_of(region: &Region, node: Option<NodeId>) -> Section {
     Section {
         storage: region.storage,
+        node,
         layout: region.layout,
         length: region.end.saturating_sub(region.start),
     }
 }
 
-/// Whether the values of a section are those of a region.
+/// Whether the values of a section are those of a region, of whichever node.
 fn is_of(section: Section, region: &Region) -> bool {
-    section == section_of(region)
+    section == section_of(region, section.node)
 }
 
 /// Bytes of a record with all groups of a dictionary.

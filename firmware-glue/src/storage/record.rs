@@ -1,17 +1,19 @@
 //! How a record lies in flash, byte by byte.
 //!
 //! A record begins a slot and is: four bytes that name the format, its number, sections, an end, the checksum of all before; numbers
-//! are little-endian. A section is a storage group (4 bytes, of which the first counts), the layout number and the number of
+//! are little-endian. A section is a storage group (1 byte), the node-ID if its values follow it, else 0 (1 byte), two zeros, the layout number and the number of
 //! bytes of its values, and these. The checksum is written last, so that a record that was not finished is none.
 
 use embedded_storage::nor_flash::NorFlash;
 
+use crate::node_id::NodeId;
 use crate::storage::StoreError;
 use crate::storage::crc::Crc;
+use crate::storage::groups::STORED;
 use crate::table::Storage;
 
 /// The format; another one is another four bytes.
-pub(super) const FORMAT: [u8; 4] = *b"ODr1";
+pub(super) const FORMAT: [u8; 4] = *b"ODr2";
 
 /// Bytes of a record without sections: format, number, end, checksum.
 pub(super) const EMPTY_RECORD: usize = 16;
@@ -26,6 +28,8 @@ const END: u8 = 0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Section {
     pub storage: Storage,
+    /// Whose values they are, if they are of no use to another node.
+    pub node: Option<NodeId>,
     pub layout: u32,
     pub length: u32,
 }
@@ -100,18 +104,23 @@ impl<const CHUNK: usize> Reader<CHUNK> {
 
     /// The head of the next section, or the end. Values have to be read, or skipped, before the next.
     pub(super) fn part<F: NorFlash>(&mut self, flash: &mut F) -> Result<Part, Unreadable> {
-        let [group, zeros @ ..] = self.array::<F, 4>(flash)?;
-        if zeros != [0; 3] {
+        let [group, node, zeros @ ..] = self.array::<F, 4>(flash)?;
+        if zeros != [0; 2] {
             return Err(Unreadable::NoRecord);
         }
+        let node = match (node, NodeId::new(node)) {
+            (0, _) => None,
+            (_, Some(node)) => Some(node),
+            (_, None) => return Err(Unreadable::NoRecord),
+        };
         if group == END {
-            return Ok(Part::End);
+            return if node.is_none() { Ok(Part::End) } else { Err(Unreadable::NoRecord) };
         }
         let storage =
             STORED.into_iter().find(|storage| code(*storage) == group).ok_or(Unreadable::NoRecord)?;
         let layout = u32::from_le_bytes(self.array(flash)?);
         let length = u32::from_le_bytes(self.array(flash)?);
-        Ok(Part::Section(Section { storage, layout, length }))
+        Ok(Part::Section(Section { storage, node, layout, length }))
     }
 
     /// Leaves out the values of a section.
@@ -176,7 +185,7 @@ impl<const CHUNK: usize> Writer<CHUNK> {
         flash: &mut F,
         section: Section,
     ) -> Result<(), StoreError<F::Error>> {
-        self.bytes(flash, &[code(section.storage), 0, 0, 0])?;
+        self.bytes(flash, &[code(section.storage), section.node.map_or(0, NodeId::get), 0, 0])?;
         self.bytes(flash, &section.layout.to_le_bytes())?;
         self.bytes(flash, &section.length.to_le_bytes())
     }
@@ -199,10 +208,6 @@ impl<const CHUNK: usize> Writer<CHUNK> {
         Ok(())
     }
 }
-
-/// Storage groups that can be stored.
-pub(super) const STORED: [Storage; 4] =
-    [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent];
 
 /// How a record names a storage group: not by the order of the enumeration, which may change.
 const fn code(storage: Storage) -> u8 {

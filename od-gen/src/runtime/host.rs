@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
 use firmware_glue::node::{NodeHandler, Reset};
+use firmware_glue::parameter_groups::{ALL, Command};
 use firmware_glue::pdo_engine::PdoHandler;
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, NodeId, Storage};
 
 use super::LiveDictionary;
-
-/// What a node stores on command, one after the other.
-const STORED: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
 
 /// What a virtual node checks of a value beyond what its dictionary says. A firmware chooses, too: it gives its services the application, or
 /// the application behind [`firmware_glue::Consistent`].
@@ -27,7 +25,9 @@ pub enum Checks {
 #[derive(Debug)]
 pub(super) struct Host {
     /// What was stored on command.
-    stored: BTreeMap<Storage, Vec<u8>>,
+    stored: BTreeMap<Storage, Stored>,
+    /// The node that the values of a group in the dictionary are for.
+    nodes: BTreeMap<Storage, NodeId>,
     /// Entries that were written and not yet told.
     changed: Vec<EntryId>,
     has_restarted: bool,
@@ -36,11 +36,26 @@ pub(super) struct Host {
     bit_rates: Vec<u16>,
 }
 
+/// Values of a storage group.
+#[derive(Debug)]
+struct Stored {
+    /// Whose they are, if they follow the node-ID.
+    node: Option<NodeId>,
+    bytes: Vec<u8>,
+}
+
 impl Host {
     pub(super) fn new(dictionary: &LiveDictionary<'_>) -> Self {
         let bit_rates = dictionary.lss().map(|lss| lss.bit_rates.clone()).unwrap_or_default();
         let checks = Checks::None;
-        Self { stored: BTreeMap::new(), changed: Vec::new(), has_restarted: false, checks, bit_rates }
+        Self {
+            stored: BTreeMap::new(),
+            nodes: BTreeMap::new(),
+            changed: Vec::new(),
+            has_restarted: false,
+            checks,
+            bit_rates,
+        }
     }
 
     pub(super) const fn check(&mut self, checks: Checks) {
@@ -71,12 +86,17 @@ impl Application<LiveDictionary<'_>> for Host {
             Checks::Constraints if dictionary.stays_consistent(entry, value) => {}
             Checks::Constraints => return Err(AbortCode::INCOMPATIBLE),
         }
-        for storage in STORED.into_iter().filter(|storage| is_meant(entry.sub, *storage)) {
-            match entry.index {
-                0x1010 => drop(self.stored.insert(storage, dictionary.stored(storage).to_vec())),
+        let Some(command) = Command::of(entry) else { return Ok(()) };
+        for storage in command.groups() {
+            match command {
+                Command::Save(_) => {
+                    let follows = dictionary.follows_node_id(*storage);
+                    let node = self.nodes.get(storage).copied().filter(|_| follows);
+                    let bytes = dictionary.stored(*storage).to_vec();
+                    self.stored.insert(*storage, Stored { node, bytes });
+                }
                 // It takes effect with the next reset.
-                0x1011 => drop(self.stored.remove(&storage)),
-                _ => {}
+                Command::Restore(_) => drop(self.stored.remove(storage)),
             }
         }
         Ok(())
@@ -102,28 +122,25 @@ impl LssHandler for Host {
 }
 
 impl NodeHandler<LiveDictionary<'_>> for Host {
-    fn restart(&mut self, dictionary: &mut LiveDictionary<'_>, _: NodeId, reset: Reset) {
-        let mut restore = |storage, bytes: &[u8]| {
-            let layout = dictionary.layout(storage);
-            // It has given the bytes itself.
-            let _ = dictionary.restore(storage, layout, bytes);
+    fn restart(&mut self, dictionary: &mut LiveDictionary<'_>, node: NodeId, reset: Reset) {
+        let groups: &[Storage] = match reset {
+            Reset::Node => &ALL,
+            Reset::Communication => &[Storage::Communication],
         };
-        for (storage, bytes) in &self.stored {
-            match (reset, storage) {
-                (Reset::Node, _) | (Reset::Communication, Storage::Communication) => restore(*storage, bytes),
-                (Reset::Communication, _) => {}
+        for storage in groups {
+            self.nodes.insert(*storage, node);
+            // What follows another node-ID would have this node use the identifiers of that one.
+            if let Some(stored) = self.stored.get(storage)
+                && stored.node.is_none_or(|saved| saved == node)
+            {
+                let layout = dictionary.layout(*storage);
+                // It has given the bytes itself.
+                let _ = dictionary.restore(*storage, layout, &stored.bytes);
             }
         }
         self.has_restarted = true;
     }
 }
 
-/// Whether a sub-index of 1010h and 1011h is about a group.
-const fn is_meant(sub: u8, storage: Storage) -> bool {
-    match storage {
-        Storage::Communication => matches!(sub, 1 | 2),
-        Storage::Application => matches!(sub, 1 | 3),
-        Storage::Manufacturer => matches!(sub, 1 | 4..),
-        Storage::No | Storage::Remanent => false,
-    }
-}
+#[cfg(test)]
+mod tests;

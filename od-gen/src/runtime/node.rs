@@ -5,6 +5,7 @@ use std::fmt;
 use firmware_glue::clock::Instant;
 use firmware_glue::emcy::{Emergency, Raised};
 use firmware_glue::frame::Frame;
+use firmware_glue::lss;
 use firmware_glue::nmt::Service;
 use firmware_glue::node::NoRoom;
 use firmware_glue::sdo::{Channel, SdoServer};
@@ -19,9 +20,6 @@ const PDOS: usize = 512;
 const ERRORS: usize = 256;
 /// As many nodes as 1016h can have sub-indices.
 const WATCHED: usize = 254;
-
-/// What an LSS master sends; a device without LSS does not hear it.
-const LSS_REQUEST: u16 = 0x7E5;
 
 /// A virtual node. Frames go in, frames come out, and the time is told, in microseconds from any beginning.
 ///
@@ -86,7 +84,8 @@ impl<'t> VirtualNode<'t> {
 
     /// Takes a frame, and says what answers it. What else there is to say comes with [`poll`](Self::poll).
     pub fn take(&mut self, frame: &Frame, now: u64) -> Option<Frame> {
-        if frame.id().get() == LSS_REQUEST && self.dictionary.lss().is_none() {
+        // A device without LSS does not hear the master.
+        if frame.id().get() == lss::REQUEST && self.dictionary.lss().is_none() {
             return None;
         }
         let (dictionary, host) = (&mut self.dictionary, &mut self.host);
