@@ -53,17 +53,17 @@ fn check_usable(cob_id: u32) -> Result<(), AbortCode> {
     if cob_id & EXTENDED != 0 || restricted { Err(AbortCode::INVALID_VALUE) } else { Ok(()) }
 }
 
-/// The identifier of a message that bit 31 does not switch off.
-#[cfg(feature = "node")]
-pub(crate) fn valid_id(cob_id: u32) -> Option<CanId> {
-    if cob_id & NOT_VALID == 0 { can_id(cob_id) } else { None }
-}
-
-/// The identifier in a COB-ID, whatever bits 30 and 31 say; `None` of one with 29 bits, which the services do not use.
+/// The identifier in a COB-ID, whatever else it says; `None` of one with 29 bits, which the services do not use.
 #[cfg(feature = "node")]
 pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
     if cob_id & EXTENDED != 0 {
         return None;
     }
     CanId::new(u16::try_from(cob_id & CAN_ID).ok()?)
+}
+
+/// The identifier of a message that bit 31 does not switch off.
+#[cfg(feature = "node")]
+pub(crate) fn valid_id(cob_id: u32) -> Option<CanId> {
+    if cob_id & NOT_VALID == 0 { can_id(cob_id) } else { None }
 }

@@ -16,7 +16,7 @@
 //!
 //! # Features
 //!
-//! - `defmt`: `defmt::Format` for everything that has `Debug`, also in generated code
+//! - `defmt`: `defmt::Format` for codes, events, states, frames and values, also in generated code; not for tables and for the services themselves
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 //! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
 //! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
@@ -122,6 +122,6 @@ pub use time::Time;
 pub use value::Value;
 
 /// What the README shows compiles.
-#[cfg(all(doctest, feature = "sdo-server"))]
+#[cfg(all(doctest, feature = "node"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

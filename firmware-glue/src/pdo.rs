@@ -67,6 +67,7 @@ use crate::table::{Found, Place, Row, Table};
 
 /// The data of a PDO.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Frame {
     bytes: [u8; 8],
     length: u8,
@@ -103,7 +104,7 @@ pub enum PdoError {
 pub struct Received<E> {
     /// The frame is longer than the mapping. CiA 301 allows for the emergency 8220h; the bytes beyond were ignored.
     pub too_long: bool,
-    /// The first entry that did not take its value. The others got theirs.
+    /// The first entry that did not take its value. Those that none refuses got theirs.
     pub refused: Option<Refused<E>>,
 }
 

@@ -167,3 +167,18 @@ fn attributes(row: Row, value: &TestValue) -> Attributes {
         condition: NONE,
     }
 }
+
+mod tests {
+    use super::*;
+    use crate::abort::AbortCode;
+
+    #[test]
+    fn the_device_holds_what_an_entry_can_have() {
+        let mut held = dictionary(&[value(0x2000, 0, 2, 7)]);
+        let read =
+            |held: &TestDictionary| held.held(0).map(|value| value.bytes().first().copied()).ok().flatten();
+        assert_eq!((held.hold(0, &[9, 0]), read(&held)), (Ok(()), Some(9)));
+        assert!(held.hold(0, &[1]).is_err() && held.hold(0, &[1, 2, 3]).is_err());
+        assert_eq!((held.hold(7, &[1, 0]), read(&held)), (Err(AbortCode::UNSUPPORTED_ACCESS), Some(9)));
+    }
+}

@@ -11,12 +11,29 @@
 //! CiA 301 says. Values of another layout (of a firmware with other entries) are not taken, either, nor those of another node-ID where they follow it, nor
 //! single ones that their entries cannot have any more.
 //!
-//! ```ignore
-//! let mut store = ParameterStore::<_, 64>::new(flash, 0x0800_C000, 2048)?;
-//! let loaded = store.load(&mut od, node, &store::ALL); // at power-on, and at "reset node"
+//! ```
+//! use embedded_storage::nor_flash::NorFlash;
+//! use firmware_glue::storage::{ALL, BadArea, Command, Loaded, ParameterStore};
+//! use firmware_glue::{AbortCode, Application, Dictionary, NodeId};
 //!
-//! impl Application<Pmc> for Drive {
-//!     fn accept(&mut self, od: &mut Pmc, entry: Entry, _: &[u8]) -> Result<(), AbortCode> {
+//! struct Drive<F> {
+//!     store: ParameterStore<F, 64>,
+//! }
+//!
+//! impl<F: NorFlash> Drive<F> {
+//!     /// Two slots of 2 KiB, 48 KiB behind the beginning of the flash.
+//!     fn new(flash: F) -> Result<Self, BadArea> {
+//!         Ok(Self { store: ParameterStore::new(flash, 0xC000, 2048)? })
+//!     }
+//!
+//!     /// At power-on, and at "reset node"; at "reset communication", the communication parameters alone.
+//!     fn restart<'t, D: Dictionary<'t>>(&mut self, od: &mut D, node: NodeId) -> Loaded {
+//!         self.store.load(od, node, &ALL)
+//!     }
+//! }
+//!
+//! impl<'t, D: Dictionary<'t>, F: NorFlash> Application<D> for Drive<F> {
+//!     fn accept(&mut self, od: &mut D, entry: D::Entry, _: &[u8]) -> Result<(), AbortCode> {
 //!         match Command::of(od.info(entry).id()) {
 //!             Some(command) => self.store.command(od, command).map(drop).map_err(AbortCode::from),
 //!             None => Ok(()),

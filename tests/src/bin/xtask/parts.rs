@@ -217,7 +217,11 @@ impl Part {
     /// Runs it. What it leaves out, because a registry cannot be reached, stands in the runner.
     pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
         match self {
-            Part::Rust => runner.cargo(&["test", "--workspace", "--no-fail-fast"]),
+            Part::Rust => {
+                runner.cargo(&["test", "--workspace", "--no-fail-fast"])?;
+                // What no other package asks for.
+                runner.cargo(&["test", "--package", "firmware-glue", "--all-features", "--no-fail-fast"])
+            }
             // On a machine that is busy with other parts.
             Part::Mutants => runner.fuzz(&["--seconds", "90", "--seed", "1"]),
             Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
