@@ -61,7 +61,6 @@ pub mod named;
 pub mod nmt;
 #[cfg(feature = "node")]
 pub mod node;
-#[cfg(any(feature = "node", feature = "storage"))]
 mod node_id;
 mod number;
 #[cfg(feature = "node")]
@@ -109,7 +108,6 @@ pub use info::Info;
 pub use named::{BitField, Enumeration, UnknownValue};
 #[cfg(feature = "node")]
 pub use node::Node;
-#[cfg(any(feature = "node", feature = "storage"))]
 pub use node_id::NodeId;
 pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]
