@@ -1,7 +1,7 @@
 //! COB-IDs in communication objects (CiA 301 9.6.3).
 
 use crate::abort::AbortCode;
-#[cfg(feature = "node")]
+#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 use crate::frame::CanId;
 
 /// Bit 31 of COB-ID entries: the message does not exist.
@@ -54,7 +54,7 @@ fn check_usable(cob_id: u32) -> Result<(), AbortCode> {
 }
 
 /// The identifier in a COB-ID, whatever else it says; `None` of one with 29 bits, which the services do not use.
-#[cfg(feature = "node")]
+#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
     if cob_id & EXTENDED != 0 {
         return None;

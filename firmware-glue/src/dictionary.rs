@@ -133,18 +133,8 @@ pub trait Dictionary<'t>: Entries {
     where
         't: 'v,
     {
-        let table = self.table();
-        let found = table.lookup(index, sub)?;
-        if !found.shared.flags.has(Flags::READ) {
-            return Err(AbortCode::WRITE_ONLY);
-        }
-        if let Some(entry) = self.entry(found.row) {
-            application.refresh(self, self.entry(table.holder(found.row)).unwrap_or(entry));
-        }
-        if index == 0x1003 && sub > 0 {
-            communication::history_has(table, self.image(), sub)?;
-        }
-        value_of(table, self.image(), found)
+        let found = readable(self, index, sub, application)?;
+        value_of(self.table(), self.image(), found)
     }
 
     /// Writes an entry as an SDO client does. The checks come in the order of CiA 301's servers: the entry exists, its
@@ -163,10 +153,7 @@ pub trait Dictionary<'t>: Entries {
         data: &[u8],
         application: &mut A,
     ) -> Result<Self::Entry, AbortCode> {
-        let found = self.table().lookup(index, sub)?;
-        if !found.shared.flags.has(Flags::WRITE) {
-            return Err(AbortCode::READ_ONLY);
-        }
+        let found = writable(self.table(), index, sub)?;
         write_row(self, found, data, application)
     }
 
@@ -279,6 +266,49 @@ impl core::fmt::Display for OtherLayout {
 }
 
 impl core::error::Error for OtherLayout {}
+
+/// An entry that a client may read, after the application had the chance to bring its value up to date.
+#[inline]
+pub(crate) fn readable<'t, D: Dictionary<'t>, A: Application<D>>(
+    dictionary: &mut D,
+    index: u16,
+    sub: u8,
+    application: &mut A,
+) -> Result<Found<'t>, AbortCode> {
+    let table = dictionary.table();
+    let found = table.lookup(index, sub)?;
+    if !found.shared.flags.has(Flags::READ) {
+        return Err(AbortCode::WRITE_ONLY);
+    }
+    refresh(dictionary, found, application);
+    if index == 0x1003 && sub > 0 {
+        communication::history_has(table, dictionary.image(), sub)?;
+    }
+    Ok(found)
+}
+
+/// Gives the application the chance to bring a value up to date.
+#[inline]
+pub(crate) fn refresh<'t, D: Dictionary<'t>, A: Application<D>>(
+    dictionary: &mut D,
+    found: Found<'t>,
+    application: &mut A,
+) {
+    let holder = match found.shared.place {
+        Place::Alias => dictionary.table().holder(found.row),
+        Place::Image | Place::Constant | Place::Application => found.row,
+    };
+    if let Some(entry) = dictionary.entry(holder) {
+        application.refresh(dictionary, entry);
+    }
+}
+
+/// An entry that a client may write, in some state of the device.
+#[inline]
+pub(crate) fn writable<'t>(table: &Table<'t>, index: u16, sub: u8) -> Result<Found<'t>, AbortCode> {
+    let found = table.lookup(index, sub)?;
+    if found.shared.flags.has(Flags::WRITE) { Ok(found) } else { Err(AbortCode::READ_ONLY) }
+}
 
 /// A DOMAIN with an access; `refusal` tells that it has not.
 fn find_domain<'t>(

@@ -29,6 +29,13 @@ impl Flags {
         Self(self.0 | more.0)
     }
 
+    /// Those of some flags that are set.
+    #[cfg(feature = "sdo-server")]
+    #[inline]
+    pub(crate) const fn of(self, some: Self) -> Self {
+        Self(self.0 & some.0)
+    }
+
     /// Whether all of some flags are set.
     #[inline]
     pub const fn has(self, all: Self) -> bool {

@@ -89,6 +89,16 @@ impl Frame {
         }
     }
 
+    /// The bytes of a data frame that has all eight.
+    #[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
+    #[inline]
+    pub(crate) const fn all_eight(&self) -> Option<&[u8; 8]> {
+        match &self.content {
+            Content::Data { bytes, length: 8 } => Some(bytes),
+            Content::Data { .. } | Content::Remote { .. } => None,
+        }
+    }
+
     /// Length of the data that a frame carries or, if it is a remote frame, asks for: 0 to 8 bytes.
     #[must_use]
     pub const fn length(&self) -> u8 {

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-#[cfg(feature = "node")]
+#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 use crate::frame::CanId;
 
 /// Which node of a network: 1 to 127 (CiA 301 9.4).
@@ -24,7 +24,7 @@ impl NodeId {
     }
 
     /// The node's own identifier behind a base below 780h, such as 700h (CiA 301 table 34).
-    #[cfg(feature = "node")]
+    #[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
     pub(crate) fn identifier(self, base: u16) -> CanId {
         CanId::new(base + u16::from(self.0)).unwrap_or(CanId::MAX)
     }
@@ -37,7 +37,7 @@ impl fmt::Display for NodeId {
     }
 }
 
-#[cfg(all(test, feature = "node"))]
+#[cfg(all(test, any(feature = "sdo-server", feature = "sdo-client")))]
 mod tests {
     use super::NodeId;
 

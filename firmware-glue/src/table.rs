@@ -133,6 +133,25 @@ impl<'t> Table<'t> {
         self.find_sparse(first, sub)
     }
 
+    /// [`lookup`](Self::lookup) of an entry that has some flags and is in an object without gaps, as almost every one is. Why another
+    /// entry is not found is left to `lookup`.
+    #[cfg(feature = "sdo-server")]
+    #[inline]
+    pub(crate) fn look_quickly(&self, index: u16, sub: u8, flags: Flags) -> Option<Found<'t>> {
+        let Range { start: first, end } = self.object(index).ok()?;
+        let row = first.saturating_add(u16::from(sub));
+        if row >= end {
+            return None;
+        }
+        let EntryRow { attributes, place } = *self.0.entries.get(usize::from(row))?;
+        let shared = self.0.attributes.get(usize::from(attributes))?;
+        if shared.flags.of(flags.with(Flags::SPARSE)) == flags {
+            Some(Found { row, place, shared })
+        } else {
+            None
+        }
+    }
+
     /// What is in a row.
     #[inline]
     pub(crate) fn found(&self, row: Row) -> Found<'t> {

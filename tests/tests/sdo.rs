@@ -4,11 +4,12 @@
 
 use std::collections::VecDeque;
 
+use firmware_glue::clock::{Duration, Instant};
 use firmware_glue::frame::Frame;
 use firmware_glue::sdo::{Channel, Failure, Filled, SdoClient, SdoRead, SdoServer, SdoWrite, Step, Way};
 use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place};
 use firmware_glue::{
-    AbortCode, Application, DataType, Dictionary, Entries, EntryId, Storage, Table, TableDictionary,
+    AbortCode, Application, DataType, Dictionary, Entries, EntryId, NodeId, Storage, Table, TableDictionary,
 };
 use proptest::prelude::*;
 
@@ -16,6 +17,8 @@ const LARGEST: u16 = 2000;
 const TEXT: EntryId = EntryId { index: 0x2000, sub: 0 };
 const DOMAIN: EntryId = EntryId { index: 0x2001, sub: 0 };
 const NUMBER: EntryId = EntryId { index: 0x2002, sub: 0 };
+/// When a transfer begins: later than 32 bits of microseconds can say.
+const BEGIN: Instant = Instant::from_micros(1 << 33);
 /// Length and bytes of the string, and four bytes of the number.
 const VALUES: usize = 2 + 2000 + 4;
 
@@ -35,6 +38,10 @@ const ENTRIES: [EntryRow; 3] = [
     EntryRow { attributes: 1, place: 0 },
     EntryRow { attributes: 2, place: 2002 },
 ];
+
+fn channel() -> Channel {
+    Channel::predefined(NodeId::new(5).unwrap())
+}
 
 /// An application with one DOMAIN, which it takes over when it is complete.
 #[derive(Default)]
@@ -122,24 +129,24 @@ impl<'f> Bus<'f> {
 
 /// A transfer of the client, of either kind.
 trait Transfer {
-    fn handle(&mut self, frame: &Frame, now: u32) -> Step;
-    fn poll(&mut self, now: u32) -> Step;
+    fn handle(&mut self, frame: &Frame, now: Instant) -> Step;
+    fn poll(&mut self, now: Instant) -> Step;
 }
 
 impl Transfer for SdoRead<Filled<'_>> {
-    fn handle(&mut self, frame: &Frame, now: u32) -> Step {
+    fn handle(&mut self, frame: &Frame, now: Instant) -> Step {
         Self::handle(self, frame, now)
     }
-    fn poll(&mut self, now: u32) -> Step {
+    fn poll(&mut self, now: Instant) -> Step {
         Self::poll(self, now)
     }
 }
 
 impl Transfer for SdoWrite<&[u8]> {
-    fn handle(&mut self, frame: &Frame, now: u32) -> Step {
+    fn handle(&mut self, frame: &Frame, now: Instant) -> Step {
         Self::handle(self, frame, now)
     }
-    fn poll(&mut self, now: u32) -> Step {
+    fn poll(&mut self, now: Instant) -> Step {
         Self::poll(self, now)
     }
 }
@@ -157,12 +164,11 @@ impl Node<'_> {
     /// Runs a transfer to its end, over a bus on which some frames have fates of their own; how it ends.
     fn run(&mut self, transfer: &mut impl Transfer, request: Frame, fates: [&Fates; 2]) -> Outcome {
         let [mut there, mut back] = fates.map(|fates| Bus::new(fates));
-        // Close to the end of the counter, so that it wraps.
-        let mut now = u32::MAX - 500_000;
+        let mut now = BEGIN;
         let mut outcome = None;
         there.send(request);
         for _ in 0..20_000 {
-            now = now.wrapping_add(1000);
+            now = now + Duration::from_millis(1);
             if let Some(frame) = there.frames.pop_front() {
                 let answer = self.server.handle(&frame, &mut self.dictionary, &mut self.program, now);
                 if let Some(frame) = answer {
@@ -207,12 +213,12 @@ fn with_node<R>(test: impl FnOnce(&mut Node<'_>) -> R) -> R {
     };
     let table = Table::checked(parts).unwrap();
     let dictionary = TableDictionary::new(&table, vec![0; VALUES], 1).unwrap();
-    let server = SdoServer::new(Channel::predefined(5).unwrap(), vec![0; usize::from(LARGEST)]);
+    let server = SdoServer::new(channel(), vec![0; usize::from(LARGEST)]);
     test(&mut Node { dictionary, program: Program::default(), server })
 }
 
 fn client(way: Way, block_size: u8) -> SdoClient {
-    SdoClient { way, block_size, ..SdoClient::new(Channel::predefined(5).unwrap()) }
+    SdoClient { way, block_size, ..SdoClient::new(channel()) }
 }
 
 /// Bytes that differ by place and by seed, so that a mixture is seen.
@@ -244,7 +250,7 @@ fn kept(id: EntryId, bytes: &[u8]) -> bool {
 fn write_and_read(node: &mut Node<'_>, id: EntryId, client: SdoClient, new: &[u8], fates: [&Fates; 4]) {
     let [there, back, there_again, back_again] = fates;
     let old = value(node, id);
-    let (mut writing, request) = client.start_write(id, new, u32::MAX - 500_000).unwrap();
+    let (mut writing, request) = client.start_write(id, new, BEGIN).unwrap();
     let written = node.run(&mut writing, request, [there, back]);
     let held = value(node, id);
     match written {
@@ -256,7 +262,7 @@ fn write_and_read(node: &mut Node<'_>, id: EntryId, client: SdoClient, new: &[u8
         written.unwrap();
     }
     let mut buffer = [0; 3000];
-    let (mut reading, request) = client.start_read(id, Filled::new(&mut buffer), u32::MAX - 500_000);
+    let (mut reading, request) = client.start_read(id, Filled::new(&mut buffer), BEGIN);
     let read = node.run(&mut reading, request, [there_again, back_again]);
     if read.is_ok() {
         assert_eq!(reading.sink().bytes(), held);
@@ -362,10 +368,10 @@ fn a_server_survives_any_frames_and_writes_what_is_complete_only() {
     ];
     with_node(|node| {
         let mut numbers = Numbers(0x5EED);
-        let channel = Channel::predefined(5).unwrap();
-        let (mut now, mut writes, mut aborts) = (0_u32, 0_u32, 0_u32);
+        let channel = channel();
+        let (mut now, mut writes, mut aborts) = (BEGIN, 0_u32, 0_u32);
         for _ in 0..1_000_000 {
-            now = now.wrapping_add(u32::try_from(numbers.below(3000)).unwrap());
+            now = now + Duration::from_micros(numbers.below(3000));
             let request = any_frame(&mut numbers, &COMMANDS);
             let before = (node.dictionary.image().to_vec(), node.program.complete.clone());
             let frame = Frame::full(channel.request, request);
@@ -399,18 +405,18 @@ fn a_client_survives_any_frames() {
         0xC0, 0xC6, 0xC1, 0xD5, 0x01,
     ];
     let mut numbers = Numbers(0x00C0_FFEE);
-    let channel = Channel::predefined(5).unwrap();
+    let channel = channel();
     let (mut done, mut failed, mut frames) = (0_u32, 0_u32, 0_u32);
     while frames < 1_000_000 {
         let way = if numbers.below(2) == 0 { Way::Segments } else { Way::Blocks };
         let id = EntryId { index: 0x2000 + u16::try_from(numbers.below(4)).unwrap(), sub: 0 };
         let (mut buffer, new) = ([0; 64], data(usize::try_from(numbers.below(40)).unwrap(), 1));
         let mut transfer: Box<dyn Transfer> = if numbers.below(2) == 0 {
-            Box::new(client(way, 3).start_read(id, Filled::new(&mut buffer), 0).0)
+            Box::new(client(way, 3).start_read(id, Filled::new(&mut buffer), BEGIN).0)
         } else {
-            Box::new(client(way, 3).start_write(id, &new[..], 0).unwrap().0)
+            Box::new(client(way, 3).start_write(id, &new[..], BEGIN).unwrap().0)
         };
-        for now in 0.. {
+        for now in (0..).map(|after| BEGIN + Duration::from_micros(after)) {
             frames += 1;
             let frame = Frame::full(channel.answer, any_frame(&mut numbers, &COMMANDS));
             let step = transfer.handle(&frame, now);
@@ -421,7 +427,10 @@ fn a_client_survives_any_frames() {
                 None => continue,
             }
             // It is over, and stays so.
-            assert_eq!(transfer.poll(u32::MAX), Step { send: None, outcome: None });
+            assert_eq!(
+                transfer.poll(BEGIN + Duration::from_millis(u64::MAX)),
+                Step { send: None, outcome: None }
+            );
             break;
         }
     }
@@ -429,35 +438,19 @@ fn a_client_survives_any_frames() {
 }
 
 #[test]
-fn a_server_that_says_nothing_is_given_up() {
-    let (mut writing, _) = client(Way::Blocks, 127).start_write(TEXT, &[1; 9][..], u32::MAX).unwrap();
-    assert_eq!(writing.poll(999_998), Step { send: None, outcome: None });
-    let step = writing.poll(999_999);
-    assert_eq!(step.outcome, Some(Err(Failure::Client(AbortCode::TIMEOUT))));
-    assert_eq!(step.send.unwrap().bytes(), Some(&[0x80, 0x00, 0x20, 0, 0, 0, 4, 5][..]));
-}
-
-#[test]
-fn what_a_server_cannot_do_in_blocks_is_done_in_segments() {
-    let channel = Channel::predefined(5).unwrap();
-    let hear = |bytes| Frame::full(channel.answer, bytes);
-    let sent = |step: Step| step.send.unwrap().bytes().unwrap().to_vec();
-    // It does not know them.
-    let (mut writing, _) = client(Way::Blocks, 127).start_write(TEXT, &[1; 9][..], 0).unwrap();
-    let step = writing.handle(&hear([0x80, 0, 0x20, 0, 1, 0, 4, 5]), 0);
-    assert_eq!(sent(step), [0x21, 0, 0x20, 0, 9, 0, 0, 0]);
-    // It knows them without checksums.
-    let (mut writing, _) = client(Way::Blocks, 127).start_write(TEXT, &[1; 9][..], 0).unwrap();
-    let step = writing.handle(&hear([0xA0, 0, 0x20, 0, 127, 0, 0, 0]), 0);
-    assert_eq!(sent(step)[0], 0x80);
-    assert_eq!(sent(writing.poll(0)), [0x21, 0, 0x20, 0, 9, 0, 0, 0]);
-    let mut buffer = [0; 9];
-    let (mut reading, _) = client(Way::Blocks, 127).start_read(TEXT, Filled::new(&mut buffer), 0);
-    let step = reading.handle(&hear([0xC2, 0, 0x20, 0, 9, 0, 0, 0]), 0);
-    assert_eq!(sent(step)[0], 0x80);
-    assert_eq!(sent(reading.poll(0)), [0x40, 0, 0x20, 0, 0, 0, 0, 0]);
-    // An entry that is not there is not asked for again.
-    let (mut writing, _) = client(Way::Blocks, 127).start_write(TEXT, &[1; 9][..], 0).unwrap();
-    let step = writing.handle(&hear([0x80, 0, 0x20, 0, 0, 0, 2, 6]), 0);
-    assert_eq!(step, Step { send: None, outcome: Some(Err(Failure::Server(AbortCode::NO_OBJECT))) });
+fn who_takes_no_segment_for_ever_is_left() {
+    // A client that says of each block that nothing of it came keeps the server busy, and no time runs out.
+    with_node(|node| {
+        set(node, TEXT, &data(100, 1));
+        let mut ask = |bytes| {
+            let frame = Frame::full(channel().request, bytes);
+            let answer = node.server.handle(&frame, &mut node.dictionary, &mut node.program, BEGIN);
+            while node.server.poll(&mut node.dictionary, &mut node.program, BEGIN).is_some() {}
+            answer.unwrap().bytes().unwrap().to_vec()
+        };
+        ask([0xA4, 0, 0x20, 0, 127, 0, 0, 0]);
+        ask([0xA3, 0, 0, 0, 0, 0, 0, 0]);
+        let end = (0..100).map(|_| ask([0xA2, 0, 127, 0, 0, 0, 0, 0])).find(|answer| answer[0] == 0x80);
+        assert_eq!(end.unwrap(), [0x80, 0, 0x20, 0, 3, 0, 4, 5]);
+    });
 }

@@ -206,7 +206,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if !self.state().allows(Service::Sdo) || self.sdo.channel() == NO_CHANNEL {
             return None;
         }
-        self.sdo.handle(frame, dictionary, application, micros(now))
+        self.sdo.handle(frame, dictionary, application, now)
     }
 
     /// A frame that is to be sent now; to be called until there is none.
@@ -249,21 +249,16 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if let Some(frame) = pdo.or_else(|| self.emergency(dictionary, now)) {
             return Some(frame);
         }
-        if self.state().allows(Service::Sdo) {
-            self.sdo.poll(dictionary, application, micros(now))
-        } else {
-            None
-        }
+        if self.state().allows(Service::Sdo) { self.sdo.poll(dictionary, application, now) } else { None }
     }
 
-    /// When there is something to do next, unless a frame comes or something happens before; at once while an SDO transfer
-    /// goes on.
+    /// When there is something to do next, unless a frame comes or something happens before; a time that has passed means at once.
     pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
         let lss = self.lss.next_deadline();
         if self.lss.is_silent() || self.id.is_none() {
             return lss;
         }
-        if self.restart.is_some() || self.sdo.is_busy() {
+        if self.restart.is_some() {
             return Some(Instant::ZERO);
         }
         let told = if self.state().allows(Service::Emergency) {
@@ -275,6 +270,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             self.control.next_deadline(dictionary),
             self.consumer.next_deadline(),
             self.pdos.next_deadline(dictionary),
+            self.sdo.next_deadline(),
             told,
         ]
         .into_iter()
@@ -400,7 +396,7 @@ const NO_CHANNEL: Channel = Channel { request: crate::frame::CanId::ZERO, answer
 fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Option<Channel> {
     match dictionary.table().find(0x1200, 1) {
         Ok(_) => Channel::of_server(dictionary, 0),
-        Err(_) => Channel::predefined(id.get()),
+        Err(_) => Some(Channel::predefined(id)),
     }
 }
 
@@ -425,10 +421,4 @@ fn reset_communication<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
             reset(table, dictionary.image_mut(), &place, id.get());
         }
     }
-}
-
-/// The time as the SDO server takes it: the low half, of which differences count.
-fn micros(now: Instant) -> u32 {
-    let [a, b, c, d, ..] = now.as_micros().to_le_bytes();
-    u32::from_le_bytes([a, b, c, d])
 }

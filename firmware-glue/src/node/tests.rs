@@ -185,6 +185,16 @@ fn a_heartbeat_that_is_written_by_sdo_begins() {
 }
 
 #[test]
+fn an_open_transfer_is_no_reason_to_be_asked_before_it_is_late() {
+    let mut bench = Bench::started();
+    assert!(bench.handle(0x605, &[0x21, 0x17, 0x10, 0, 2, 0, 0, 0], 10).is_some());
+    assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(at(1010)));
+    assert_eq!(bench.sent(1009), []);
+    assert_eq!(bench.sent(1010), [(0x585, vec![0x80, 0x17, 0x10, 0, 0, 0, 4, 5])]);
+    assert_eq!(bench.node.next_deadline(&bench.dictionary), None);
+}
+
+#[test]
 fn a_lost_heartbeat_is_an_emergency_and_a_reaction() {
     for (setting, state) in [(0, State::PreOperational), (1, State::Operational), (2, State::Stopped)] {
         let mut bench = Bench::operational();

@@ -12,6 +12,9 @@ pub(crate) const fn check_block_size(size: u8) -> Result<u8, AbortCode> {
     if matches!(size, 1..=127) { Ok(size) } else { Err(AbortCode::BLOCK_SIZE) }
 }
 
+/// Blocks in a row of which nothing came, after which the sender gives up: the other side answers, so that no time runs out.
+const HOPELESS: u8 = 8;
+
 /// How a transfer in blocks ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct End {
@@ -34,12 +37,14 @@ pub(crate) struct Sender {
     crc: Crc,
     /// Bytes that are in the checksum: what is sent again is not summed again.
     summed: u32,
+    /// Blocks in a row of which nothing came.
+    in_vain: u8,
 }
 
 impl Sender {
     pub(crate) fn new(block_size: u8) -> Result<Self, AbortCode> {
         let block_size = check_block_size(block_size)?;
-        Ok(Self { block_size, sent: 0, start: 0, unused: None, crc: Crc::default(), summed: 0 })
+        Ok(Self { block_size, sent: 0, start: 0, unused: None, crc: Crc::default(), summed: 0, in_vain: 0 })
     }
 
     /// Where the next segment begins in the data, as long as the block has one.
@@ -76,9 +81,13 @@ impl Sender {
             return Ok(Some(End { unused, crc: self.crc.value() }));
         }
         let block_size = check_block_size(received.block_size)?;
+        let in_vain = if received.sequence == 0 { self.in_vain + 1 } else { 0 };
+        if in_vain >= HOPELESS {
+            return Err(AbortCode::SEQUENCE);
+        }
         let came = SEGMENT * u32::from(received.sequence);
         let start = self.start.checked_add(came).ok_or(AbortCode::TOO_LONG)?;
-        *self = Self { block_size, sent: 0, start, unused: None, ..*self };
+        *self = Self { block_size, sent: 0, start, unused: None, in_vain, ..*self };
         Ok(None)
     }
 }
@@ -153,7 +162,7 @@ impl Receiver {
 
 #[cfg(test)]
 mod tests {
-    use super::{BlockSegment, End, Piece, Received, Receiver, Sender};
+    use super::{BlockSegment, End, HOPELESS, Piece, Received, Receiver, Sender};
     use crate::abort::AbortCode;
 
     fn segment(sequence: u8, last: bool) -> BlockSegment {
@@ -196,6 +205,24 @@ mod tests {
         assert_eq!(send(1), Ok(Some(End { unused: 5, crc: 0x31C3 })));
         assert_eq!(Sender::new(0).map(|_| ()), Err(AbortCode::BLOCK_SIZE));
         assert_eq!(Sender::new(128).map(|_| ()), Err(AbortCode::BLOCK_SIZE));
+    }
+
+    #[test]
+    fn who_takes_nothing_for_ever_is_left() {
+        let mut sender = Sender::new(2).expect("1 to 127");
+        let mut block = |came| {
+            while sender.offset().is_some() {
+                sender.segment(Piece::first_of(&[0; 100]));
+            }
+            sender.received(Received { sequence: came, block_size: 2 })
+        };
+        // What comes in between is a hope.
+        for _ in 0..3 {
+            assert!((1..HOPELESS).all(|_| block(0) == Ok(None)));
+            assert_eq!(block(1), Ok(None));
+        }
+        assert!((1..HOPELESS).all(|_| block(0) == Ok(None)));
+        assert_eq!(block(0), Err(AbortCode::SEQUENCE));
     }
 
     #[test]

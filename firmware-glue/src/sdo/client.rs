@@ -5,6 +5,7 @@ use core::fmt;
 use super::Channel;
 use super::codec::{Aborted, Answer, Request};
 use crate::abort::AbortCode;
+use crate::clock::{Duration, Instant};
 use crate::frame::Frame;
 use crate::id::EntryId;
 
@@ -23,17 +24,19 @@ pub enum Way {
 /// [`SdoWrite`](super::SdoWrite), which the methods begin; a channel has room for one at a time.
 ///
 /// ```
-/// use firmware_glue::EntryId;
+/// use firmware_glue::clock::Instant;
 /// use firmware_glue::frame::Frame;
 /// use firmware_glue::sdo::{Channel, Filled, SdoClient};
+/// use firmware_glue::{EntryId, NodeId};
 ///
-/// let channel = Channel::predefined(5).ok_or("1 to 127")?;
+/// let channel = Channel::predefined(NodeId::new(5).ok_or("1 to 127")?);
 /// let (mut buffer, entry) = ([0; 64], EntryId { index: 0x1000, sub: 0 });
-/// let (mut reading, request) = SdoClient::new(channel).start_read(entry, Filled::new(&mut buffer), 0);
+/// let client = SdoClient::new(channel);
+/// let (mut reading, request) = client.start_read(entry, Filled::new(&mut buffer), Instant::ZERO);
 /// // Send the request. Then, for every frame that comes, and now and then with `poll`:
 /// assert_eq!(request, Frame::full(channel.request, [0x40, 0x00, 0x10, 0, 0, 0, 0, 0]));
 /// let answer = Frame::full(channel.answer, [0x43, 0x00, 0x10, 0, 0x92, 1, 2, 0]);
-/// let step = reading.handle(&answer, 1_000);
+/// let step = reading.handle(&answer, Instant::from_millis(1));
 /// assert_eq!((step.send, step.outcome), (None, Some(Ok(4))));
 /// assert_eq!(reading.sink().bytes(), [0x92, 1, 2, 0]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
@@ -44,8 +47,8 @@ pub struct SdoClient {
     pub channel: Channel,
     /// How longer data travel; in segments, unless something else is asked for.
     pub way: Way,
-    /// Microseconds without an answer after which a transfer is given up.
-    pub timeout: u32,
+    /// Time without an answer after which a transfer is given up.
+    pub timeout: Duration,
     /// Segments that a server may send at once in a block, 1 to 127.
     #[cfg(feature = "sdo-block")]
     pub block_size: u8,
@@ -107,8 +110,8 @@ impl SdoClient {
         }
     }
 
-    pub(super) const fn line(self, id: EntryId, now: u32) -> Line {
-        Line { channel: self.channel, timeout: self.timeout, heard: now, id }
+    pub(super) const fn line(self, id: EntryId, now: Instant) -> Line {
+        Line { channel: self.channel, timeout: self.timeout, heard: now, id, is_over: false }
     }
 }
 
@@ -116,18 +119,19 @@ impl SdoClient {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
     channel: Channel,
-    timeout: u32,
-    heard: u32,
+    timeout: Duration,
+    heard: Instant,
     pub(super) id: EntryId,
+    is_over: bool,
 }
 
 impl Line {
-    /// The bytes of a frame of the server.
-    pub(super) fn hear(&mut self, frame: &Frame, now: u32) -> Option<[u8; 8]> {
-        if frame.id() != self.channel.answer {
+    /// The bytes of a frame of the server, as long as the transfer goes on.
+    pub(super) fn hear(&mut self, frame: &Frame, now: Instant) -> Option<[u8; 8]> {
+        if self.is_over || frame.id() != self.channel.answer {
             return None;
         }
-        let bytes = frame.bytes()?.try_into().ok()?;
+        let bytes = *frame.all_eight()?;
         self.heard = now;
         Some(bytes)
     }
@@ -144,10 +148,11 @@ impl Line {
         Step { send: Some(self.frame(bytes)), outcome: None }
     }
 
-    /// The time for an answer begins anew, as something is sent without having been asked for.
+    /// Sends what nobody has asked for: the time for an answer begins anew.
     #[cfg(feature = "sdo-block")]
-    pub(super) fn heard_at(&mut self, now: u32) {
+    pub(super) fn send_unasked(&mut self, bytes: [u8; 8], now: Instant) -> Step {
         self.heard = now;
+        self.send_bytes(bytes)
     }
 
     /// The server is told that it is over.
@@ -155,12 +160,43 @@ impl Line {
         self.frame(Aborted { id: self.id, code }.encode())
     }
 
-    pub(super) fn give_up(&self, code: AbortCode) -> Step {
-        Step { send: Some(self.abort(code)), outcome: Some(Err(Failure::Client(code))) }
+    /// Ends the transfer; the frame is for the server.
+    pub(super) fn cancel(&mut self, code: AbortCode) -> Frame {
+        self.is_over = true;
+        self.abort(code)
     }
 
-    pub(super) fn is_late(&self, now: u32) -> bool {
-        now.wrapping_sub(self.heard) >= self.timeout
+    /// Remembers the end, if it is one.
+    pub(super) fn close(&mut self, outcome: Result<Step, AbortCode>) -> Step {
+        let step = outcome.unwrap_or_else(|code| Step {
+            send: Some(self.abort(code)),
+            outcome: Some(Err(Failure::Client(code))),
+        });
+        self.is_over |= step.outcome.is_some();
+        step
+    }
+
+    /// The end, when there is no answer for too long.
+    pub(super) fn wait(&mut self, now: Instant) -> Step {
+        match self.deadline() {
+            Some(deadline) if deadline <= now => self.close(Err(AbortCode::TIMEOUT)),
+            Some(_) | None => Step::NOTHING,
+        }
+    }
+
+    /// When the answer is too late.
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        if self.is_over { None } else { Some(self.heard + self.timeout) }
+    }
+
+    #[cfg(feature = "sdo-block")]
+    pub(super) const fn is_over(&self) -> bool {
+        self.is_over
+    }
+
+    /// Whether an abort is about this transfer: it names its entry, or none.
+    pub(super) fn is_ours(&self, aborted: Aborted) -> bool {
+        aborted.id == self.id || aborted.id == NO_ENTRY
     }
 
     /// Whether an answer names another entry: it comes late, and belongs to a transfer that was given up.
@@ -175,11 +211,14 @@ impl Line {
             | Answer::UploadSegment(_)
             | Answer::BlockDownloadReceived(_)
             | Answer::BlockDownloadEnd
-            | Answer::BlockUploadEnd { .. }
-            | Answer::Abort(_) => false,
+            | Answer::BlockUploadEnd { .. } => false,
+            Answer::Abort(aborted) => !self.is_ours(*aborted),
         }
     }
 }
+
+/// Of an abort by a server that knows of no transfer.
+const NO_ENTRY: EntryId = EntryId { index: 0, sub: 0 };
 
 /// Whether a server that refuses to begin with blocks may do without: what it says is about the protocol, not about the entry.
 #[cfg(feature = "sdo-block")]

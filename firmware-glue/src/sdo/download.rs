@@ -4,10 +4,9 @@ use core::cmp::Ordering;
 
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::data_type::DataType;
-use crate::dictionary::Dictionary;
+use crate::dictionary::{Dictionary, writable, write_row};
 use crate::id::EntryId;
-use crate::info::Info;
+use crate::table::{Attributes, Place};
 
 use super::codec::Expedited;
 
@@ -38,20 +37,17 @@ impl Download {
         buffer: &[u8],
         dictionary: &D,
     ) -> Result<Self, AbortCode> {
-        let info = dictionary.info_at(id.index, id.sub)?;
-        if !info.is_writable() {
-            return Err(AbortCode::READ_ONLY);
-        }
-        let into = if info.data_type() == DataType::Domain {
+        let shared = writable(dictionary.table(), id.index, id.sub)?.shared;
+        let into = if shared.place == Place::Application {
             Into::Application
         } else {
             if let Some(announced) = announced {
-                check_size(info, announced)?;
+                check_size(shared, announced)?;
                 if usize::try_from(announced).map_or(true, |announced| announced > buffer.len()) {
                     return Err(AbortCode::OUT_OF_MEMORY);
                 }
             }
-            Into::Buffer { largest: info.size() }
+            Into::Buffer { largest: shared.size }
         };
         Ok(Self { id, into, announced, came: 0 })
     }
@@ -105,39 +101,30 @@ pub(super) fn write_expedited<'t, D: Dictionary<'t>, A: Application<D>>(
     application: &mut A,
 ) -> Result<(), AbortCode> {
     let EntryId { index, sub } = id;
+    let found = writable(dictionary.table(), index, sub)?;
     let data = match value.length() {
         Some(_) => value.bytes(),
-        None => unsized_value(dictionary.info_at(index, sub)?, &value)?,
+        None => unsized_value(found.shared, &value)?,
     };
-    match dictionary.write(index, sub, data, application) {
-        Ok(_) => Ok(()),
-        // A DOMAIN says so, too.
-        Err(AbortCode::UNSUPPORTED_ACCESS) if is_domain(dictionary, id) => {
-            dictionary.download_domain(index, sub, 0, data, true, application)
+    match found.shared.place {
+        Place::Application => dictionary.download_domain(index, sub, 0, data, true, application),
+        Place::Image | Place::Constant | Place::Alias => {
+            write_row(dictionary, found, data, application).map(|_| ())
         }
-        Err(code) => Err(code),
     }
-}
-
-/// Whether an entry is a DOMAIN, which the application has.
-pub(super) fn is_domain<'t>(dictionary: &impl Dictionary<'t>, id: EntryId) -> bool {
-    dictionary.info_at(id.index, id.sub).is_ok_and(|info| info.data_type() == DataType::Domain)
 }
 
 /// Of four bytes that may all be the value or not, as many as the type has. How long a string is, nobody can tell.
-fn unsized_value<'v>(info: Info<'_>, value: &'v Expedited) -> Result<&'v [u8], AbortCode> {
-    if !info.is_writable() {
-        return Err(AbortCode::READ_ONLY);
-    }
-    let size = info.data_type().size().ok_or(AbortCode::LENGTH)?;
+fn unsized_value<'v>(shared: &Attributes, value: &'v Expedited) -> Result<&'v [u8], AbortCode> {
+    let size = shared.data_type.size().ok_or(AbortCode::LENGTH)?;
     value.bytes().get(..usize::from(size)).ok_or(AbortCode::TOO_SHORT)
 }
 
 /// Whether a value can have so many bytes: what the dictionary would say of the whole value, before it comes.
-fn check_size(info: Info<'_>, announced: u32) -> Result<(), AbortCode> {
-    match announced.cmp(&u32::from(info.size())) {
+fn check_size(shared: &Attributes, announced: u32) -> Result<(), AbortCode> {
+    match announced.cmp(&u32::from(shared.size)) {
         Ordering::Greater => Err(AbortCode::TOO_LONG),
-        Ordering::Less if !info.data_type().is_string() => Err(AbortCode::TOO_SHORT),
+        Ordering::Less if !shared.data_type.is_string() => Err(AbortCode::TOO_SHORT),
         Ordering::Less | Ordering::Equal => Ok(()),
     }
 }

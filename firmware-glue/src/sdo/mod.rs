@@ -1,7 +1,6 @@
 //! SDO: access to the dictionary of a node over the bus (CiA 301 7.2.4).
 //!
-//! Nothing here sends, waits or knows a clock: frames go in, frames come out, and the time is told. A time is a count of
-//! microseconds in a `u32` that may begin anywhere and wraps around (after 71 minutes); only differences count.
+//! Nothing here sends, waits or knows a clock: frames go in, frames come out, and the time is told.
 //!
 //! - [`SdoServer`] (feature `sdo-server`) serves any dictionary: expedited and segmented transfers, and with the feature
 //!   `sdo-block` blocks with checksums.
@@ -31,6 +30,7 @@ mod upload;
 #[cfg(feature = "sdo-client")]
 mod write;
 
+use crate::clock::Duration;
 pub use channel::Channel;
 #[cfg(feature = "sdo-client")]
 pub use client::{Failure, SdoClient, Step, Way};
@@ -43,9 +43,9 @@ pub use server::SdoServer;
 #[cfg(feature = "sdo-client")]
 pub use write::SdoWrite;
 
-/// Microseconds without a frame of the other side, after which a transfer ends with
+/// Time without a frame of the other side, after which a transfer ends with
 /// [`AbortCode::TIMEOUT`](crate::AbortCode::TIMEOUT), unless something else is asked for: a second.
-pub const DEFAULT_TIMEOUT: u32 = 1_000_000;
+pub const DEFAULT_TIMEOUT: Duration = Duration::from_millis(1000);
 
 /// Segments of a block, unless something else is asked for: the most that there can be.
 #[cfg(feature = "sdo-block")]

@@ -10,6 +10,7 @@ use super::codec::BlockSegment;
 use super::codec::{Answer, Request, Segment};
 use super::data::Sink;
 use crate::abort::AbortCode;
+use crate::clock::Instant;
 use crate::frame::Frame;
 use crate::id::EntryId;
 
@@ -39,14 +40,13 @@ enum State {
     /// The server cannot do checksums and was told that blocks are not wanted; segments are next.
     #[cfg(feature = "sdo-block")]
     Again,
-    Over,
 }
 
 impl SdoClient {
-    /// Begins to read an entry, at a time in microseconds; gives the request to be sent.
+    /// Begins to read an entry, gives the request to be sent.
     ///
     /// A server that does not say how many of four bytes are the value is believed to mean all four.
-    pub fn start_read<S: Sink>(&self, id: EntryId, sink: S, now: u32) -> (SdoRead<S>, Frame) {
+    pub fn start_read<S: Sink>(&self, id: EntryId, sink: S, now: Instant) -> (SdoRead<S>, Frame) {
         let (state, request) = match self.way {
             Way::Segments => (State::Asked, Request::Upload { id }),
             #[cfg(feature = "sdo-block")]
@@ -77,44 +77,41 @@ impl<S: Sink> SdoRead<S> {
         self.sink
     }
 
-    /// Takes a frame that was received, at a time in microseconds. Frames that are not from the server are left alone.
-    pub fn handle(&mut self, frame: &Frame, now: u32) -> Step {
-        if matches!(self.state, State::Over) {
-            return Step::NOTHING;
-        }
+    /// Takes a frame that was received. Frames that are not from the server are left alone.
+    pub fn handle(&mut self, frame: &Frame, now: Instant) -> Step {
         let Some(bytes) = self.line.hear(frame, now) else { return Step::NOTHING };
         let outcome = self.take(bytes);
-        self.close(outcome)
+        self.line.close(outcome)
     }
 
     /// Whether there is something to be done without an answer: an end, because there is none for too long.
-    pub fn poll(&mut self, now: u32) -> Step {
-        match self.state {
-            State::Over => Step::NOTHING,
-            #[cfg(feature = "sdo-block")]
-            State::Again => {
-                self.state = State::Asked;
-                self.line.heard_at(now);
-                self.line.send(Request::Upload { id: self.line.id })
-            }
-            _ if self.line.is_late(now) => self.close(Err(AbortCode::TIMEOUT)),
-            _ => Step::NOTHING,
+    pub fn poll(&mut self, now: Instant) -> Step {
+        #[cfg(feature = "sdo-block")]
+        if self.is_to_send() {
+            self.state = State::Asked;
+            return self.line.send_unasked(Request::Upload { id: self.line.id }.encode(), now);
         }
+        self.line.wait(now)
+    }
+
+    /// When [`poll`](Self::poll) has something to do, unless a frame comes before; `None` when the transfer is over.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        #[cfg(feature = "sdo-block")]
+        if self.is_to_send() {
+            return Some(Instant::ZERO);
+        }
+        self.line.deadline()
+    }
+
+    /// Whether there is something to send at once.
+    #[cfg(feature = "sdo-block")]
+    fn is_to_send(&self) -> bool {
+        !self.line.is_over() && matches!(self.state, State::Again)
     }
 
     /// Gives up; the frame is for the server.
     pub fn cancel(&mut self, code: AbortCode) -> Frame {
-        self.state = State::Over;
-        self.line.abort(code)
-    }
-
-    /// Remembers the end, if it is one.
-    fn close(&mut self, outcome: Result<Step, AbortCode>) -> Step {
-        let step = outcome.unwrap_or_else(|code| self.line.give_up(code));
-        if step.outcome.is_some() {
-            self.state = State::Over;
-        }
-        step
+        self.line.cancel(code)
     }
 
     fn take(&mut self, bytes: [u8; 8]) -> Result<Step, AbortCode> {
@@ -124,6 +121,7 @@ impl<S: Sink> SdoRead<S> {
         {
             let segment = match BlockSegment::decode(bytes) {
                 Ok(segment) => segment,
+                Err(aborted) if !self.line.is_ours(aborted) => return Ok(Step::NOTHING),
                 Err(aborted) => return Ok(Step::failed(Failure::Server(aborted.code))),
             };
             let taken = receiver.take(segment)?;
@@ -227,6 +225,6 @@ fn is_first(state: State) -> bool {
         State::BlocksAsked { .. } => true,
         #[cfg(feature = "sdo-block")]
         State::Blocks(_) | State::Again => false,
-        State::Segments { .. } | State::Over => false,
+        State::Segments { .. } => false,
     }
 }

@@ -6,14 +6,17 @@ mod blocks;
 use super::Channel;
 #[cfg(feature = "sdo-block")]
 use super::block::{Receiver, Sender};
-use super::codec::{Aborted, Answer, Expedited, Request, Segment};
+use super::codec::{Aborted, Answer, Expedited, Request, Segment, downloaded, uploaded};
 use super::download::{Download, write_expedited};
-use super::upload::Upload;
+use super::upload::{Upload, find_short, short_value};
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::dictionary::Dictionary;
+use crate::clock::{Duration, Instant};
+use crate::dictionary::{Dictionary, readable, refresh};
 use crate::frame::Frame;
 use crate::id::EntryId;
+use crate::stored::value_of;
+use crate::table::Found;
 
 /// The server of one SDO channel (CiA 301 7.2.4). A node with several channels has one for each.
 ///
@@ -24,6 +27,8 @@ use crate::id::EntryId;
 /// what an application got of a DOMAIN does not count before the piece that is the last, and an offset of 0 begins anew.
 ///
 /// ```
+/// use firmware_glue::NodeId;
+/// use firmware_glue::clock::Instant;
 /// use firmware_glue::frame::Frame;
 /// use firmware_glue::sdo::{Channel, SdoServer};
 /// # use firmware_glue::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place};
@@ -40,25 +45,26 @@ use crate::id::EntryId;
 /// # })?;
 /// # let mut dictionary = TableDictionary::new(&table, [0; 2], 1)?;
 /// # let mut application = ();
-/// let channel = Channel::predefined(5).ok_or("1 to 127")?;
+/// let channel = Channel::predefined(NodeId::new(5).ok_or("1 to 127")?);
 /// let mut server = SdoServer::new(channel, [0; 64]);
 ///
-/// // For every frame that comes, with the time in microseconds:
+/// // For every frame that comes, with the time:
 /// let request = Frame::full(channel.request, [0x40, 0x00, 0x20, 0, 0, 0, 0, 0]);
-/// let answer = server.handle(&request, &mut dictionary, &mut application, 1_000);
+/// let answer = server.handle(&request, &mut dictionary, &mut application, Instant::from_millis(1));
 /// assert_eq!(answer, Some(Frame::full(channel.answer, [0x4B, 0x00, 0x20, 0, 0x19, 0, 0, 0])));
 /// // Again and again, until there is nothing to send: segments of blocks, and the end of a transfer that takes too long.
-/// assert_eq!(server.poll(&mut dictionary, &mut application, 2_000), None);
+/// assert_eq!(server.poll(&mut dictionary, &mut application, Instant::from_millis(2)), None);
+/// assert_eq!(server.next_deadline(), None, "no transfer goes on");
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct SdoServer<B> {
     channel: Channel,
-    timeout: u32,
+    timeout: Duration,
     #[cfg(feature = "sdo-block")]
     block_size: u8,
     /// When the transfer was last seen to go on.
-    heard: u32,
+    heard: Instant,
     transfer: Transfer,
     buffer: B,
 }
@@ -128,15 +134,15 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             timeout: super::DEFAULT_TIMEOUT,
             #[cfg(feature = "sdo-block")]
             block_size: super::DEFAULT_BLOCK_SIZE,
-            heard: 0,
+            heard: Instant::ZERO,
             transfer: Transfer::None,
             buffer,
         }
     }
 
-    /// Sets after how many microseconds without a request a transfer is given up.
-    pub const fn set_timeout(&mut self, microseconds: u32) {
-        self.timeout = microseconds;
+    /// Sets after what time without a request a transfer is given up.
+    pub const fn set_timeout(&mut self, timeout: Duration) {
+        self.timeout = timeout;
     }
 
     /// Sets how many segments a client may send at once in a block, 1 to 127: no more than the CAN driver keeps while the program
@@ -167,7 +173,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         !matches!(self.transfer, Transfer::None)
     }
 
-    /// Takes a frame that was received, at a time in microseconds, and gives the one to be sent. Frames with other identifiers,
+    /// Takes a frame that was received, and gives the one to be sent. Frames with other identifiers,
     /// remote frames and frames that do not have eight bytes are none of the server's business.
     ///
     /// Call it with everything that comes while the node is pre-operational or operational.
@@ -177,15 +183,68 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         frame: &Frame,
         dictionary: &mut D,
         application: &mut A,
-        now: u32,
+        now: Instant,
     ) -> Option<Frame> {
         if frame.id() != self.channel.request {
             return None;
         }
-        let bytes: [u8; 8] = frame.bytes()?.try_into().ok()?;
+        let bytes = frame.all_eight()?;
         self.heard = now;
-        let answer = self.take(bytes, dictionary, application)?;
+        // Almost every request reads a number. That goes from its place into the frame, after one look into the table.
+        let Some(id) = Request::read_entry(bytes) else {
+            return self.handle_other(frame, dictionary, application);
+        };
+        if !self.is_taking_blocks()
+            && let Some(found) = find_short(dictionary.table(), id)
+        {
+            self.transfer = Transfer::None;
+            refresh(dictionary, found, application);
+            let value = short_value(dictionary.table(), dictionary.image(), found)?;
+            return Some(Frame::full(self.channel.answer, uploaded(id, value)));
+        }
+        self.handle_longer(frame, dictionary, application)
+    }
+
+    /// The same, beyond short values that are read: those that are written.
+    #[inline(never)]
+    fn handle_other<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        frame: &Frame,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Option<Frame> {
+        if let Some((id, value)) = Request::written_entry(frame.all_eight()?)
+            && !self.is_taking_blocks()
+        {
+            self.transfer = Transfer::None;
+            let answer = match write_expedited(id, value, dictionary, application) {
+                Ok(()) => downloaded(id),
+                Err(code) => self.abort(id, code),
+            };
+            return Some(Frame::full(self.channel.answer, answer));
+        }
+        self.handle_longer(frame, dictionary, application)
+    }
+
+    /// The same, for transfers of several frames.
+    #[inline(never)]
+    fn handle_longer<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        frame: &Frame,
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Option<Frame> {
+        let answer = self.take(*frame.all_eight()?, dictionary, application)?;
         Some(Frame::full(self.channel.answer, answer))
+    }
+
+    /// Whether what comes is a segment of a block, which may look like any request.
+    const fn is_taking_blocks(&self) -> bool {
+        match &self.transfer {
+            #[cfg(feature = "sdo-block")]
+            Transfer::BlockDownload { receiver, .. } => !receiver.is_complete(),
+            _ => false,
+        }
     }
 
     /// What is to be sent without being asked: segments of a block, one in each call, and
@@ -194,7 +253,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         &mut self,
         dictionary: &mut D,
         application: &mut A,
-        now: u32,
+        now: Instant,
     ) -> Option<Frame> {
         if !self.is_busy() {
             return None;
@@ -205,11 +264,23 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             return Some(Frame::full(self.channel.answer, segment));
         }
         let _ = (dictionary, application);
-        if now.wrapping_sub(self.heard) < self.timeout {
+        if now.since(self.heard) < self.timeout {
             return None;
         }
         let id = self.transfer.id();
         Some(Frame::full(self.channel.answer, self.abort(id, AbortCode::TIMEOUT)))
+    }
+
+    /// When [`poll`](Self::poll) has something to send, unless a frame comes before; a time that has passed while a block is sent.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        if !self.is_busy() {
+            return None;
+        }
+        #[cfg(feature = "sdo-block")]
+        if self.is_sending_blocks() {
+            return Some(Instant::ZERO);
+        }
+        Some(self.heard + self.timeout)
     }
 
     /// The answer to eight bytes.
@@ -223,16 +294,17 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         if self.is_taking_blocks() {
             return self.take_segment(bytes, dictionary, application);
         }
-        let (id, outcome) = match Request::decode(bytes) {
-            Some(Request::Upload { id }) => return Some(self.begin_upload(id, dictionary, application)),
-            Some(Request::DownloadExpedited { id, value }) => {
+        match Request::decode(bytes) {
+            Some(Request::Upload { id }) => {
                 self.transfer = Transfer::None;
-                let written = write_expedited(id, value, dictionary, application);
-                (id, written.map(|()| Answer::Download { id }))
+                Some(match readable(dictionary, id.index, id.sub, application) {
+                    Ok(found) => self.begin_longer_upload(id, found, dictionary, application),
+                    Err(code) => self.abort(id, code),
+                })
             }
             Some(Request::Abort(_)) => {
                 self.transfer = Transfer::None;
-                return None;
+                None
             }
             #[cfg(feature = "sdo-block")]
             Some(
@@ -242,17 +314,12 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
                 | Request::BlockUploadStart
                 | Request::BlockUploadReceived(_)
                 | Request::BlockUploadEnd),
-            ) => return self.take_block(request, dictionary, application),
-            other => return Some(self.take_other(other, dictionary, application)),
-        };
-        Some(match outcome {
-            Ok(answer) => answer.encode(),
-            Err(code) => self.abort(id, code),
-        })
+            ) => self.take_block(request, dictionary, application),
+            other => Some(self.take_other(other, dictionary, application)),
+        }
     }
 
-    /// The answer to what belongs to a transfer in segments. A function of its own, as it is rare and has much to keep.
-    #[inline(never)]
+    /// The answer to what belongs to a transfer in segments.
     fn take_other<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         request: Option<Request>,
@@ -269,7 +336,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             Some(Request::DownloadSegment(segment)) => {
                 self.download_segment(segment, dictionary, application)
             }
-            // What has no meaning here, or none at all.
+            // What has no meaning here (a short value is written elsewhere), or none at all.
             Some(_) | None => Err(AbortCode::COMMAND),
         };
         match outcome {
@@ -285,32 +352,25 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         Aborted { id, code }.encode()
     }
 
-    /// The answer to a request to read.
-    #[inline]
-    fn begin_upload<'t, D: Dictionary<'t>, A: Application<D>>(
+    /// The answer to a request to read an entry that may be read.
+    #[inline(never)]
+    fn begin_longer_upload<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         id: EntryId,
+        found: Found<'t>,
         dictionary: &mut D,
         application: &mut A,
     ) -> [u8; 8] {
-        self.transfer = Transfer::None;
-        match dictionary.upload(id.index, id.sub, application) {
-            Ok(value) => match Expedited::new(&value) {
-                Some(value) => Answer::UploadExpedited { id, value }.encode(),
-                None => {
-                    let upload = Upload::of_value(id, &value, self.buffer.as_mut());
-                    self.announce(id, upload)
-                }
-            },
-            Err(code) => {
-                let upload = Upload::of_refused(id, code, dictionary, application);
-                self.announce(id, upload)
-            }
+        if let Ok(value) = value_of(dictionary.table(), dictionary.image(), found)
+            && let Some(value) = Expedited::new(&value)
+        {
+            return uploaded(id, value);
         }
+        let upload = Upload::begin(id, found, self.buffer.as_mut(), dictionary, application);
+        self.announce(id, upload)
     }
 
     /// Begins to send segments, if there is something to send.
-    #[inline(never)]
     fn announce(&mut self, id: EntryId, upload: Result<Upload, AbortCode>) -> [u8; 8] {
         match upload {
             Ok(upload) => {

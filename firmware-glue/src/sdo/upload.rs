@@ -1,12 +1,13 @@
 //! Where the server takes what it sends.
 
-use super::codec::Piece;
-use super::download::is_domain;
+use super::codec::{Expedited, Piece};
 use super::piece::gather;
 use crate::abort::AbortCode;
 use crate::application::Application;
 use crate::dictionary::Dictionary;
 use crate::id::EntryId;
+use crate::stored::value_of;
+use crate::table::{Flags, Found, Place, Table};
 
 /// Data that are read piece by piece.
 #[derive(Debug, Clone, Copy)]
@@ -24,27 +25,22 @@ enum From {
 }
 
 impl Upload {
-    /// Copies a value into the buffer.
-    pub(super) fn of_value(id: EntryId, value: &[u8], buffer: &mut [u8]) -> Result<Self, AbortCode> {
-        let length = value.len();
-        buffer.get_mut(..length).ok_or(AbortCode::OUT_OF_MEMORY)?.copy_from_slice(value);
-        Ok(Self { id, from: From::Buffer { length } })
-    }
-
-    /// Begins with an entry whose value was refused: a DOMAIN has none, but the application may have its data. Its first bytes are
-    /// asked for, so that a refusal comes at once.
-    #[inline(never)]
-    pub(super) fn of_refused<'t, D: Dictionary<'t>, A: Application<D>>(
+    /// Copies a value into the buffer; of a DOMAIN, asks for the first bytes, so that a refusal comes at once.
+    pub(super) fn begin<'t, D: Dictionary<'t>, A: Application<D>>(
         id: EntryId,
-        refusal: AbortCode,
+        found: Found<'t>,
+        buffer: &mut [u8],
         dictionary: &mut D,
         application: &mut A,
     ) -> Result<Self, AbortCode> {
-        if refusal != AbortCode::UNSUPPORTED_ACCESS || !is_domain(dictionary, id) {
-            return Err(refusal);
+        if found.shared.place == Place::Application {
+            domain_piece(id, 0, dictionary, application)?;
+            return Ok(Self { id, from: From::Application });
         }
-        domain_piece(id, 0, dictionary, application)?;
-        Ok(Self { id, from: From::Application })
+        let value = value_of(dictionary.table(), dictionary.image(), found)?;
+        let length = value.len();
+        buffer.get_mut(..length).ok_or(AbortCode::OUT_OF_MEMORY)?.copy_from_slice(&value);
+        Ok(Self { id, from: From::Buffer { length } })
     }
 
     /// How many bytes there are, where that is known.
@@ -70,6 +66,31 @@ impl Upload {
             }
             From::Application => domain_piece(self.id, offset, dictionary, application),
         }
+    }
+}
+
+/// An entry that a client may read, and whose value lies ready in one to four bytes: a number, as almost all that is read. Of what
+/// it leaves out, the rest of the server knows what to say.
+#[inline]
+pub(super) fn find_short<'t>(table: &Table<'t>, EntryId { index, sub }: EntryId) -> Option<Found<'t>> {
+    let found = table.look_quickly(index, sub, Flags::READ)?;
+    let is_value = match found.shared.place {
+        Place::Image => !found.shared.data_type.is_string(),
+        Place::Constant => true,
+        Place::Alias | Place::Application => false,
+    };
+    // The error history has entries that are not filled.
+    if is_value && matches!(found.shared.size, 1..=4) && index != 0x1003 { Some(found) } else { None }
+}
+
+/// The value of an entry that is [short](find_short).
+#[inline]
+pub(super) fn short_value(table: &Table<'_>, image: &[u8], found: Found<'_>) -> Option<Expedited> {
+    let (at, size) = (found.offset(), found.shared.size);
+    match found.shared.place {
+        Place::Image => Expedited::first_of(image.get(at..)?, size),
+        Place::Constant => Expedited::first_of(table.parts().constants.get(at..)?, size),
+        Place::Alias | Place::Application => None,
     }
 }
 

@@ -9,6 +9,7 @@ use super::codec::{Answer, Expedited, Request, Segment};
 use super::data::Source;
 use super::piece::gather;
 use crate::abort::AbortCode;
+use crate::clock::Instant;
 use crate::frame::Frame;
 use crate::id::EntryId;
 
@@ -42,11 +43,20 @@ enum State {
     /// The server cannot do checksums and was told that blocks are not wanted; segments are next.
     #[cfg(feature = "sdo-block")]
     Again,
-    Over,
+}
+
+/// What is sent without having been asked for.
+#[cfg(feature = "sdo-block")]
+#[derive(Debug, Clone, Copy)]
+enum Unasked {
+    /// The transfer begins again, in segments.
+    Announcement,
+    /// The next segment of a block.
+    Segment(Sender),
 }
 
 impl SdoClient {
-    /// Begins to write an entry, at a time in microseconds; gives the request to be sent. One to four bytes go in one frame.
+    /// Begins to write an entry, gives the request to be sent. One to four bytes go in one frame.
     ///
     /// # Errors
     /// What the source says, or [`AbortCode::LENGTH`] if it has not as many bytes as it says.
@@ -54,7 +64,7 @@ impl SdoClient {
         &self,
         id: EntryId,
         mut source: S,
-        now: u32,
+        now: Instant,
     ) -> Result<(SdoWrite<S>, Frame), AbortCode> {
         let size = source.size();
         let (state, request, sent) = if let Some(size @ 1..=4) = size {
@@ -78,50 +88,51 @@ impl SdoClient {
 }
 
 impl<S: Source> SdoWrite<S> {
-    /// Takes a frame that was received, at a time in microseconds. Frames that are not from the server are left alone.
-    pub fn handle(&mut self, frame: &Frame, now: u32) -> Step {
-        if matches!(self.state, State::Over) {
-            return Step::NOTHING;
-        }
+    /// Takes a frame that was received. Frames that are not from the server are left alone.
+    pub fn handle(&mut self, frame: &Frame, now: Instant) -> Step {
         let Some(bytes) = self.line.hear(frame, now) else { return Step::NOTHING };
         let outcome = self.take(bytes);
-        self.close(outcome)
+        self.line.close(outcome)
     }
 
     /// Whether there is something to be done without an answer: the next segment of a block, or an end, because there is no
     /// answer for too long. Call it until it has nothing to send.
-    pub fn poll(&mut self, now: u32) -> Step {
-        match self.state {
-            State::Over => return Step::NOTHING,
-            #[cfg(feature = "sdo-block")]
-            State::Again => {
-                self.line.heard_at(now);
-                return self.announce();
-            }
-            #[cfg(feature = "sdo-block")]
-            State::Blocks(sender) if sender.offset().is_some() => {
-                self.line.heard_at(now);
-                let outcome = self.next_of_block(sender).map(|bytes| self.line.send_bytes(bytes));
-                return self.close(outcome);
-            }
-            _ => {}
+    pub fn poll(&mut self, now: Instant) -> Step {
+        #[cfg(feature = "sdo-block")]
+        if let Some(next) = self.unasked() {
+            let outcome = match next {
+                Unasked::Announcement => Ok(self.announce()),
+                Unasked::Segment(sender) => self.next_of_block(sender),
+            };
+            let outcome = outcome.map(|bytes| self.line.send_unasked(bytes, now));
+            return self.line.close(outcome);
         }
-        if self.line.is_late(now) { self.close(Err(AbortCode::TIMEOUT)) } else { Step::NOTHING }
+        self.line.wait(now)
+    }
+
+    /// When [`poll`](Self::poll) has something to do, unless a frame comes before; `None` when the transfer is over.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        #[cfg(feature = "sdo-block")]
+        if self.unasked().is_some() {
+            return Some(Instant::ZERO);
+        }
+        self.line.deadline()
+    }
+
+    /// What there is to send without an answer.
+    #[cfg(feature = "sdo-block")]
+    fn unasked(&self) -> Option<Unasked> {
+        match self.state {
+            _ if self.line.is_over() => None,
+            State::Again => Some(Unasked::Announcement),
+            State::Blocks(sender) if sender.offset().is_some() => Some(Unasked::Segment(sender)),
+            _ => None,
+        }
     }
 
     /// Gives up; the frame is for the server.
     pub fn cancel(&mut self, code: AbortCode) -> Frame {
-        self.state = State::Over;
-        self.line.abort(code)
-    }
-
-    /// Remembers the end, if it is one.
-    fn close(&mut self, outcome: Result<Step, AbortCode>) -> Step {
-        let step = outcome.unwrap_or_else(|code| self.line.give_up(code));
-        if step.outcome.is_some() {
-            self.state = State::Over;
-        }
-        step
+        self.line.cancel(code)
     }
 
     fn take(&mut self, bytes: [u8; 8]) -> Result<Step, AbortCode> {
@@ -132,7 +143,8 @@ impl<S: Source> SdoWrite<S> {
         match (self.state, answer) {
             #[cfg(feature = "sdo-block")]
             (State::BlocksAnnounced, Answer::Abort(aborted)) if is_about_blocks(aborted.code) => {
-                Ok(self.announce())
+                let bytes = self.announce();
+                Ok(self.line.send_bytes(bytes))
             }
             (_, Answer::Abort(aborted)) => Ok(Step::failed(Failure::Server(aborted.code))),
             (State::Whole, Answer::Download { .. }) => Ok(Step::done(self.sent)),
@@ -180,9 +192,9 @@ impl<S: Source> SdoWrite<S> {
 
     /// Begins with segments, where blocks are not possible.
     #[cfg(feature = "sdo-block")]
-    fn announce(&mut self) -> Step {
+    fn announce(&mut self) -> [u8; 8] {
         self.state = State::Announced;
-        self.line.send(Request::Download { id: self.line.id, size: self.source.size() })
+        Request::Download { id: self.line.id, size: self.source.size() }.encode()
     }
 
     fn segment(&mut self, toggle: bool) -> Result<Step, AbortCode> {

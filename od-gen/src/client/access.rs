@@ -3,9 +3,9 @@
 use std::fmt;
 use std::time::Duration;
 
-use firmware_glue::AbortCode;
 use firmware_glue::frame::{CanId, Frame};
 use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Step};
+use firmware_glue::{AbortCode, NodeId, clock};
 use od_spec::model::EntryId;
 
 use super::{Bus, BusError};
@@ -19,8 +19,8 @@ const NAP: Duration = Duration::from_millis(20);
 #[derive(Debug)]
 pub struct Client<B> {
     bus: B,
-    /// Microseconds without an answer after which a node is given up.
-    timeout: u32,
+    /// Time without an answer after which a node is given up.
+    timeout: clock::Duration,
 }
 
 /// Why an access failed.
@@ -98,26 +98,26 @@ impl Sink for Collected {
 
 /// What a transfer is: frames go in, and now and then nothing.
 trait Transfer {
-    fn handle(&mut self, frame: &Frame, now: u32) -> Step;
-    fn poll(&mut self, now: u32) -> Step;
+    fn handle(&mut self, frame: &Frame, now: clock::Instant) -> Step;
+    fn poll(&mut self, now: clock::Instant) -> Step;
 }
 
 impl<S: Sink> Transfer for firmware_glue::sdo::SdoRead<S> {
-    fn handle(&mut self, frame: &Frame, now: u32) -> Step {
+    fn handle(&mut self, frame: &Frame, now: clock::Instant) -> Step {
         self.handle(frame, now)
     }
 
-    fn poll(&mut self, now: u32) -> Step {
+    fn poll(&mut self, now: clock::Instant) -> Step {
         self.poll(now)
     }
 }
 
 impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
-    fn handle(&mut self, frame: &Frame, now: u32) -> Step {
+    fn handle(&mut self, frame: &Frame, now: clock::Instant) -> Step {
         self.handle(frame, now)
     }
 
-    fn poll(&mut self, now: u32) -> Step {
+    fn poll(&mut self, now: clock::Instant) -> Step {
         self.poll(now)
     }
 }
@@ -125,9 +125,8 @@ impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S>
 impl<B: Bus> Client<B> {
     /// A client on a bus, which waits so long for an answer.
     pub fn new(bus: B, timeout: Duration) -> Self {
-        // Differences of times are told apart up to half of what a count holds.
-        let timeout = u32::try_from(timeout.as_micros()).unwrap_or(u32::MAX).min(u32::MAX / 2);
-        Self { bus, timeout }
+        let micros = u64::try_from(timeout.as_micros()).unwrap_or(u64::MAX);
+        Self { bus, timeout: clock::Duration::from_micros(micros) }
     }
 
     /// The bus.
@@ -136,10 +135,15 @@ impl<B: Bus> Client<B> {
     }
 
     fn sdo(&self, node: u8) -> Result<SdoClient, AccessError> {
-        let channel = Channel::predefined(node).ok_or(AccessError::Wrong(AbortCode::NO_CONNECTION))?;
-        let mut client = SdoClient::new(channel);
+        let node = NodeId::new(node).ok_or(AccessError::Wrong(AbortCode::NO_CONNECTION))?;
+        let mut client = SdoClient::new(Channel::predefined(node));
         client.timeout = self.timeout;
         Ok(client)
+    }
+
+    /// The time, as SDO takes it.
+    fn now(&self) -> clock::Instant {
+        clock::Instant::from_micros(self.bus.now())
     }
 
     /// Reads an entry of a node.
@@ -147,7 +151,7 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`AccessError`]: nothing is known of the value.
     pub fn read(&mut self, node: u8, id: EntryId) -> Result<Vec<u8>, AccessError> {
-        let (client, now) = (self.sdo(node)?, self.bus.now());
+        let (client, now) = (self.sdo(node)?, self.now());
         let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
         self.bus.send(&request)?;
         self.finish(&mut reading)?;
@@ -159,7 +163,7 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`AccessError`]: refused by the node it has its old value; otherwise nobody knows which.
     pub fn write(&mut self, node: u8, id: EntryId, bytes: &[u8]) -> Result<(), AccessError> {
-        let (client, now) = (self.sdo(node)?, self.bus.now());
+        let (client, now) = (self.sdo(node)?, self.now());
         let begun = client.start_write(of_bus(id), bytes, now);
         let (mut writing, request) = begun.map_err(AccessError::Wrong)?;
         self.bus.send(&request)?;
@@ -170,7 +174,7 @@ impl<B: Bus> Client<B> {
     fn finish(&mut self, transfer: &mut impl Transfer) -> Result<(), AccessError> {
         loop {
             let heard = self.bus.receive(NAP)?;
-            let now = self.bus.now();
+            let now = self.now();
             let step = match heard {
                 Some(frame) => transfer.handle(&frame, now),
                 None => Step { send: None, outcome: None },
@@ -179,7 +183,7 @@ impl<B: Bus> Client<B> {
                 return Ok(());
             }
             // Other nodes may talk all the time.
-            let step = transfer.poll(self.bus.now());
+            let step = transfer.poll(self.now());
             if self.follow(step)? {
                 return Ok(());
             }
@@ -214,7 +218,7 @@ impl<B: Bus> Client<B> {
     pub fn booted(&mut self, node: u8, within: Duration) -> Result<bool, BusError> {
         let begin = self.bus.now();
         let of_node = CanId::new(0x700 + u16::from(node));
-        while u128::from(self.bus.now().wrapping_sub(begin)) < within.as_micros() {
+        while u128::from(self.bus.now().saturating_sub(begin)) < within.as_micros() {
             let heard = self.bus.receive(NAP)?;
             if heard.is_some_and(|frame| Some(frame.id()) == of_node && frame.bytes() == Some(&[0])) {
                 return Ok(true);

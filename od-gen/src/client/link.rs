@@ -166,9 +166,8 @@ impl Bus for SlcanBus {
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "it wraps around")]
-    fn now(&self) -> u32 {
-        self.start.elapsed().as_micros() as u32
+    fn now(&self) -> u64 {
+        u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 }
 

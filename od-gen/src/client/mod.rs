@@ -34,8 +34,8 @@ pub trait Bus {
     /// [`BusError`]: there will be none any more.
     fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError>;
 
-    /// Microseconds from any beginning, which wrap around.
-    fn now(&self) -> u32;
+    /// Microseconds from any beginning.
+    fn now(&self) -> u64;
 }
 
 impl<B: Bus + ?Sized> Bus for &mut B {
@@ -47,7 +47,7 @@ impl<B: Bus + ?Sized> Bus for &mut B {
         (**self).receive(within)
     }
 
-    fn now(&self) -> u32 {
+    fn now(&self) -> u64 {
         (**self).now()
     }
 }

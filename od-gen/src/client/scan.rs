@@ -151,7 +151,7 @@ pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Answ
         }
     }
     let begin = client.bus().now();
-    while u128::from(client.bus().now().wrapping_sub(begin)) < within.as_micros() {
+    while u128::from(client.bus().now().saturating_sub(begin)) < within.as_micros() {
         if let Some(frame) = client.bus().receive(Duration::from_millis(20))? {
             note(&frame);
         }

@@ -62,9 +62,8 @@ impl Bus for Virtual<'_> {
         Ok(self.heard.pop_front())
     }
 
-    fn now(&self) -> u32 {
-        // It wraps around soon.
-        u32::MAX.wrapping_sub(50_000).wrapping_add(u32::try_from(self.now).unwrap())
+    fn now(&self) -> u64 {
+        self.now
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use firmware_glue::clock::Instant;
+use firmware_glue::clock::{Instant, earlier};
 use firmware_glue::emcy::{Emergency, Raised};
 use firmware_glue::frame::Frame;
 use firmware_glue::lss;
@@ -92,7 +92,8 @@ impl<'t> VirtualNode<'t> {
         let mut answer = self.node.handle(frame, dictionary, host, Instant::from_micros(now));
         if answer.is_none() && self.node.serves(Service::Sdo) {
             let mut servers = self.further.iter_mut();
-            answer = servers.find_map(|server| server.handle(frame, dictionary, host, wrapping(now)));
+            answer =
+                servers.find_map(|server| server.handle(frame, dictionary, host, Instant::from_micros(now)));
         }
         self.follow(now);
         answer
@@ -105,18 +106,18 @@ impl<'t> VirtualNode<'t> {
             self.node.poll(dictionary, host, Instant::from_micros(now)).into_iter().collect();
         if self.node.serves(Service::Sdo) {
             let servers = self.further.iter_mut();
-            frames.extend(servers.filter_map(|server| server.poll(dictionary, host, wrapping(now))));
+            frames.extend(
+                servers.filter_map(|server| server.poll(dictionary, host, Instant::from_micros(now))),
+            );
         }
         self.follow(now);
         frames
     }
 
-    /// When it has something to say next, unless a frame comes before; a time that has passed while a transfer goes on.
+    /// When it has something to say next, unless a frame comes before; a time that has passed means at once.
     pub fn next_deadline(&self) -> Option<u64> {
-        if self.further.iter().any(SdoServer::is_busy) {
-            return Some(0);
-        }
-        self.node.next_deadline(&self.dictionary).map(Instant::as_micros)
+        let node = self.node.next_deadline(&self.dictionary);
+        self.further.iter().map(SdoServer::next_deadline).fold(node, earlier).map(Instant::as_micros)
     }
 
     /// Checks more of every value that comes over the bus from now on, or less.
@@ -177,9 +178,4 @@ impl<'t> VirtualNode<'t> {
             self.node.trigger_entry(&self.dictionary, entry, Instant::from_micros(now));
         }
     }
-}
-
-/// A time for servers, which count in 32 bits and mind only differences.
-fn wrapping(now: u64) -> u32 {
-    u32::try_from(now & u64::from(u32::MAX)).unwrap_or_default()
 }

@@ -9,13 +9,14 @@
 use std::io::{BufRead as _, Lines, StdinLock};
 use std::process::ExitCode;
 
+use firmware_glue::clock::Instant;
 use firmware_glue::frame::Frame;
 use firmware_glue::sdo::{Channel, Failure, Filled, SdoClient, Step, Way};
-use firmware_glue::{AbortCode, EntryId};
+use firmware_glue::{AbortCode, EntryId, NodeId};
 
 fn main() -> ExitCode {
     let node = std::env::args().nth(1).and_then(|node| node.parse().ok());
-    let Some(channel) = node.and_then(Channel::predefined) else {
+    let Some(channel) = node.and_then(NodeId::new).map(Channel::predefined) else {
         eprintln!("usage: sdo-client NODE");
         return ExitCode::from(2);
     };
@@ -66,7 +67,7 @@ impl Command {
         let client = SdoClient { way: self.way, ..SdoClient::new(channel) };
         if let Some(data) = self.data {
             let (mut writing, request) =
-                client.start_write(self.id, &data[..], 0).map_err(Failure::Client)?;
+                client.start_write(self.id, &data[..], Instant::ZERO).map_err(Failure::Client)?;
             exchange(channel, lines, request, |heard, now| match heard {
                 Some(frame) => writing.handle(&frame, now),
                 None => writing.poll(now),
@@ -74,7 +75,7 @@ impl Command {
             return Ok(data);
         }
         let mut buffer = vec![0; 1 << 16];
-        let (mut reading, request) = client.start_read(self.id, Filled::new(&mut buffer), 0);
+        let (mut reading, request) = client.start_read(self.id, Filled::new(&mut buffer), Instant::ZERO);
         exchange(channel, lines, request, |heard, now| match heard {
             Some(frame) => reading.handle(&frame, now),
             None => reading.poll(now),
@@ -88,10 +89,10 @@ fn exchange(
     channel: Channel,
     lines: &mut Lines<StdinLock<'_>>,
     request: Frame,
-    mut step: impl FnMut(Option<Frame>, u32) -> Step,
+    mut step: impl FnMut(Option<Frame>, Instant) -> Step,
 ) -> Result<(), Failure> {
     let mut sending = vec![request];
-    for now in (0..).step_by(100_000) {
+    for now in (0..).step_by(100).map(Instant::from_millis) {
         let mut outcome = None;
         let mut take = |taken: Step, sending: &mut Vec<Frame>| {
             sending.extend(taken.send);

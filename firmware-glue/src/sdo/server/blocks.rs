@@ -7,13 +7,14 @@ use super::super::upload::Upload;
 use super::{Phase, SdoServer, Transfer};
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::dictionary::Dictionary;
+use crate::dictionary::{Dictionary, readable};
 use crate::id::EntryId;
+use crate::stored::value_of;
 
 impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
-    /// Whether what comes is a segment of a block.
-    pub(super) const fn is_taking_blocks(&self) -> bool {
-        matches!(&self.transfer, Transfer::BlockDownload { receiver, .. } if !receiver.is_complete())
+    /// Whether there is a segment of a block to be sent.
+    pub(super) fn is_sending_blocks(&self) -> bool {
+        matches!(&self.transfer, Transfer::BlockUpload { sender, phase: Phase::Sending, .. } if sender.offset().is_some())
     }
 
     /// The answer to a segment of a block: at the end of the block, or when something is wrong.
@@ -121,14 +122,13 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
     ) -> Result<[u8; 8], AbortCode> {
         let sender = Sender::new(block_size)?;
         self.transfer = Transfer::None;
-        let upload = match dictionary.upload(id.index, id.sub, application) {
-            Ok(value) if threshold > 0 && value.len() <= usize::from(threshold) => {
-                return Ok(self.begin_upload(id, dictionary, application));
-            }
-            Ok(value) => Upload::of_value(id, &value, self.buffer.as_mut()),
-            Err(code) => Err(code),
-        };
-        let upload = upload.or_else(|code| Upload::of_refused(id, code, dictionary, application))?;
+        let found = readable(dictionary, id.index, id.sub, application)?;
+        let is_short = value_of(dictionary.table(), dictionary.image(), found)
+            .is_ok_and(|value| value.len() <= usize::from(threshold));
+        if threshold > 0 && is_short {
+            return Ok(self.begin_longer_upload(id, found, dictionary, application));
+        }
+        let upload = Upload::begin(id, found, self.buffer.as_mut(), dictionary, application)?;
         self.transfer = Transfer::BlockUpload { upload, sender, crc, phase: Phase::Announced };
         Ok(Answer::BlockUpload { id, crc: true, size: upload.size() }.encode())
     }

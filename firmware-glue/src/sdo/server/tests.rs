@@ -1,10 +1,12 @@
 use super::{SdoServer, Transfer};
 use crate::abort::AbortCode;
 use crate::application::Application;
+use crate::clock::Instant;
 use crate::data_type::DataType;
 use crate::dictionary::Dictionary;
 use crate::entries::Entries;
 use crate::frame::{CanId, Frame};
+use crate::node_id::NodeId;
 use crate::sdo::Channel;
 use crate::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place, Storage, Table};
 use crate::table_dictionary::TableDictionary;
@@ -91,7 +93,7 @@ fn with_server(test: impl FnOnce(&mut Bench<'_, '_>)) {
     };
     let table = Table::checked(parts).expect("right");
     let dictionary = TableDictionary::new(&table, [0; 33], 1).expect("as many bytes");
-    let server = SdoServer::new(Channel::predefined(5).expect("a node"), [0; 20]);
+    let server = SdoServer::new(Channel::predefined(NodeId::new(5).expect("a node")), [0; 20]);
     test(&mut Bench { dictionary, program: Program::default(), server: &mut server.clone() });
 }
 
@@ -102,9 +104,10 @@ struct Bench<'s, 't> {
 }
 
 impl Bench<'_, '_> {
-    fn at(&mut self, now: u32, request: [u8; 8]) -> Option<[u8; 8]> {
+    fn at(&mut self, now: u64, request: [u8; 8]) -> Option<[u8; 8]> {
         let frame = Frame::full(CanId::new(0x605).expect("11 bits"), request);
-        let answer = self.server.handle(&frame, &mut self.dictionary, &mut self.program, now)?;
+        let answer =
+            self.server.handle(&frame, &mut self.dictionary, &mut self.program, Instant::from_micros(now))?;
         assert_eq!(answer.id().get(), 0x585);
         answer.bytes()?.try_into().ok()
     }
@@ -121,7 +124,8 @@ impl Bench<'_, '_> {
         AbortCode(u32::from_le_bytes(code))
     }
 
-    fn poll(&mut self, now: u32) -> Option<[u8; 8]> {
+    fn poll(&mut self, now: u64) -> Option<[u8; 8]> {
+        let now = Instant::from_micros(now);
         self.server.poll(&mut self.dictionary, &mut self.program, now)?.bytes()?.try_into().ok()
     }
 }
@@ -222,12 +226,16 @@ fn the_toggle_bit_alternates() {
 #[test]
 fn a_silent_client_is_told_once_that_it_took_too_long() {
     with_server(|bench| {
-        // Around the end of the counter.
-        let begin = u32::MAX - 10;
+        // Later than 32 bits of microseconds can say.
+        let begin = u64::from(u32::MAX) + 10;
         assert_eq!(bench.at(begin, [0x21, 1, 0x20, 0, 9, 0, 0, 0]), Some([0x60, 1, 0x20, 0, 0, 0, 0, 0]));
-        assert_eq!(bench.poll(begin.wrapping_add(999_999)), None);
-        assert_eq!(bench.poll(begin.wrapping_add(1_000_000)), Some([0x80, 1, 0x20, 0, 0, 0, 4, 5]));
-        assert_eq!(bench.poll(begin.wrapping_add(3_000_000)), None);
+        let late = Instant::from_micros(begin + 1_000_000);
+        assert_eq!((bench.server.next_deadline(), bench.poll(begin + 999_999)), (Some(late), None));
+        assert_eq!(bench.poll(begin + 1_000_000), Some([0x80, 1, 0x20, 0, 0, 0, 4, 5]));
+        assert_eq!((bench.server.next_deadline(), bench.poll(begin + 3_000_000)), (None, None));
+        // However long it is, it has passed once.
+        bench.at(begin, [0x21, 1, 0x20, 0, 9, 0, 0, 0]);
+        assert_eq!(bench.poll(begin + (1 << 32) + 10), Some([0x80, 1, 0x20, 0, 0, 0, 4, 5]));
     });
 }
 
@@ -250,7 +258,10 @@ fn other_frames_are_not_the_servers_business() {
             Frame::remote(id, 8).expect("eight bytes"),
         ];
         for frame in frames {
-            assert_eq!(bench.server.handle(&frame, &mut bench.dictionary, &mut bench.program, 0), None);
+            assert_eq!(
+                bench.server.handle(&frame, &mut bench.dictionary, &mut bench.program, Instant::ZERO),
+                None
+            );
         }
     });
 }
@@ -279,7 +290,8 @@ fn a_buffer_that_is_too_small_is_told() {
         let mut small = SdoServer::new(channel, [0; 7]);
         let mut ask = |bytes| {
             let frame = Frame::full(channel.request, bytes);
-            let answer = small.handle(&frame, &mut bench.dictionary, &mut (), 0).expect("an answer");
+            let answer =
+                small.handle(&frame, &mut bench.dictionary, &mut (), Instant::ZERO).expect("an answer");
             let [command, _, _, _, code @ ..]: [u8; 8] = answer.bytes()?.try_into().ok()?;
             (command == 0x80).then_some(AbortCode(u32::from_le_bytes(code)))
         };
@@ -330,9 +342,12 @@ mod block {
             bench.dictionary.write(0x2001, 0, b"123456789", &mut ()).expect("writable");
             assert_eq!(bench.ask([0xA4, 1, 0x20, 0, 2, 0, 0, 0]), [0xC6, 1, 0x20, 0, 9, 0, 0, 0]);
             assert_eq!(bench.poll(0), None, "the client has not begun");
+            assert_eq!(bench.server.next_deadline(), Some(Instant::from_millis(1000)));
             let first = [0x01, b'1', b'2', b'3', b'4', b'5', b'6', b'7'];
             assert_eq!(bench.ask([0xA3, 0, 0, 0, 0, 0, 0, 0]), first);
+            assert_eq!(bench.server.next_deadline(), Some(Instant::ZERO), "there is more of the block");
             assert_eq!(bench.poll(0), Some([0x82, b'8', b'9', 0, 0, 0, 0, 0]));
+            assert_eq!(bench.server.next_deadline(), Some(Instant::from_millis(1000)));
             assert_eq!(bench.poll(0), None);
             assert_eq!(bench.ask([0xA2, 0, 1, 0, 0, 0, 0, 0]), first);
             assert_eq!(bench.poll(0), None, "a block of one");
@@ -367,7 +382,7 @@ mod block {
 
 #[test]
 fn a_channel_stands_in_the_dictionary() {
-    assert_eq!(Channel::predefined(0), None);
-    assert_eq!(Channel::predefined(128), None);
+    let channel = NodeId::new(127).map(Channel::predefined).expect("a node");
+    assert_eq!((channel.request.get(), channel.answer.get()), (0x67F, 0x5FF));
     with_server(|bench| assert_eq!(Channel::of_server(&bench.dictionary, 0), None));
 }

@@ -5,6 +5,7 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use firmware_glue::clock::Instant;
 use firmware_glue::frame::{CanId, Frame};
 use firmware_glue::sdo::{Channel, SdoServer};
 use od_generated::pmc::Pmc;
@@ -18,7 +19,7 @@ fn main() -> ! {
         SdoServer::new(Channel { request: CanId::MAX, answer: CanId::MAX }, [0; Pmc::LARGEST_VALUE]);
     let frame = Frame::full(CanId::MAX, [0; 8]);
     loop {
-        black_box(SERVER.handle(black_box(&frame), DICTIONARY, &mut (), black_box(0)));
-        black_box(SERVER.poll(DICTIONARY, &mut (), black_box(0)));
+        black_box(SERVER.handle(black_box(&frame), DICTIONARY, &mut (), black_box(Instant::ZERO)));
+        black_box(SERVER.poll(DICTIONARY, &mut (), black_box(Instant::ZERO)));
     }
 }
