@@ -8,7 +8,8 @@ The firmware is firmware-glue/examples/pitch-controller. The client knows it by 
 tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here stands what a virtual node has not: an axis that moves, a
 fault with its cause, parameters in a flash, a UART that hears nonsense.
 
-With --odgen, `odgen node` looks for the node, backs it up, compares, and restores it, too. The EDS readers have to be installed: it
+With --odgen, `odgen node` looks for the node, backs it up, compares, and restores it, too; and what the PMC has not is checked of a
+second program, tests/thumb/everything, whose EDS odgen makes: strings that can be written, DOMAINs, SYNC, LSS, nodes that it watches. The EDS readers have to be installed: it
 needs python-canopen, and is run with the Python of target/readers. Exit codes as those of run.py.
 """
 
@@ -23,12 +24,19 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import run
 
 sys.path.append(str(run.ROOT / "tests" / "readers"))
+if TYPE_CHECKING:
+    from sdo_client import Check
 
+EVERYTHING, EVERYTHING_PROGRAM = run.HERE / "everything", "thumb-everything"
+EVERYTHING_SPECIFICATION = run.ROOT / "tests" / "readers" / "everything.od.yaml"
 FIRMWARE = run.ROOT / "firmware-glue" / "examples" / "pitch-controller"
 PROGRAM = "pitch-controller"
 DEVICE = "pmc"
@@ -37,7 +45,7 @@ DUMP = run.ROOT / "generated" / "pitch-control-system.json"
 EDS = run.ROOT / "generated" / "eds" / f"{DEVICE}.eds"
 BOARD = ["-machine", "mps2-an386", "-nographic", "-monitor", "none"]
 HOST = "127.0.0.1"
-FEWEST = 2000  # checks: fewer were not all
+FEWEST = 2900  # checks: fewer were not all
 
 
 class Board:
@@ -88,11 +96,8 @@ def main() -> int:
             return serve(Board(program))
         faults = measure(toolchain)
         _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
-        board = Board(program)
-        try:
-            return max(faults, check(board, options.odgen))
-        finally:
-            board.end()
+        _, everything = run.build(toolchain, EVERYTHING)[EVERYTHING_PROGRAM]
+        return max(faults, check(program, everything, options.odgen))
     except (run.Failed, run.Missing) as error:
         print(f"error: {error}", file=sys.stderr)
         return 3 if isinstance(error, run.Missing) else 1
@@ -120,44 +125,70 @@ def serve(board: Board) -> int:
     return 0
 
 
-def check(board: Board, odgen: Path | None) -> int:
+@contextmanager
+def running(program: Path) -> Iterator[Board]:
+    board = Board(program)
+    try:
+        yield board
+    finally:
+        board.end()
+
+
+class Tally:
+    """What was tried, of all parts."""
+
+    def __init__(self) -> None:
+        self.passed = self.failed = 0
+
+    def add(self, what: str, part: Callable[[], tuple[int, list[str]]]) -> None:
+        begin = time.monotonic()
+        done, failures = part()
+        self.passed += done - len(failures)
+        self.failed += len(failures)
+        for failure in failures[:20]:
+            print(f"  {failure}")
+        right, seconds = done - len(failures), time.monotonic() - begin
+        print(f"{what}: {done} tried, {right} right, {len(failures)} wrong, {seconds:.1f} s", flush=True)
+
+
+def check(program: Path, everything: Path, odgen: Path | None) -> int:
     # `--run` does without python-canopen.
     from demo_checks import check_axis, check_storage, check_text, check_writes
+    from everything_checks import check_everything
     from virtual_node import Reached, check_device
 
     dump = json.loads(DUMP.read_text(encoding="utf-8"))
     (device,) = (one for one in dump["devices"] if one["key"] == DEVICE)
-    entries = sum(len(one["entries"]) for one in device["objects"])
-    passed = failed = 0
+    types, entries = dump["types"], sum(len(one["entries"]) for one in device["objects"])
+    tally = Tally()
 
-    def tell(what: str, done: int, failures: list[str], seconds: float) -> None:
-        nonlocal passed, failed
-        passed += done - len(failures)
-        failed += len(failures)
-        for failure in failures[:20]:
-            print(f"  {failure}")
-        print(f"{what}: {done} tried, {done - len(failures)} right, {len(failures)} wrong, {seconds:.1f} s", flush=True)
+    def client(what: str, part: Callable[[], Check]) -> None:
+        def checked() -> tuple[int, list[str]]:
+            result = part()
+            return result.done, result.failures
 
-    parts = [
-        ("what the UART hears", lambda: check_text(board.raw())),
-        (f"{entries} entries, states, blocks, storage", lambda: check_device(Reached(board.address), EDS, device, dump["types"])),
-        ("wrong lengths and values", lambda: check_writes(board.address, EDS, device, dump["types"])),
-        ("axis, PDOs, heartbeat, emergencies", lambda: check_axis(board.address, EDS, device, dump["types"])),
-        ("parameters in the flash", lambda: check_storage(board.address, EDS)),
-    ]
-    for what, part in parts:
-        begin = time.monotonic()
-        result = part()
-        tell(f"python-canopen and the emulated {DEVICE}, {what}", result.done, result.failures, time.monotonic() - begin)
+        tally.add(f"python-canopen and {what}", checked)
+
+    with running(program) as board:
+        address = board.address
+        client("the UART of the demo firmware", lambda: check_text(board.raw()))
+        client(f"its {entries} entries, states, blocks", lambda: check_device(Reached(address), EDS, device, types))
+        client("its limits", lambda: check_writes(address, EDS, device, types))
+        client("its axis, PDOs, heartbeat, emergencies", lambda: check_axis(address, EDS, device, types))
+        client("its flash", lambda: check_storage(address, EDS))
+        if odgen:
+            tally.add("odgen node and the demo firmware", lambda: check_odgen(odgen.resolve(), f"tcp:{address}"))
     if odgen:
-        begin = time.monotonic()
-        done, failures = check_odgen(odgen.resolve(), f"tcp:{board.address}")
-        tell(f"odgen node and the emulated {DEVICE}", done, failures, time.monotonic() - begin)
-    if passed < FEWEST:
-        print(f"error: {passed} checks, expected at least {FEWEST}", file=sys.stderr)
-        failed += 1
-    print(f"{passed} passed, {failed} failed")
-    return 1 if failed else 0
+        with tempfile.TemporaryDirectory() as folder, running(everything) as board:
+            command = [odgen.resolve(), "build", EVERYTHING_SPECIFICATION, "--out", folder]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            eds = Path(folder, "eds", "everything.eds")
+            client("strings, DOMAINs, SYNC, LSS", lambda: check_everything(board.address, eds))
+        if tally.passed < FEWEST:
+            print(f"error: {tally.passed} checks, expected at least {FEWEST}", file=sys.stderr)
+            tally.failed += 1
+    print(f"{tally.passed} passed, {tally.failed} failed")
+    return 1 if tally.failed else 0
 
 
 def check_odgen(odgen: Path, address: str) -> tuple[int, list[str]]:

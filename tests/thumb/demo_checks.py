@@ -9,6 +9,7 @@ from pathlib import Path
 
 import can
 import canopen
+from canopen.sdo.client import SdoClient
 
 from sdo_client import IN_USE, LOCKED, NODE, NOT_STORED, Check, code_of
 from virtual_node import Reached, reset
@@ -19,6 +20,9 @@ SIZES = {"integer8": 1, "unsigned8": 1, "integer16": 2, "unsigned16": 2, "intege
 CONTROLWORD, STATUSWORD, POSITION, TARGET = 0x6040, 0x6041, 0x6064, 0x607A
 UNDER_VOLTAGE = 0x3220
 READ_DEVICE_TYPE, DEVICE_TYPE = b"t60584000100000000000\r", b"t58584300100092010200\r"
+
+# An emulator on a busy machine takes its time for 127 segments.
+SdoClient.RESPONSE_TIMEOUT = 3.0
 
 
 @contextmanager
