@@ -27,19 +27,33 @@ from sdo_client import NODE, NOT_STORED, Check, begin, check_dictionary, code_of
 SAVE = b"save"
 
 
-class Served:
+class Reached:
+    """A node that runs already, alone on its bus, behind an adapter over TCP that has one client."""
+
+    is_shared = False
+
+    def __init__(self, address: str) -> None:
+        self.address = address
+
+    def bus(self) -> can.BusABC:
+        channel = f"socket://{self.address}"
+        return can.Bus(interface="slcan", channel=channel, bitrate=500_000, sleep_after_open=0)
+
+    def end(self) -> None:
+        pass
+
+
+class Served(Reached):
     """`odgen serve` with one node, and a client of it."""
+
+    is_shared = True
 
     def __init__(self, odgen: str, spec: Path, key: str, *more: str) -> None:
         command = [odgen, "serve", str(spec), "--node", f"{NODE}={key}", "--slcan", "tcp:127.0.0.1:0", *more]
         pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
         self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=nowhere, text=True)
         assert self.process.stdout
-        self.port = int(self.process.stdout.readline().rsplit(":", 1)[1])
-
-    def bus(self) -> can.BusABC:
-        channel = f"socket://127.0.0.1:{self.port}"
-        return can.Bus(interface="slcan", channel=channel, bitrate=500_000, sleep_after_open=0)
+        super().__init__(f"127.0.0.1:{self.process.stdout.readline().rsplit(':', 1)[1].strip()}")
 
     def say(self, command: str) -> None:
         """A command of a script on standard input."""
@@ -160,9 +174,8 @@ def check_second(check: Check, served: Served, node: canopen.RemoteNode) -> None
             check.that("node guarding", bytes(answer.data) if answer else None, bytes([toggle | 127]))
 
 
-def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: list[dict]) -> Check:
+def check_device(served: Reached, eds: Path, device: dict, types: list[dict]) -> Check:
     check = begin(device, types)
-    served = Served(odgen, spec, device["key"])
     network = canopen.Network(served.bus())
     try:
         network.notifier = can.Notifier(network.bus, network.listeners, 0.1)
@@ -173,8 +186,9 @@ def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: list[di
         check_dictionary(check, node, device)
         reset(check, node)
         check_blocks(check, node, device)
-        check_second(check, served, node)
-        reset(check, node)
+        if served.is_shared:
+            check_second(check, served, node)
+            reset(check, node)
         check_reset(check, node, device)
     finally:
         network.disconnect()
@@ -194,7 +208,8 @@ def main() -> int:
     for device in dump["devices"]:
         eds = options.eds_dir / f"{device['key']}.eds"
         started = time.monotonic()
-        check = check_device(options.odgen, options.spec, eds, device, dump["types"])
+        served = Served(options.odgen, options.spec, device["key"])
+        check = check_device(served, eds, device, dump["types"])
         failed += bool(check.failures) or check.done < 500
         for failure in check.failures[:20]:
             print(f"  {failure}")

@@ -214,15 +214,15 @@ def output(command: list[str], environment: dict[str, str] | None = None) -> str
     return done.stdout.strip()
 
 
-def build(toolchain: Toolchain) -> dict[str, tuple[str, Path]]:
+def build(toolchain: Toolchain, workspace: Path = HERE, features: tuple[str, ...] = ()) -> dict[str, tuple[str, Path]]:
     """All programs: name to source folder and ELF file, in the order of their names."""
     fetch = [toolchain.cargo, "fetch", "--locked", "--quiet"]
-    if subprocess.run(fetch, check=False, cwd=HERE, env=toolchain.environment).returncode != 0:
+    if subprocess.run(fetch, check=False, cwd=workspace, env=toolchain.environment).returncode != 0:
         raise Missing("the crates that the firmware uses cannot be fetched")
     command = [toolchain.cargo, "build", "--release", "--locked", "--quiet", "--target", TARGET, *toolchain.flags]
-    command.append("--message-format=json-render-diagnostics")
+    command += ["--message-format=json-render-diagnostics", *(f"--features={feature}" for feature in features)]
     done = subprocess.run(
-        command, check=False, cwd=HERE, env=toolchain.environment, stdout=subprocess.PIPE, text=True, encoding="utf-8"
+        command, check=False, cwd=workspace, env=toolchain.environment, stdout=subprocess.PIPE, text=True, encoding="utf-8"
     )
     if done.returncode != 0:
         raise Failed(f"{' '.join(command)} ended with {done.returncode}")

@@ -1,0 +1,249 @@
+//! The application: a simulated axis, its state machine, one fault, and parameters that are kept.
+//!
+//! The dictionary has checked what comes over the bus before it gets here: types, limits, access, write conditions. What is left is
+//! what only the application can know.
+
+use firmware_glue::clock::{Duration, Instant};
+use firmware_glue::emcy::Emergency;
+use firmware_glue::lss::{BitRate, LssHandler};
+use firmware_glue::node::{NodeHandler, Reset};
+use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::storage::{ALL, Command, ParameterStore};
+use firmware_glue::{AbortCode, Application, Dictionary, NodeId, Storage};
+
+use crate::flash::RamFlash;
+use crate::pmc::machines::{PowerDriveCommand, PowerDriveState};
+use crate::pmc::types::{Controlword, ModesOfOperation, Statusword, StoreCapability};
+use crate::pmc::{Entry, Pmc, errors, units};
+
+/// Where parameters are kept.
+pub type Store<'m> = ParameterStore<RamFlash<'m>, 64>;
+
+/// What a client reads of 1010h and 1011h: the device does it on command.
+const ON_COMMAND: StoreCapability = StoreCapability(0).with_saves_on_command(true);
+/// The simulation goes on in steps of this time.
+const STEP: Duration = Duration::from_millis(10);
+/// Steps in a second: speeds are told per second.
+const STEPS_PER_SECOND: u32 = 100;
+/// The DC link of the bench, which never changes.
+const DC_LINK: units::Millivolt<u32> = units::Millivolt(560_000);
+const DC_LINK_VOLTS: u16 = 560;
+
+/// What the main loop tells the node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Report {
+    /// An error has occurred.
+    Raised(Emergency),
+    /// An error, by its code, has been acknowledged.
+    Cleared(u16),
+}
+
+/// A drive.
+#[derive(Debug)]
+pub struct Drive<'m> {
+    store: Store<'m>,
+    state: PowerDriveState,
+    /// As it was before the last write, for bits that act on a change.
+    controlword: Controlword,
+    target: i32,
+    /// What a step has left of a position unit, in parts of [`STEPS_PER_SECOND`].
+    rest: u32,
+    stepped: Instant,
+    /// The error that the node has been told of.
+    told: Option<u16>,
+    #[cfg(feature = "names")]
+    console: crate::uart::Uart,
+}
+
+impl<'m> Drive<'m> {
+    /// A drive that is switched on.
+    pub fn new(store: Store<'m>) -> Self {
+        Self {
+            store,
+            state: PowerDriveState::SwitchOnDisabled,
+            controlword: Controlword(0),
+            target: 0,
+            rest: 0,
+            stepped: Instant::ZERO,
+            told: None,
+            #[cfg(feature = "names")]
+            console: crate::uart::Uart::Console.open(),
+        }
+    }
+
+    /// Goes on with the simulation, and shows it in the dictionary.
+    pub fn step(&mut self, od: &mut Pmc, now: Instant) {
+        if now.since(self.stepped) >= STEP {
+            self.stepped = now;
+            let velocity = self.travel(od);
+            od.set_actual_velocity(units::PositionUnitPerSecond(velocity));
+        }
+        let is_at_target = od.position_actual_value().0 == self.target;
+        od.set_statusword(
+            statusword(self.state)
+                .with_remote(true)
+                .with_target_reached(is_at_target)
+                .with_manufacturer_specific(od.controlword().manufacturer_specific()),
+        );
+    }
+
+    /// The travel of one step towards the target; the velocity.
+    fn travel(&mut self, od: &mut Pmc) -> i32 {
+        let position = od.position_actual_value().0;
+        let distance = self.target.saturating_sub(position);
+        let may_move = self.state == PowerDriveState::OperationEnabled && !od.controlword().halt();
+        if !may_move || distance == 0 {
+            self.rest = 0;
+            return 0;
+        }
+        let velocity = od.profile_velocity().0.min(od.max_profile_velocity().0);
+        let parts = self.rest.saturating_add(velocity);
+        self.rest = parts % STEPS_PER_SECOND;
+        let travelled =
+            i32::try_from((parts / STEPS_PER_SECOND).min(distance.unsigned_abs())).unwrap_or(i32::MAX);
+        let sign = distance.signum();
+        od.set_position_actual_value(units::PositionUnit(
+            position.saturating_add(travelled.saturating_mul(sign)),
+        ));
+        i32::try_from(velocity).unwrap_or(i32::MAX).saturating_mul(sign)
+    }
+
+    /// Looks for errors. The one that this drive has: the DC link is below its lowest voltage (6510h.4), as a client can set it.
+    pub fn supervise(&mut self, od: &mut Pmc, now: Instant) -> Option<Report> {
+        match self.told {
+            None if is_under_voltage(od) => {
+                self.state = PowerDriveState::Fault;
+                let code = errors::UNDER_VOLTAGE_IN_THE_DC_LINK;
+                self.told = Some(code);
+                od.set_error_code(code);
+                // In milliseconds since power-on; 1003h is the node's affair.
+                let [a, b, c, d, ..] = now.as_micros().saturating_div(1000).to_le_bytes();
+                let _ = od.set_error_field_time_stamp(1, u32::from_le_bytes([a, b, c, d]));
+                Some(Report::Raised(Emergency::new(code)))
+            }
+            Some(code) if self.state != PowerDriveState::Fault => {
+                self.told = None;
+                od.set_error_code(errors::NO_ERROR);
+                Some(Report::Cleared(code))
+            }
+            None | Some(_) => None,
+        }
+    }
+
+    /// Does what the controlword says.
+    fn obey(&mut self, od: &Pmc) {
+        let (word, before) = (od.controlword(), self.controlword);
+        self.controlword = word;
+        let is_reset = word.fault_reset() && !before.fault_reset();
+        self.state = match self.state {
+            PowerDriveState::Fault if is_reset && !is_under_voltage(od) => PowerDriveState::SwitchOnDisabled,
+            state => next(state, word),
+        };
+        let is_new = word.new_set_point() && !before.new_set_point();
+        if is_new && od.modes_of_operation_display() == ModesOfOperation::PROFILE_POSITION_MODE {
+            let limits = od.software_position_limit();
+            let lowest = limits.min_position_limit().0;
+            self.target = od.target_position().0.max(lowest).min(limits.max_position_limit().0);
+        }
+    }
+}
+
+impl Application<Pmc> for Drive<'_> {
+    fn accept(&mut self, od: &mut Pmc, entry: Entry, _: &[u8]) -> Result<(), AbortCode> {
+        match Command::of(od.table().id(od.row(entry))) {
+            Some(command) => self.store.command(od, command).map(drop).map_err(AbortCode::from),
+            None => Ok(()),
+        }
+    }
+
+    fn changed(&mut self, od: &mut Pmc, entry: Entry) {
+        match entry {
+            Entry::Controlword => self.obey(od),
+            Entry::ModesOfOperation => od.set_modes_of_operation_display(od.modes_of_operation()),
+            _ => {}
+        }
+        #[cfg(feature = "names")]
+        crate::names::tell(&mut self.console, entry);
+    }
+}
+
+impl PdoHandler<Pmc> for Drive<'_> {}
+
+/// This device has no LSS; the main loop shows the node no request of it.
+impl LssHandler for Drive<'_> {
+    fn has_bit_rate(&self, _: BitRate) -> bool {
+        false
+    }
+}
+
+impl NodeHandler<Pmc> for Drive<'_> {
+    fn restart(&mut self, od: &mut Pmc, node: NodeId, reset: Reset) {
+        let groups: &[Storage] = match reset {
+            Reset::Node => &ALL,
+            Reset::Communication => &[Storage::Communication],
+        };
+        self.store.load(od, node, groups);
+        let mut store = od.store_parameters_mut();
+        store.set_save_all_parameters(ON_COMMAND);
+        store.set_save_communication_parameters(ON_COMMAND);
+        store.set_save_application_parameters(ON_COMMAND);
+        // A real one reads it from its factory data.
+        od.identity_object_mut().set_serial_number(4711);
+        if reset == Reset::Node {
+            self.state = PowerDriveState::SwitchOnDisabled;
+            self.controlword = Controlword(0);
+            self.target = 0;
+            self.rest = 0;
+            self.told = None;
+            od.set_dc_link_circuit_voltage(DC_LINK);
+        }
+    }
+}
+
+fn is_under_voltage(od: &Pmc) -> bool {
+    DC_LINK_VOLTS < od.drive_data().min_dc_link_voltage().0
+}
+
+/// The state behind a controlword: the transitions of the drive that a command makes.
+fn next(state: PowerDriveState, word: Controlword) -> PowerDriveState {
+    use PowerDriveCommand as Do;
+    use PowerDriveState as State;
+    match state {
+        State::SwitchOnDisabled if Do::Shutdown.is_in(word) => State::ReadyToSwitchOn,
+        State::ReadyToSwitchOn | State::SwitchedOn | State::OperationEnabled | State::QuickStopActive
+            if Do::DisableVoltage.is_in(word) =>
+        {
+            State::SwitchOnDisabled
+        }
+        State::ReadyToSwitchOn | State::SwitchedOn if Do::Quickstop.is_in(word) => State::SwitchOnDisabled,
+        State::OperationEnabled if Do::Quickstop.is_in(word) => State::QuickStopActive,
+        State::SwitchedOn | State::OperationEnabled if Do::Shutdown.is_in(word) => State::ReadyToSwitchOn,
+        State::ReadyToSwitchOn if Do::SwitchOn.is_in(word) => State::SwitchedOn,
+        State::ReadyToSwitchOn | State::SwitchedOn | State::QuickStopActive
+            if Do::EnableOperation.is_in(word) =>
+        {
+            State::OperationEnabled
+        }
+        State::OperationEnabled if Do::DisableOperation.is_in(word) => State::SwitchedOn,
+        state => state,
+    }
+}
+
+/// The bits that show a state.
+const fn statusword(state: PowerDriveState) -> Statusword {
+    let word = Statusword(0);
+    match state {
+        PowerDriveState::NotReadyToSwitchOn => word,
+        PowerDriveState::SwitchOnDisabled => word.with_switch_on_disabled(true),
+        PowerDriveState::ReadyToSwitchOn => word.with_ready_to_switch_on(true).with_quickstop(true),
+        PowerDriveState::SwitchedOn => powered(word).with_quickstop(true),
+        PowerDriveState::OperationEnabled => powered(word).with_operation_enabled(true).with_quickstop(true),
+        PowerDriveState::QuickStopActive => powered(word).with_operation_enabled(true),
+        PowerDriveState::FaultReactionActive => powered(word).with_operation_enabled(true).with_fault(true),
+        PowerDriveState::Fault => word.with_fault(true),
+    }
+}
+
+const fn powered(word: Statusword) -> Statusword {
+    word.with_ready_to_switch_on(true).with_switched_on(true).with_voltage_enabled(true)
+}

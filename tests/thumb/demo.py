@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""Be the master of the demo firmware on an emulated Cortex-M4: python-canopen over SLCAN, through the UART.
+
+    demo.py [--odgen target/debug/odgen]     build, measure, run in QEMU, check
+    demo.py --run                            build and run until Ctrl-C; the adapter is at the address that is printed
+
+The firmware is firmware-glue/examples/pitch-controller. The client knows it by the generated EDS alone and does to it what
+tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here stands what a virtual node has not: an axis that moves, a
+fault with its cause, parameters in a flash, a UART that hears nonsense.
+
+With --odgen, `odgen node` looks for the node, backs it up, compares, and restores it, too; and what the PMC has not is checked of a
+second program, tests/thumb/everything, whose EDS odgen makes: strings that can be written, DOMAINs, SYNC, LSS, nodes that it watches. The EDS readers have to be installed: it
+needs python-canopen, and is run with the Python of target/readers. Exit codes as those of run.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import run
+
+sys.path.append(str(run.ROOT / "tests" / "readers"))
+if TYPE_CHECKING:
+    from sdo_client import Check
+
+EVERYTHING, EVERYTHING_PROGRAM = run.HERE / "everything", "thumb-everything"
+EVERYTHING_SPECIFICATION = run.ROOT / "tests" / "readers" / "everything.od.yaml"
+FIRMWARE = run.ROOT / "firmware-glue" / "examples" / "pitch-controller"
+PROGRAM = "pitch-controller"
+DEVICE = "pmc"
+SPECIFICATION = run.ROOT / "od-spec" / "devices" / "pitch-control-system.od.yaml"
+DUMP = run.ROOT / "generated" / "pitch-control-system.json"
+EDS = run.ROOT / "generated" / "eds" / f"{DEVICE}.eds"
+BOARD = ["-machine", "mps2-an386", "-nographic", "-monitor", "none"]
+HOST = "127.0.0.1"
+FEWEST = 2900  # checks: fewer were not all
+
+
+class Board:
+    """The emulated board with the firmware: its UART is a TCP server."""
+
+    def __init__(self, program: Path) -> None:
+        with socket.socket() as free:
+            free.bind((HOST, 0))
+            port = free.getsockname()[1]
+        self.address = f"{HOST}:{port}"
+        # Without `nodelay`, each answer waits for the acknowledgement of the one before.
+        serial = ["-serial", f"tcp:{self.address},server=on,wait=off,nodelay=on"]
+        command = [run.QEMU, *BOARD, *serial, "-kernel", str(program)]
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
+        until = time.monotonic() + 20
+        while True:
+            try:
+                socket.create_connection((HOST, port)).close()
+                return
+            except OSError as error:
+                if self.process.poll() is not None or time.monotonic() > until:
+                    self.end()
+                    raise run.Failed(f"{run.QEMU} does not listen at {self.address}: {error}") from error
+                time.sleep(0.05)
+
+    def raw(self) -> socket.socket:
+        host, port = self.address.split(":")
+        connection = socket.create_connection((host, int(port)), timeout=5)
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        return connection
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.wait(timeout=10)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("--odgen", type=Path)
+    parser.add_argument("--run", action="store_true")
+    options = parser.parse_args()
+    try:
+        if not shutil.which(run.QEMU):
+            raise run.Missing(run.INSTALL_QEMU)
+        toolchain = run.find_toolchain()
+        if options.run:
+            _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
+            return serve(Board(program))
+        faults = measure(toolchain)
+        _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
+        _, everything = run.build(toolchain, EVERYTHING)[EVERYTHING_PROGRAM]
+        return max(faults, check(program, everything, options.odgen))
+    except (run.Failed, run.Missing) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 3 if isinstance(error, run.Missing) else 1
+
+
+def measure(toolchain: run.Toolchain) -> int:
+    """Prints the sizes, with names and without; 1 when the firmware can panic."""
+    with_names = run.Elf(run.build(toolchain, FIRMWARE, ("names",))[PROGRAM][1])
+    elf = run.Elf(run.build(toolchain, FIRMWARE)[PROGRAM][1])
+    print(f"{toolchain.describe()}\n\n{run.table({PROGRAM: elf, 'with names': with_names})}\n")
+    if elf.named(run.HEAVY[run.PANICS]):
+        print(f"error: {PROGRAM} can panic", file=sys.stderr)
+        return 1
+    return 0
+
+
+def serve(board: Board) -> int:
+    print(f"node 5, a {DEVICE}, at tcp:{board.address}; Ctrl-C ends it", flush=True)
+    try:
+        board.process.wait()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        board.end()
+    return 0
+
+
+@contextmanager
+def running(program: Path) -> Iterator[Board]:
+    board = Board(program)
+    try:
+        yield board
+    finally:
+        board.end()
+
+
+class Tally:
+    """What was tried, of all parts."""
+
+    def __init__(self) -> None:
+        self.passed = self.failed = 0
+
+    def add(self, what: str, part: Callable[[], tuple[int, list[str]]]) -> None:
+        begin = time.monotonic()
+        done, failures = part()
+        self.passed += done - len(failures)
+        self.failed += len(failures)
+        for failure in failures[:20]:
+            print(f"  {failure}")
+        right, seconds = done - len(failures), time.monotonic() - begin
+        print(f"{what}: {done} tried, {right} right, {len(failures)} wrong, {seconds:.1f} s", flush=True)
+
+
+def check(program: Path, everything: Path, odgen: Path | None) -> int:
+    # `--run` does without python-canopen.
+    from demo_checks import check_axis, check_storage, check_text, check_writes
+    from everything_checks import check_everything
+    from virtual_node import Reached, check_device
+
+    dump = json.loads(DUMP.read_text(encoding="utf-8"))
+    (device,) = (one for one in dump["devices"] if one["key"] == DEVICE)
+    types, entries = dump["types"], sum(len(one["entries"]) for one in device["objects"])
+    tally = Tally()
+
+    def client(what: str, part: Callable[[], Check]) -> None:
+        def checked() -> tuple[int, list[str]]:
+            result = part()
+            return result.done, result.failures
+
+        tally.add(f"python-canopen and {what}", checked)
+
+    with running(program) as board:
+        address = board.address
+        client("the UART of the demo firmware", lambda: check_text(board.raw()))
+        client(f"its {entries} entries, states, blocks", lambda: check_device(Reached(address), EDS, device, types))
+        client("its limits", lambda: check_writes(address, EDS, device, types))
+        client("its axis, PDOs, heartbeat, emergencies", lambda: check_axis(address, EDS, device, types))
+        client("its flash", lambda: check_storage(address, EDS))
+        if odgen:
+            tally.add("odgen node and the demo firmware", lambda: check_odgen(odgen.resolve(), f"tcp:{address}"))
+    if odgen:
+        with tempfile.TemporaryDirectory() as folder, running(everything) as board:
+            command = [odgen.resolve(), "build", EVERYTHING_SPECIFICATION, "--out", folder]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            eds = Path(folder, "eds", "everything.eds")
+            client("strings, DOMAINs, SYNC, LSS", lambda: check_everything(board.address, eds))
+        if tally.passed < FEWEST:
+            print(f"error: {tally.passed} checks, expected at least {FEWEST}", file=sys.stderr)
+            tally.failed += 1
+    print(f"{tally.passed} passed, {tally.failed} failed")
+    return 1 if tally.failed else 0
+
+
+def check_odgen(odgen: Path, address: str) -> tuple[int, list[str]]:
+    """Finds the node, backs it up, changes it, compares, restores; how many checks, and what was wrong."""
+    failures, done = [], 0
+
+    def expect(code: int, pattern: str, *command: str) -> None:
+        nonlocal done
+        done += 1
+        whole = [str(odgen), "node", *command, "--slcan", address]
+        said = subprocess.run(whole, capture_output=True, text=True, check=False, timeout=120)
+        text = said.stdout + said.stderr
+        if said.returncode != code or not re.search(pattern, text):
+            failures.append(f"{' '.join(whole)}: ended with {said.returncode} and {text[-300:]!r}, expected {code} and {pattern!r}")
+
+    spec, of_node = str(SPECIFICATION), ("--device", DEVICE, "--node", "5")
+    with tempfile.TemporaryDirectory() as folder:
+        file = str(Path(folder, "pmc-5.yaml"))
+        expect(0, rf"can be {DEVICE} ", "scan", spec, "--timeout", "200")
+        expect(0, "", "backup", spec, "--out", file, *of_node)
+        expect(0, "", "compare", spec, file, *of_node)
+        expect(0, "", "write", spec, "EFC target position=88.00 °", *of_node)
+        expect(3, "567Ah", "compare", spec, file, *of_node)
+        expect(0, "567Ah", "restore", spec, file, *of_node)
+        expect(0, "", "compare", spec, file, *of_node)
+    return done, failures
+
+
+if __name__ == "__main__":
+    sys.exit(main())
