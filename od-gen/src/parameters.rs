@@ -8,7 +8,7 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use od_spec::diag::{Diagnostic, Diagnostics, Severity};
+use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Commissioning, assign_layers, bit_rate, parameter_file, rule_codes};
@@ -50,12 +50,17 @@ pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> P
     let mut left_out = left_out;
     left_out.extend(views(about.device, &mut node));
     node.keep_differences(about.device);
-    write_all(about, node, left_out)
+    written(about, node, left_out, &[])
 }
 
-/// The same with all values, also those that are the defaults: what a node has is written down whole. A bit rate of 0 is not known, and
-/// not said.
+/// The same with all values, also those that are the defaults: what a node has is written down whole. In which state it accepted them is not
+/// asked: who gives them back finds most of them there. A bit rate of 0 is not known, and not said.
 pub fn write_all(about: About<'_>, node: Commissioning, left_out: Vec<String>) -> ParameterText {
+    written(about, node, left_out, &[rule_codes::NOT_NOW])
+}
+
+/// The parameter file of all values of a node; what is found about them by the rules with these codes is not said.
+fn written(about: About<'_>, node: Commissioning, left_out: Vec<String>, unsaid: &[&Code]) -> ParameterText {
     let device = about.device;
     let (mut node, mut left_out) = (node, left_out);
     node.unlocked = node.values.keys().copied().filter(|id| is_locked(device, *id)).collect();
@@ -68,6 +73,7 @@ pub fn write_all(about: About<'_>, node: Commissioning, left_out: Vec<String>) -
                 node.unlocked.remove(&id);
                 left_out.push(found.message.clone());
             }
+            None if unsaid.contains(&found.code) => {}
             None => findings.push(found.message.clone()),
         }
     }

@@ -122,6 +122,6 @@ fn files_with(
 }
 
 /// The name of a node's files without their ending: `B-pmc`.
-fn stem(plant: &Plant, node: &PlantNode) -> String {
+pub fn stem(plant: &Plant, node: &PlantNode) -> String {
     format!("{}-{}", node.position, plant.devices.get(node.device).map_or("", |device| &device.key))
 }

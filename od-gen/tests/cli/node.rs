@@ -10,7 +10,7 @@ use crate::served::Served;
 use crate::{Scratch, code, files, odgen, stderr, stdout};
 
 /// A device with everything that a master meets: units, an enum, bits, a text, a lock, a view, conditions, stored parameters.
-const HEATER: &str = "\
+pub(crate) const HEATER: &str = "\
 od-spec: 1
 title: Heater
 uses: [cia301]
@@ -278,4 +278,18 @@ fn a_node_is_talked_to_as_the_readme_shows() {
         lines.extend(stderr(&output).lines().take_while(|line| !line.contains("-->")).map(str::to_owned));
     }
     shows("node", lines.iter().map(String::as_str));
+}
+
+/// In which state an entry is accepted matters only where its value is to be written.
+#[test]
+fn what_a_node_has_already_is_no_warning() {
+    let bus = Bus::new("node-not-now");
+    let said = [
+        bus.node("backup", &["--out", "heater.yaml"]),
+        bus.node("restore", &["heater.yaml"]),
+        bus.node("write", &["way=fast", "fan=3"]),
+        bus.node("write", &["way=slow"]),
+        bus.node("restore", &["heater.yaml"]),
+    ];
+    assert_snapshot!("node-not-now", said.concat());
 }

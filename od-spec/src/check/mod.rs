@@ -105,6 +105,7 @@ pub mod codes {
     pub use super::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
     pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
     pub(crate) use super::value_within_limits::CODE as OUTSIDE_LIMITS;
+    pub use super::write_conditions_are_met::CODE as NOT_NOW;
 }
 
 use std::collections::BTreeSet;

@@ -8,7 +8,8 @@ use crate::model::Outcome;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Settings(check) };
 
-const CODE: &Code = &Code {
+/// An entry is set that the device does not accept in the state that it is in then.
+pub const CODE: &Code = &Code {
     id: "OD0710",
     severity: Severity::Warning,
     foreign: Severity::Warning,

@@ -8,7 +8,7 @@ use od_spec::model::{Dictionary, EntryId, Index, SubIndex, System, Value};
 use od_spec::visible::visible;
 
 use super::args::NodesArgs;
-use super::report::{Report, node_id, shown};
+use super::report::{Report, node_id};
 use super::{ERRORS, plant, specs};
 
 /// Where a device tells its serial number.
@@ -106,10 +106,8 @@ impl BusNodes {
             ));
         }
         if path.is_file() && !plant::names_plant(path) {
-            return Err(refuse(
-                &format!("{} is no plant file, and only a plant has machines", shown(path)),
-                "name a plant file, or the nodes of a specification with `--node ID=KEY`",
-            ));
+            let help = "name a plant file, or the nodes of a specification with `--node ID=KEY`";
+            return Err(report.refuse(plant::no_plant(path, help)));
         }
         let plant::Read { plant, settled, .. } = plant::read(path, report)?;
         let machine = plant::machine(&plant, args.site.as_deref(), args.machine.as_deref())

@@ -17,7 +17,7 @@ use od_spec::model::SystemSource;
 use od_spec::plant::{Plant, Settled, plant};
 use od_spec::source::SourceMap;
 
-pub(crate) use machine::{machine, names_plant};
+pub(crate) use machine::{machine, names_plant, no_plant};
 pub(crate) use schema::schema;
 
 use super::ERRORS;
@@ -41,7 +41,7 @@ pub(crate) struct Read {
     pub(crate) plant: Plant,
     /// What each class is set to.
     pub(crate) settled: Vec<Settled>,
-    sources: SourceMap,
+    pub(crate) sources: SourceMap,
     /// The files that were read.
     files: Vec<PathBuf>,
 }

@@ -18,11 +18,11 @@ pub(crate) enum NodeCommand {
     Read(NodeReadArgs),
     /// Write entries, in the order that is given, after a check against the specification and what the node has
     Write(NodeWriteArgs),
-    /// Write the parameters of a node into a parameter file, by name and in units: all that can be read and written
+    /// Write the parameters of a node, or of all nodes of a machine, into parameter files, by name and in units: all that can be read and written
     Backup(NodeBackupArgs),
-    /// Tell which values of a parameter file a node has otherwise; exit code 3 when there are any
+    /// Tell which values of a parameter file a node, or the nodes of a machine, have otherwise; exit code 3 when there are any
     Compare(NodeFileArgs),
-    /// Give a node the values of a parameter file, in an order that it takes, and read them back
+    /// Give a node, or the nodes of a machine, the values of a parameter file, in an order that they take, and read them back
     Restore(NodeFileArgs),
     /// Ask all 127 node-IDs who they are, and tell which of the specifications fits
     Scan(NodeScanArgs),
@@ -71,7 +71,7 @@ pub(crate) struct LinkArgs {
 /// Which node, and what device it is.
 #[derive(Debug, Args)]
 pub(crate) struct OneNodeArgs {
-    /// Specification, EDS, DCF, XDD or XDC of the node's device
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
     pub spec: PathBuf,
 
     /// Key of the device [default: the only one]
@@ -81,6 +81,14 @@ pub(crate) struct OneNodeArgs {
     /// Node-ID, 1 to 127 [default: of a DCF or a parameter file its own]
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
+
+    /// Where SPEC is a plant file: the machine, by name or number, whose nodes are meant [default: the only one]
+    #[arg(long, value_name = "NAME")]
+    pub machine: Option<String>,
+
+    /// The site of the machine [default: that of the only machine with this name]
+    #[arg(long, value_name = "NAME")]
+    pub site: Option<String>,
 
     /// Go on with a node that says by its device type, vendor or product that it is another device
     #[arg(long)]
@@ -123,11 +131,11 @@ pub(crate) struct NodeBackupArgs {
     #[command(flatten)]
     pub node: OneNodeArgs,
 
-    /// File to write
-    #[arg(long, short, value_name = "FILE")]
+    /// File to write; without `--node`, of a machine of a plant the directory for a file of each node
+    #[arg(long, short, value_name = "FILE|DIR")]
     pub out: PathBuf,
 
-    /// Replace a file of this name
+    /// Replace files of these names
     #[arg(long)]
     pub force: bool,
 }
@@ -137,8 +145,8 @@ pub(crate) struct NodeFileArgs {
     #[command(flatten)]
     pub node: OneNodeArgs,
 
-    /// The parameter file
-    #[arg(value_name = "FILE")]
+    /// The parameter file; of a machine of a plant the directory with a file of each node
+    #[arg(value_name = "FILE|DIR")]
     pub file: PathBuf,
 }
 

@@ -16,7 +16,7 @@ use super::{Described, Target, reach};
 /// Reads entries. What cannot be read is told, and the others are read all the same.
 pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
-    let target = described.target(&args.node, None, None, report)?;
+    let target = described.target(&args.node, None, report)?;
     let mut ids = Vec::new();
     for text in &args.entries {
         ids.extend(entries(target.device, text).map_err(|diagnostic| report.refuse(diagnostic))?);
@@ -70,8 +70,8 @@ fn entries(device: &Dictionary, text: &str) -> Result<Vec<EntryId>, Diagnostic> 
 /// Writes entries one after the other; ends with the first that fails.
 pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
-    let target = described.target(&args.node, None, None, report)?;
-    let (mut sources, mut diagnostics) = (described.sources.clone(), Diagnostics::new());
+    let target = described.target(&args.node, None, report)?;
+    let (mut sources, mut diagnostics) = (described.sources().clone(), Diagnostics::new());
     let mut of_line = |what: &str, text: &String| {
         let file = sources.add(what, text.as_str());
         Spanned::new(text.clone(), sources.whole(file))

@@ -2,21 +2,21 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::client::{Bus, Client, involved, kept, plan, value};
+use od_gen::client::{Bus, Client, SlcanBus, involved, kept, plan, value};
 use od_gen::files::Existing;
-use od_gen::parameters::{About, write_all};
+use od_gen::parameters::{About, ParameterText, write_all};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{EntryId, Index, Role, Value, Write};
-use od_spec::source::SourceMap;
-use od_spec::{Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
+use od_spec::source::{SourceMap, Span};
+use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
 
 use super::super::args::{NodeBackupArgs, NodeFileArgs};
 use super::super::output::{forced, save};
 use super::super::report::{Report, print, shown};
-use super::super::settings::parameter_files;
+use super::super::settings::{ParameterFiles, parameter_files};
 use super::super::{DIFFERS, ERRORS, SUCCESS};
 use super::access::{has_default, not_written};
 use super::{Described, Target, reach};
@@ -59,13 +59,40 @@ fn had<B: Bus>(
 /// Writes a parameter file of what a node has; none where it does not answer.
 pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
-    let target = described.target(&args.node, None, None, report)?;
+    if let Described::Machine(machine) = &described
+        && args.node.node.is_none()
+    {
+        return machine.backup(args, report);
+    }
+    let target = described.target(&args.node, None, report)?;
     let name = args.out.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
         let message = format!("cannot write `{}`: it names no file", args.out.display());
         report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
     })?;
     let mut client = reach(&args.node, target, report)?;
-    let had = had(&mut client, target, kept(target.device), report)?;
+    let written = parameters_of(&mut client, args, target, described.sources(), report)?;
+    let artifact =
+        Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
+    let directory = args.out.parent().unwrap_or(Path::new(""));
+    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::None))
+        .map_err(|diagnostic| report.refuse(diagnostic))?;
+    Ok(print(&kept_line(&args.out, written.count, target)))
+}
+
+/// `  kept.yaml  24 values of valve (node 5)`.
+pub(super) fn kept_line(file: &Path, count: usize, target: Target<'_>) -> String {
+    format!("  {}  {} of {}\n", shown(file), values(count), target.name())
+}
+
+/// The parameter file of a node; what it cannot say is noted.
+pub(super) fn parameters_of<B: Bus>(
+    client: &mut Client<B>,
+    args: &NodeBackupArgs,
+    target: Target<'_>,
+    sources: &SourceMap,
+    report: &Report,
+) -> Result<ParameterText, u8> {
+    let had = had(client, target, kept(target.device), report)?;
     let mut node = Commissioning::of_node(target.device, target.id);
     // Nobody has asked the adapter.
     node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
@@ -73,7 +100,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     let untold = had.untold.iter().map(|(id, why)| format!("{}: {why}", target.words().entry(*id)));
     let about = About {
         system: target.system,
-        sources: &described.sources,
+        sources,
         device: target.device,
         names_device: true,
         node_id: Some(target.id),
@@ -81,15 +108,10 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     let written = write_all(about, node, untold.collect());
     for (lines, what) in [(&written.left_out, "left out"), (&written.findings, "wrong")] {
         for line in lines {
-            report.note(&format!("{what}: {line}"));
+            report.note(&format!("{}{what}: {line}", target.mark()));
         }
     }
-    let artifact =
-        Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
-    let directory = args.out.parent().unwrap_or(Path::new(""));
-    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::None))
-        .map_err(|diagnostic| report.refuse(diagnostic))?;
-    Ok(print(&format!("  {}  {} of {}\n", shown(&args.out), values(written.count), target.name())))
+    Ok(written)
 }
 
 /// `1 value`, `2 values`.
@@ -98,8 +120,9 @@ fn values(count: usize) -> String {
 }
 
 /// A parameter file and the node that it is laid beside.
-struct Beside<'a> {
-    target: Target<'a>,
+pub(super) struct Beside<'a> {
+    pub(super) target: Target<'a>,
+    file: PathBuf,
     sources: SourceMap,
     layers: Vec<Layer>,
     /// The entries that the file sets, with their values.
@@ -107,26 +130,30 @@ struct Beside<'a> {
 }
 
 /// Reads a parameter file for a node and checks it as for a DCF. What is no error depends on what the node has, and is told then.
-fn beside<'a>(described: &'a Described, args: &NodeFileArgs, report: &Report) -> Result<Beside<'a>, u8> {
-    let (mut sources, mut diagnostics) = (described.sources.clone(), Diagnostics::new());
-    let files = parameter_files(std::slice::from_ref(&args.file), &mut sources, &mut diagnostics)
+pub(super) fn beside<'a>(
+    sources: &SourceMap,
+    file: PathBuf,
+    target_of: impl FnOnce(&ParameterFiles) -> Result<Target<'a>, u8>,
+    report: &Report,
+) -> Result<Beside<'a>, u8> {
+    let (mut sources, mut diagnostics) = (sources.clone(), Diagnostics::new());
+    let files = parameter_files(std::slice::from_ref(&file), &mut sources, &mut diagnostics)
         .map_err(|diagnostic| report.refuse(*diagnostic))?;
     if diagnostics.has_errors() {
         shown_errors(&diagnostics, &sources, report)?;
     }
-    let system = &described.used.system;
-    let device = files.device(system, args.node.device.as_deref(), report)?;
-    let target = described.target(&args.node, Some(&device.key), files.stated_node(), report)?;
+    let target = target_of(&files)?;
     if let Some(stated) = files.stated_node().filter(|stated| *stated != target.id) {
-        report.note(&format!("{} is of node {stated}, and this is node {}", shown(&args.file), target.id));
+        report.note(&format!("{} is of node {stated}, and this is node {}", shown(&file), target.id));
     }
+    let system = target.system;
     files.check_device(system, target.device, &mut diagnostics);
     let layers = files.into_layers();
     let meant = assign_layers(system, target.device, target.id, &layers, &mut diagnostics).values;
     if diagnostics.has_errors() {
         shown_errors(&diagnostics, &sources, report)?;
     }
-    Ok(Beside { target, sources, layers, meant })
+    Ok(Beside { target, file, sources, layers, meant })
 }
 
 /// Shows what a check says; its errors end the command. The order is worked out from what the node has.
@@ -161,7 +188,8 @@ fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, repo
             Some(held) => {
                 count += 1;
                 let (wanted, held) = (words(target, *id, wanted), words(target, *id, held));
-                code = code.max(print(&format!("{name}: {held} in the node, {wanted} in the file\n")));
+                let mark = target.mark();
+                code = code.max(print(&format!("{mark}{name}: {held} in the node, {wanted} in the file\n")));
             }
             None => {
                 let why = had.untold.iter().find(|(untold, _)| untold == id);
@@ -174,16 +202,40 @@ fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, repo
     (count, code)
 }
 
-/// Reads what a file sets, and tells where the node differs.
+/// What is done with a node and a parameter file.
+pub(super) type WithFile<B> = fn(&mut Client<B>, &Beside<'_>, &Report) -> Result<u8, u8>;
+
+/// Reads what a file sets, and tells where the node differs; the same for the files of a directory and the nodes of a machine.
 pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
+    with_file(args, "compared", compared, report)
+}
+
+/// Writes what a file sets and the node has otherwise, and reads all of it back; the same for the files of a directory and the nodes of a
+/// machine.
+pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
+    with_file(args, "restored", restored, report)
+}
+
+fn with_file(args: &NodeFileArgs, done: &str, work: WithFile<SlcanBus>, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
-    let Beside { target, meant, .. } = beside(&described, args, report)?;
-    let mut client = reach(&args.node, target, report)?;
-    let had = had(&mut client, target, meant.keys().copied(), report)?;
-    let (count, code) = told_differences(target, &meant, &had, report);
+    if let Described::Machine(machine) = &described
+        && args.file.is_dir()
+    {
+        return machine.with_files(args, done, work, report);
+    }
+    let target_of = |files: &ParameterFiles| described.target(&args.node, Some(files), report);
+    let beside = beside(described.sources(), args.file.clone(), target_of, report)?;
+    work(&mut reach(&args.node, beside.target, report)?, &beside, report)
+}
+
+fn compared<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report) -> Result<u8, u8> {
+    let Beside { target, file, meant, .. } = beside;
+    let target = *target;
+    let had = had(client, target, meant.keys().copied(), report)?;
+    let (count, code) = told_differences(target, meant, &had, report);
     let not_in_file = kept(target.device).filter(|id| !meant.contains_key(id)).count();
     let differ = if count == 1 { "differs" } else { "differ" };
-    let mut line = format!("{} of {} compared, {count} {differ}", values(meant.len()), shown(&args.file));
+    let mut line = format!("{} of {} compared, {count} {differ}", values(meant.len()), shown(file));
     if not_in_file > 0 {
         let _ = write!(line, "; {not_in_file} further parameters of {} are not in it", target.name());
     }
@@ -194,16 +246,14 @@ pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     })
 }
 
-/// Writes what a file sets and the node has otherwise, and reads all of it back.
-pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
-    let Beside { target, sources, layers, meant } = beside(&described, args, report)?;
-    let mut client = reach(&args.node, target, report)?;
+fn restored<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report) -> Result<u8, u8> {
+    let Beside { target, file, sources, layers, meant } = beside;
+    let target = *target;
     let written_ids: BTreeSet<EntryId> = meant.keys().copied().collect();
     let asked_for = involved(target.system, target.device, &written_ids);
     let ids: BTreeSet<EntryId> =
         kept(target.device).chain(written_ids).chain(asked_for.iter().copied()).collect();
-    let before = had(&mut client, target, ids, report)?;
+    let before = had(client, target, ids, report)?;
     // What the file does not set stays as the node has it, and conditions ask for that.
     for (id, why) in before.untold.iter().filter(|(id, _)| asked_for.contains(id)) {
         report.note(&has_default(target, *id, why));
@@ -212,25 +262,28 @@ pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     now.values.clone_from(&before.values);
     let mut diagnostics = Diagnostics::new();
     let of_node = now.configured(target.device);
-    let assigned = assign_layers(target.system, &of_node, target.id, &layers, &mut diagnostics);
+    let assigned = assign_layers(target.system, &of_node, target.id, layers, &mut diagnostics);
     if diagnostics.has_errors() {
         report.note("nothing was written; with what the node has beside the values of the file:");
     }
-    shown_errors(&diagnostics, &sources, report)?;
+    if diagnostics.has_errors() {
+        shown_errors(&diagnostics, sources, report)?;
+    }
     let writes =
-        plan(target.system, target.device, target.id, &before.values, &meant).map_err(|no_value| {
+        plan(target.system, target.device, target.id, &before.values, meant).map_err(|no_value| {
             let diagnostic = Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, no_value.to_string());
             report.refuse(diagnostic.help("correct the value"))
         })?;
+    shown_errors(&about_writes(&diagnostics, sources, &assigned, &writes), sources, report)?;
     for write in writes.iter().filter(|write| assigned.unlocked.contains(&write.id)) {
         report.note(&format!(
             "LOCKED {}: the device takes it only while it is unlocked for service",
             target.words().entry(write.id)
         ));
     }
-    let code = written(&mut client, target, &writes, report)?;
-    let after = had(&mut client, target, meant.keys().copied(), report)?;
-    let (count, unread) = told_differences(target, &meant, &after, report);
+    let code = written(client, target, &writes, report)?;
+    let after = had(client, target, meant.keys().copied(), report)?;
+    let (count, unread) = told_differences(target, meant, &after, report);
     let code = code.max(unread);
     if count > 0 {
         let has = if count == 1 { "has" } else { "have" };
@@ -243,8 +296,28 @@ pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
         ));
     }
     let held = values(meant.len());
-    let line = format!("  {}  {held} read back as in {}\n", target.name(), shown(&args.file));
+    let line = format!("  {}  {held} read back as in {}\n", target.name(), shown(file));
     Ok(if code == SUCCESS { print(&line) } else { code })
+}
+
+/// What a check says, but of values that the node has already and that are not written.
+fn about_writes(
+    found: &Diagnostics,
+    sources: &SourceMap,
+    assigned: &Assigned,
+    writes: &[Write],
+) -> Diagnostics {
+    let line = |span: Span| (span.file, sources.file(span.file).line_col(span.start).line);
+    let written: BTreeSet<EntryId> = writes.iter().map(|write| write.id).collect();
+    let unwritten = assigned.origins.iter().filter(|(id, _)| !written.contains(id));
+    let unwritten: BTreeSet<_> = unwritten.map(|(_, origin)| line(origin.span)).collect();
+    let mut told = Diagnostics::new();
+    for one in found {
+        if !one.labels.first().is_some_and(|label| unwritten.contains(&line(label.span))) {
+            told.push(one.clone());
+        }
+    }
+    told
 }
 
 /// What must not be written any more, as a node has refused something that belongs with it.
@@ -302,7 +375,7 @@ fn written<B: Bus>(
         match client.write(target.id, write.id, &write.bytes) {
             Ok(()) => {
                 let line = super::access::line(target, write.id, &write.bytes);
-                code = code.max(print(&format!("{line}  written\n")));
+                code = code.max(print(&format!("{}{line}  written\n", target.mark())));
             }
             Err(error) => {
                 code = code.max(report.refuse(not_written(target, write.id, &error)));

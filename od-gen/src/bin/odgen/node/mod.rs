@@ -2,12 +2,13 @@
 
 mod access;
 mod keep;
+mod machine;
 mod network;
 
 use std::net::{TcpStream, ToSocketAddrs as _};
 use std::time::Duration;
 
-use od_gen::client::{AccessError, Client, Contradiction, OpenError, SlcanBus, recognize};
+use od_gen::client::{AccessError, Bus, Client, Contradiction, OpenError, SlcanBus, recognize};
 use od_gen::trace;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, EntryId, System};
@@ -15,7 +16,10 @@ use od_spec::source::SourceMap;
 
 use super::ERRORS;
 use super::args::{LinkArgs, NodeArgs, NodeCommand, OneNodeArgs};
+use super::plant;
 use super::report::{Report, Used, node_id};
+use super::settings::ParameterFiles;
+use machine::Machine;
 
 pub(crate) fn run(args: &NodeArgs, report: &Report) -> u8 {
     let done = match &args.command {
@@ -35,46 +39,71 @@ pub(crate) fn run(args: &NodeArgs, report: &Report) -> u8 {
 /// An adapter that takes no connection for so long is not there.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// What the specification of a command line says.
-struct Described {
-    used: Used,
-    /// The texts that it was read from: messages about values point into them.
-    sources: SourceMap,
+/// What the specification or the plant of a command line says.
+enum Described {
+    /// Devices, one of which a node is; with the texts that they were read from, into which messages about values point.
+    Devices { used: Box<Used>, sources: SourceMap },
+    /// A machine with its nodes.
+    Machine(Machine),
 }
 
 /// A node of a known device.
 #[derive(Clone, Copy)]
 struct Target<'a> {
     id: u8,
+    /// Where it is on its machine.
+    position: Option<&'a str>,
     system: &'a System,
     device: &'a Dictionary,
 }
 
 impl Described {
     fn read(args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
+        if plant::names_plant(&args.spec) {
+            return Machine::read(args, report).map(Self::Machine);
+        }
+        if args.machine.is_some() || args.site.is_some() {
+            let help = "name a plant file, or leave out `--machine` and `--site`";
+            return Err(report.refuse(plant::no_plant(&args.spec, help)));
+        }
         let spec = super::specs::one(Some(&args.spec), std::path::Path::new("."), report)?;
         let (used, sources) = report.compile_with_sources(&spec).ok_or(ERRORS)?;
-        Ok(Self { used, sources })
+        Ok(Self::Devices { used: Box::new(used), sources })
+    }
+
+    fn sources(&self) -> &SourceMap {
+        match self {
+            Self::Devices { sources, .. } => sources,
+            Self::Machine(machine) => machine.sources(),
+        }
     }
 
     /// The node that is meant: that of the command line, or else of a parameter file or a DCF.
     fn target(
         &self,
         args: &OneNodeArgs,
-        device: Option<&str>,
-        of_file: Option<u8>,
+        files: Option<&ParameterFiles>,
         report: &Report,
     ) -> Result<Target<'_>, u8> {
-        let system = &self.used.system;
-        let device = report.device_or_only(system, args.device.as_deref().or(device))?;
         let stated = args.node.as_deref().map(node_id).transpose().map_err(|one| report.refuse(one))?;
-        let id = stated.or(of_file).or(self.used.stated_node_id).ok_or_else(|| {
+        let stated = stated.or_else(|| files.and_then(ParameterFiles::stated_node));
+        let key = args.device.as_deref();
+        let used = match self {
+            Self::Devices { used, .. } => used,
+            Self::Machine(machine) => return machine.target(stated, key, report),
+        };
+        let system = &used.system;
+        let device = match files {
+            Some(files) => files.device(system, key, report)?,
+            None => report.device_or_only(system, key)?,
+        };
+        let id = stated.or(used.stated_node_id).ok_or_else(|| {
             report.refuse(
                 Diagnostic::without_place(codes::BAD_NODE_ID, "no node-ID is given")
                     .help("add `--node ID`, 1 to 127"),
             )
         })?;
-        Ok(Target { id, system, device })
+        Ok(Target { id, position: None, system, device })
     }
 }
 
@@ -84,9 +113,15 @@ impl<'a> Target<'a> {
         trace::Node::new(self.id, self.system, self.device)
     }
 
-    /// `pmc (node 5)`.
+    /// `pmc (node 5)`, of a machine `B pmc (node 12)`.
     fn name(self) -> String {
-        format!("{} (node {})", self.device.key, self.id)
+        let place = self.position.map_or_else(String::new, |position| format!("{position} "));
+        format!("{place}{} (node {})", self.device.key, self.id)
+    }
+
+    /// What stands before lines that are about it, where others have such lines, too.
+    fn mark(self) -> String {
+        self.position.map_or_else(String::new, |_| format!("{}: ", self.name()))
     }
 
     /// What is said about an access that failed.
@@ -108,15 +143,27 @@ fn helped(diagnostic: Diagnostic, error: &AccessError) -> Diagnostic {
 /// Connects to the bus of a node, which has to be the device that it is taken for: elsewhere the same entries mean other things.
 fn reach(args: &OneNodeArgs, target: Target<'_>, report: &Report) -> Result<Client<SlcanBus>, u8> {
     let mut client = connect(&args.link, report)?;
+    is_meant(&mut client, args, target, report)?;
+    Ok(client)
+}
+
+/// Demands that a node is the device that it is taken for.
+fn is_meant<B: Bus>(
+    client: &mut Client<B>,
+    args: &OneNodeArgs,
+    target: Target<'_>,
+    report: &Report,
+) -> Result<(), u8> {
     if args.any_device {
-        return Ok(client);
+        return Ok(());
     }
-    let found = recognize(&mut client, target.id, target.device).map_err(|error| {
-        let message = format!("cannot ask node {} what it is: {error}", target.id);
+    let found = recognize(client, target.id, target.device).map_err(|error| {
+        let node = target.position.map_or_else(|| format!("node {}", target.id), |_| target.name());
+        let message = format!("cannot ask {node} what it is: {error}");
         report.refuse(helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), &error))
     })?;
     match found {
-        None => Ok(client),
+        None => Ok(()),
         Some(Contradiction { id, told, stated, .. }) => {
             let entry = target.words().entry(id);
             let message = format!(

@@ -6,12 +6,20 @@ use od_gen::source::read_file;
 use od_spec::diag::{Diagnostic, codes, nearest};
 use od_spec::plant::{Machine, Plant, is_plant};
 
+use super::super::report::shown;
+
 /// So many machines are named.
 const NAMED: usize = 10;
 
 /// Whether a file is a plant file.
 pub(crate) fn names_plant(path: &Path) -> bool {
     read_file(path).is_ok_and(|bytes| is_plant(&String::from_utf8_lossy(&bytes)))
+}
+
+/// What is said of a machine where there is no plant.
+pub(crate) fn no_plant(path: &Path, help: &'static str) -> Diagnostic {
+    let message = format!("{} is no plant file, and only a plant has machines", shown(path));
+    Diagnostic::without_place(codes::BAD_NOTATION, message).help(help)
 }
 
 /// The machine with a name, at a site where one is named; without a name, the only one.
