@@ -38,11 +38,13 @@ enum Follows {
 
 impl TestValue {
     /// With the node-ID added to its factory value.
+    #[cfg(feature = "storage")]
     pub(crate) fn and_node_id(self) -> Self {
         Self { follows: Follows::NodeId, ..self }
     }
 
     /// With a largest value.
+    #[cfg(feature = "storage")]
     pub(crate) fn at_most(self, most: i64) -> Self {
         Self { most: Some(most), ..self }
     }
