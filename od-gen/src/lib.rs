@@ -14,6 +14,8 @@ mod builder;
 pub mod client;
 #[cfg(feature = "eds")]
 pub mod concise;
+#[cfg(feature = "dbc")]
+pub mod dbc;
 #[cfg(feature = "diff")]
 pub mod diff;
 #[cfg(feature = "docs")]
@@ -29,6 +31,8 @@ mod hexadecimal;
 pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(any(feature = "dbc", feature = "runtime"))]
+mod nmt;
 #[cfg(feature = "yaml")]
 pub mod parameters;
 mod plan;

@@ -3,28 +3,17 @@
 use od_spec::model::{EntryId, ErrorCode, Index, SubIndex};
 
 use super::node::{Node, count, hexadecimal};
+use crate::nmt;
 
 /// NMT: a command for one node or all.
 pub(super) fn nmt_command(command: u8) -> Option<&'static str> {
-    Some(match command {
-        1 => "start",
-        2 => "stop",
-        128 => "enter pre-operational",
-        129 => "reset node",
-        130 => "reset communication",
-        _ => return None,
-    })
+    nmt::word(&nmt::COMMANDS, command)
 }
 
 /// The state in a heartbeat or in the answer to node guarding.
 pub(super) fn state(byte: u8) -> String {
-    match byte & 0x7F {
-        0 => "boot-up".to_owned(),
-        4 => "stopped".to_owned(),
-        5 => "operational".to_owned(),
-        127 => "pre-operational".to_owned(),
-        other => format!("unknown state {other}"),
-    }
+    let state = byte & 0x7F;
+    nmt::word(&nmt::STATES, state).map_or_else(|| format!("unknown state {state}"), str::to_owned)
 }
 
 /// TIME (CiA 301 7.2.6): milliseconds after midnight, days since 1984-01-01.

@@ -9,6 +9,7 @@ mod check_policy;
 mod check_readers;
 mod codes;
 mod concise;
+mod dbc;
 mod dcf;
 mod decode;
 mod diff;

@@ -2,6 +2,7 @@
 
 mod bus;
 mod concise;
+mod dbc;
 mod diff;
 mod node;
 mod on_bus;
@@ -15,6 +16,7 @@ use od_spec::eds::readers::Reader;
 
 pub(crate) use bus::{DecodeArgs, NodesArgs, ServeArgs};
 pub(crate) use concise::{ConciseArgs, ConciseCommand, ConciseFormat, ConciseShowArgs};
+pub(crate) use dbc::DbcArgs;
 pub(crate) use diff::{DiffArgs, DiffFormat};
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 pub(crate) use on_bus::{
@@ -110,6 +112,7 @@ impl Cli {
         let behind = match &self.command {
             Command::Build(args) => args.messages.format,
             Command::Check(args) => args.format.map(CheckFormat::of_messages),
+            Command::Dbc(args) => args.messages.format,
             Command::Dcf(args) => args.messages.format,
             Command::Decode(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
@@ -167,6 +170,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Look into a concise DCF, the binary that a CANopen master downloads to a node (object 1F22h)
     Concise(ConciseArgs),
+    /// Make the DBC of the nodes of a bus, for trace and test tools: PDOs and services as messages, with units, names of values and bits
+    Dbc(DbcArgs),
     /// Make the DCF of one node, with parameter values of your own
     Dcf(DcfArgs),
     /// Tell what the frames of a recorded trace say: services, entries and values in units, states, errors

@@ -62,7 +62,7 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let node = commissioning.node;
     let path = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-{node}.dcf", device.key)));
     let read: Vec<PathBuf> = loader.read.iter().chain(&args.set_file).chain(&args.params).cloned().collect();
-    let name = file_name(&path, &read).map_err(refuse)?;
+    let name = file_name(&path, "the DCF", &read).map_err(refuse)?;
     let mut layers = files.into_layers();
     layers.push(layer(args, &mut sources, &mut diagnostics).map_err(|diagnostic| refuse(*diagnostic))?);
     let assigned = assign_layers(&system, &commissioning.configured(device), node, &layers, &mut diagnostics);
@@ -89,7 +89,7 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     }
     if args.xdc {
         let path = path.with_extension("xdc");
-        let name = file_name(&path, &read).map_err(refuse)?;
+        let name = file_name(&path, "the DCF", &read).map_err(refuse)?;
         let bytes = write_xdc(&system, device, &commissioning, &name);
         let _ = writeln!(further, "  {}  {} kB", shown(&path), bytes.len().div_ceil(1024));
         set.push(Artifact { path: name, bytes, purpose: String::new() });
@@ -127,7 +127,7 @@ fn concise(
     read: &[PathBuf],
 ) -> Result<(Artifact, String), Diagnostic> {
     let path = dcf.with_extension("bin");
-    let name = file_name(&path, read)?;
+    let name = file_name(&path, "the DCF", read)?;
     let writes = node.download(system, device).map_err(|no_value| {
         let message = format!("the concise DCF cannot be made: {no_value}");
         Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, message).help("correct the value")
@@ -190,7 +190,7 @@ fn said_in_options(
 }
 
 /// The name of the file to write, which is none of those that were read.
-fn file_name(path: &Path, read: &[PathBuf]) -> Result<String, Diagnostic> {
+pub(super) fn file_name(path: &Path, what: &str, read: &[PathBuf]) -> Result<String, Diagnostic> {
     let refuse = |problem: &str, help: &str| {
         let message = format!("cannot write `{}`: {problem}", path.display());
         Err(Diagnostic::without_place(codes::WRITE_FAILED, message).help(help.to_owned()))
@@ -206,7 +206,7 @@ fn file_name(path: &Path, read: &[PathBuf]) -> Result<String, Diagnostic> {
         _ => false,
     };
     if read.iter().any(same) {
-        return refuse("the DCF is made from this file", "write the DCF to another file");
+        return refuse(&format!("{what} is made from this file"), "write it to another file");
     }
     Ok(name.to_owned())
 }

@@ -5,6 +5,7 @@ mod build;
 mod bus_nodes;
 mod check;
 mod concise;
+mod dbc;
 mod dcf;
 mod decode;
 mod diff;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
             check::run(&args, format, directory, &report)
         }
         Command::Concise(args) => concise::run(&args, directory, &report),
+        Command::Dbc(args) => dbc::run(&args, directory, &report),
         Command::Dcf(args) => dcf::run(&args, directory, &report),
         Command::Decode(args) => decode::run(&args, directory, &report),
         Command::Diff(args) => diff::run(&args, cli.color, &report),
