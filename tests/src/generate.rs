@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use od_gen::dbc;
 use od_gen::diff::{Question, Scope, compare, human};
 use od_gen::docs::{self, Templates};
 use od_gen::files::{left_over, remove};
@@ -177,7 +178,26 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "drive", &format!("```yaml\n{drive}```"))?;
     let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
     let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
+    let text = block(&text, "dbc", &format!("```text\n{}\n```", frames(&system)))?;
     block(&text, "docs", &tables(&system)?)
+}
+
+/// The PDOs of the example in its DBC.
+fn frames(system: &System) -> String {
+    let nodes = system.devices.iter().map(|device| dbc::Node { id: 5, system, device }).collect::<Vec<_>>();
+    // The example has nothing but ASCII.
+    let text = String::from_utf8_lossy(&dbc::write(&nodes).bytes).into_owned();
+    let (mut is_pdo, mut lines) = (false, Vec::new());
+    for line in text.lines() {
+        if line.starts_with("BO_ ") {
+            is_pdo = line.contains("PDO");
+        }
+        if is_pdo && (line.starts_with("BO_ ") || line.starts_with(" SG_ ")) || line.contains("sensor broken")
+        {
+            lines.push(line);
+        }
+    }
+    lines.join("\n")
 }
 
 /// What `odgen diff` says about a few changes of the example.

@@ -33,6 +33,8 @@ pub(crate) enum Part {
     XddStructure,
     /// Every DCF of a plant.
     Plant,
+    /// DBC files, and frames of the generated Rust that are read by them.
+    Dbc,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -74,7 +76,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 17] = [
+    pub(crate) const ALL: [Part; 18] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -87,6 +89,7 @@ impl Part {
         Part::ConciseDcf,
         Part::XddStructure,
         Part::Plant,
+        Part::Dbc,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -108,6 +111,7 @@ impl Part {
             Part::ConciseDcf => "EDS readers: concise DCF",
             Part::XddStructure => "EDS readers: XDD and XDC",
             Part::Plant => "EDS readers: a plant",
+            Part::Dbc => "DBC readers",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -129,6 +133,7 @@ impl Part {
             | Part::ConciseDcf
             | Part::XddStructure
             | Part::Plant
+            | Part::Dbc
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
@@ -149,6 +154,7 @@ impl Part {
             | Part::ConciseDcf
             | Part::XddStructure
             | Part::Plant
+            | Part::Dbc
             | Part::Manuals
             | Part::FirmwareSizes => Turn::Beside,
             Part::SdoClient | Part::Browser | Part::FirmwareTests => Turn::Alone,
@@ -169,6 +175,7 @@ impl Part {
             | Part::ConciseDcf
             | Part::XddStructure
             | Part::Plant
+            | Part::Dbc
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -192,6 +199,7 @@ impl Part {
             | Part::ConciseDcf
             | Part::XddStructure
             | Part::Plant
+            | Part::Dbc
             | Part::SdoClient
             | Part::Browser
             | Part::Manuals
@@ -234,6 +242,7 @@ impl Part {
             Part::ConciseDcf => readers::concise_dcf(runner),
             Part::XddStructure => readers::xdd_structure(runner),
             Part::Plant => readers::plant(runner),
+            Part::Dbc => readers::dbc(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),

@@ -140,6 +140,20 @@ fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     None
 }
 
+/// Frames of the generated Rust, decoded by cantools with the DBC of a node that sends them; and any bits by the DBC of devices with
+/// every scale and type. canmatrix finds the same.
+pub(crate) fn dbc(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let beside = |name: &str| std::env::current_exe().map(|path| path.with_file_name(name));
+    let mut command = Command::new(&python);
+    command.arg("tests/readers/dbc.py").arg("--odgen").arg(beside("odgen")?);
+    command.arg("--frames").arg(beside("pdo-frames")?);
+    for file in ["scales", "everything"] {
+        command.arg("--as-it-is").arg(format!("tests/readers/{file}.od.yaml"));
+    }
+    runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
+}
+
 /// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
 /// and `odgen node` against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {

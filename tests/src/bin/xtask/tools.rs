@@ -44,7 +44,7 @@ impl Tool {
 
     pub(crate) const fn name(self) -> &'static str {
         match self {
-            Tool::Python => "Python 3.9 or newer with venv",
+            Tool::Python => "Python 3.10 or newer with venv",
             Tool::Node => "Node.js 18 or newer with npm",
             Tool::Chromium => "Chromium",
             Tool::Pdftotext => "pdftotext",
@@ -77,7 +77,7 @@ impl Tool {
     fn is_here(self) -> bool {
         match self {
             Tool::Python => {
-                let check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
+                let check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
                 succeeds(Command::new("python3").args(["-c", check]))
             }
             Tool::Node => {
