@@ -2,7 +2,7 @@
 """Be the master of the demo firmware on an emulated Cortex-M4: python-canopen over SLCAN, through the UART.
 
     demo.py [--odgen target/debug/odgen]     build, measure, run in QEMU, check
-    demo.py --run                            build and run until Ctrl-C; the adapter is at the address that is printed
+    demo.py --run [PORT]                     build and run until Ctrl-C; the adapter is at tcp:127.0.0.1:3333
 
 The firmware is firmware-glue/examples/pitch-controller. The client knows it by the generated EDS alone and does to it what
 tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here stands what a virtual node has not: an axis that moves, a
@@ -44,17 +44,18 @@ SPECIFICATION = run.ROOT / "od-spec" / "devices" / "pitch-control-system.od.yaml
 DUMP = run.ROOT / "generated" / "pitch-control-system.json"
 EDS = run.ROOT / "generated" / "eds" / f"{DEVICE}.eds"
 BOARD = ["-machine", "mps2-an386", "-nographic", "-monitor", "none"]
-HOST = "127.0.0.1"
+HOST, PORT = "127.0.0.1", 3333
 FEWEST = 2900  # checks: fewer were not all
 
 
 class Board:
     """The emulated board with the firmware: its UART is a TCP server."""
 
-    def __init__(self, program: Path) -> None:
-        with socket.socket() as free:
-            free.bind((HOST, 0))
-            port = free.getsockname()[1]
+    def __init__(self, program: Path, port: int = 0) -> None:
+        if not port:
+            with socket.socket() as free:
+                free.bind((HOST, 0))
+                port = free.getsockname()[1]
         self.address = f"{HOST}:{port}"
         # Without `nodelay`, each answer waits for the acknowledgement of the one before.
         serial = ["-serial", f"tcp:{self.address},server=on,wait=off,nodelay=on"]
@@ -85,7 +86,7 @@ class Board:
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--odgen", type=Path)
-    parser.add_argument("--run", action="store_true")
+    parser.add_argument("--run", metavar="PORT", type=int, nargs="?", const=PORT)
     options = parser.parse_args()
     try:
         if not shutil.which(run.QEMU):
@@ -93,7 +94,7 @@ def main() -> int:
         toolchain = run.find_toolchain()
         if options.run:
             _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
-            return serve(Board(program))
+            return serve(Board(program, options.run))
         faults = measure(toolchain)
         _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
         _, everything = run.build(toolchain, EVERYTHING)[EVERYTHING_PROGRAM]

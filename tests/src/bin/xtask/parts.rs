@@ -42,6 +42,8 @@ pub(crate) enum Part {
     Manuals,
     FirmwareSizes,
     FirmwareTests,
+    /// A client that others wrote, against the demo firmware in an emulator.
+    DemoFirmware,
 }
 
 /// What parts have in common; what a tool is needed for.
@@ -76,7 +78,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 18] = [
+    pub(crate) const ALL: [Part; 19] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -95,6 +97,7 @@ impl Part {
         Part::Manuals,
         Part::FirmwareSizes,
         Part::FirmwareTests,
+        Part::DemoFirmware,
     ];
 
     pub(crate) const fn title(self) -> &'static str {
@@ -117,6 +120,7 @@ impl Part {
             Part::Manuals => "manuals on paper",
             Part::FirmwareSizes => "sizes of firmware",
             Part::FirmwareTests => "firmware in an emulator",
+            Part::DemoFirmware => "demo firmware in an emulator",
         }
     }
 
@@ -136,7 +140,7 @@ impl Part {
             | Part::Dbc
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
-            Part::FirmwareSizes | Part::FirmwareTests => Area::Firmware,
+            Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware => Area::Firmware,
         }
     }
 
@@ -157,7 +161,7 @@ impl Part {
             | Part::Dbc
             | Part::Manuals
             | Part::FirmwareSizes => Turn::Beside,
-            Part::SdoClient | Part::Browser | Part::FirmwareTests => Turn::Alone,
+            Part::SdoClient | Part::Browser | Part::FirmwareTests | Part::DemoFirmware => Turn::Alone,
         }
     }
 
@@ -180,7 +184,9 @@ impl Part {
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
             Part::FirmwareSizes => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker],
-            Part::FirmwareTests => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu],
+            Part::FirmwareTests | Part::DemoFirmware => {
+                &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu]
+            }
         }
     }
 
@@ -204,7 +210,8 @@ impl Part {
             | Part::Browser
             | Part::Manuals
             | Part::FirmwareSizes
-            | Part::FirmwareTests => &[],
+            | Part::FirmwareTests
+            | Part::DemoFirmware => &[],
         }
     }
 
@@ -248,6 +255,7 @@ impl Part {
             Part::Manuals => manuals::print(runner),
             Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),
             Part::FirmwareTests => runner.python("tests/thumb/run.py", &["test"]),
+            Part::DemoFirmware => readers::demo_firmware(runner),
         }
     }
 }
@@ -280,7 +288,7 @@ mod tests {
 
     #[test]
     fn all_parts_are_listed_in_the_order_in_which_they_are_declared() {
-        assert!(Part::ALL.is_sorted() && Part::ALL.last() == Some(&Part::FirmwareTests));
+        assert!(Part::ALL.is_sorted() && Part::ALL.last() == Some(&Part::DemoFirmware));
         assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Qemu));
     }
 

@@ -185,3 +185,10 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// The same client and `odgen node`, against the demo firmware on an emulated Cortex-M.
+pub(crate) fn demo_firmware(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    runner.run(Command::new(&python).args(["tests/thumb/demo.py", "--odgen"]).arg(&odgen))
+}
