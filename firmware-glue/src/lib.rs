@@ -79,6 +79,7 @@ pub mod sdo;
 mod shared;
 mod special;
 mod stand_in;
+pub mod state_machine;
 #[cfg(feature = "storage")]
 pub mod storage;
 mod stored;
@@ -115,6 +116,7 @@ pub use quantity::Quantity;
 #[cfg(feature = "critical-section")]
 pub use shared::Shared;
 pub use special::Special;
+pub use state_machine::StateMachine;
 pub use table::{Storage, Table};
 pub use table_dictionary::{TableDictionary, WrongSize};
 pub use text::{NoFit, Utf16};

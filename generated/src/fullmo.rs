@@ -5216,6 +5216,20 @@ pub mod machines {
             None
         }
 
+        /// The bits of the word that show the state, and their values.
+        pub const fn bits(self) -> (u16, u16) {
+            match self {
+                Self::NotReadyToSwitchOn => (0x004F, 0x0000),
+                Self::SwitchOnDisabled => (0x004F, 0x0040),
+                Self::ReadyToSwitchOn => (0x006F, 0x0021),
+                Self::SwitchedOn => (0x006F, 0x0023),
+                Self::OperationEnabled => (0x006F, 0x0027),
+                Self::QuickStopActive => (0x006F, 0x0007),
+                Self::FaultReactionActive => (0x004F, 0x000F),
+                Self::Fault => (0x004F, 0x0008),
+            }
+        }
+
         /// The name in the specification.
         pub const fn name(self) -> &'static str {
             match self {
@@ -5260,6 +5274,21 @@ pub mod machines {
     }
 
     impl PowerDriveCommand {
+        /// All commands.
+        pub const ALL: [Self; 11] = [
+            Self::Shutdown,
+            Self::SwitchOn,
+            Self::SwitchOnEnableOperation,
+            Self::DisableVoltage,
+            Self::QuickStop,
+            Self::DisableOperation,
+            Self::EnableOperation,
+            Self::FaultReset,
+            Self::NewSetPoint,
+            Self::NewSetPointAtOnce,
+            Self::ChangeOnSetPoint,
+        ];
+
         /// The bits of the word that make the command, and their values; an edge counts as the level after it.
         pub const fn bits(self) -> (u16, u16) {
             match self {
@@ -5293,6 +5322,68 @@ pub mod machines {
             word.0 & mask == value
         }
 
+        /// The bits of the word that have to rise for the command, and those that have to fall.
+        pub const fn edges(self) -> (u16, u16) {
+            match self {
+                Self::FaultReset => (0x0080, 0x0000),
+                Self::NewSetPoint => (0x0010, 0x0000),
+                Self::NewSetPointAtOnce => (0x0010, 0x0000),
+                Self::ChangeOnSetPoint => (0x0010, 0x0000),
+                _ => (0, 0),
+            }
+        }
+
+        /// Whether the word gives the command after the word before, from which edges are seen.
+        pub const fn is_given(
+            self,
+            before: super::types::DriveControlword,
+            word: super::types::DriveControlword,
+        ) -> bool {
+            let (rising, falling) = self.edges();
+            let before = before.0;
+            self.is_in(word) && before & rising == 0 && before & falling == falling
+        }
+
+        /// The transitions that it causes, each in the states that it leaves.
+        pub const fn transitions(self) -> &'static [PowerDriveTransition] {
+            match self {
+                Self::Shutdown => {
+                    &[
+                        PowerDriveTransition::T2,
+                        PowerDriveTransition::T6,
+                        PowerDriveTransition::T8,
+                    ]
+                }
+                Self::SwitchOn => &[PowerDriveTransition::T3],
+                Self::SwitchOnEnableOperation => {
+                    &[PowerDriveTransition::T3, PowerDriveTransition::T4]
+                }
+                Self::DisableVoltage => {
+                    &[
+                        PowerDriveTransition::T7,
+                        PowerDriveTransition::T9,
+                        PowerDriveTransition::T10,
+                        PowerDriveTransition::T12,
+                    ]
+                }
+                Self::QuickStop => {
+                    &[
+                        PowerDriveTransition::T7,
+                        PowerDriveTransition::T10,
+                        PowerDriveTransition::T11,
+                    ]
+                }
+                Self::DisableOperation => &[PowerDriveTransition::T5],
+                Self::EnableOperation => {
+                    &[PowerDriveTransition::T4, PowerDriveTransition::T16]
+                }
+                Self::FaultReset => &[PowerDriveTransition::T15],
+                Self::NewSetPoint => &[],
+                Self::NewSetPointAtOnce => &[],
+                Self::ChangeOnSetPoint => &[],
+            }
+        }
+
         /// The name in the specification.
         pub const fn name(self) -> &'static str {
             match self {
@@ -5311,6 +5402,247 @@ pub mod machines {
         }
     }
     super::firmware::defmt_text!(PowerDriveCommand);
+
+    /// Transition of the power drive, by its number.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum PowerDriveTransition {
+        /// 0, the start → Not ready to switch on. Einschalten oder Rücksetzen des Geräts.
+        T0,
+        /// 1, Not ready to switch on → Switch on disabled. Selbsttätig nach dem Anlauf.
+        T1,
+        /// 2, Switch on disabled → Ready to switch on. Befehl Shutdown.
+        T2,
+        /// 3, Ready to switch on → Switched on. Befehl Switch on.
+        T3,
+        /// 4, Switched on → Operation enabled. Befehl Enable operation.
+        T4,
+        /// 5, Operation enabled → Switched on. Befehl Disable operation. Action: Wie in 605Ch gewählt.
+        T5,
+        /// 6, Switched on → Ready to switch on. Befehl Shutdown.
+        T6,
+        /// 7, Ready to switch on → Switch on disabled. Befehl Disable voltage oder Quick stop.
+        T7,
+        /// 8, Operation enabled → Ready to switch on. Befehl Shutdown. Action: Wie in 605Bh gewählt.
+        T8,
+        /// 9, Operation enabled → Switch on disabled. Befehl Disable voltage.
+        T9,
+        /// 10, Switched on → Switch on disabled. Befehl Disable voltage oder Quick stop.
+        T10,
+        /// 11, Operation enabled → Quick stop active. Befehl Quick stop. Action: Wie in 605Ah gewählt.
+        T11,
+        /// 12, Quick stop active → Switch on disabled. Schnellhalt beendet (605Ah gleich 0 bis 4) oder Befehl Disable voltage.
+        T12,
+        /// 13, any state → Fault reaction active. Ein Fehler tritt auf. Action: Wie in 605Eh gewählt.
+        T13,
+        /// 14, Fault reaction active → Fault. Selbsttätig, wenn die Fehlerreaktion beendet ist.
+        T14,
+        /// 15, Fault → Switch on disabled. Befehl Fault reset und kein Fehler liegt mehr an.
+        T15,
+        /// 16, Quick stop active → Operation enabled. Befehl Enable operation; nur wenn 605Ah gleich 5 bis 8.
+        T16,
+    }
+
+    impl PowerDriveTransition {
+        /// All transitions, ascending.
+        pub const ALL: [Self; 17] = [
+            Self::T0,
+            Self::T1,
+            Self::T2,
+            Self::T3,
+            Self::T4,
+            Self::T5,
+            Self::T6,
+            Self::T7,
+            Self::T8,
+            Self::T9,
+            Self::T10,
+            Self::T11,
+            Self::T12,
+            Self::T13,
+            Self::T14,
+            Self::T15,
+            Self::T16,
+        ];
+
+        /// The number in the specification.
+        pub const fn number(self) -> u8 {
+            match self {
+                Self::T0 => 0,
+                Self::T1 => 1,
+                Self::T2 => 2,
+                Self::T3 => 3,
+                Self::T4 => 4,
+                Self::T5 => 5,
+                Self::T6 => 6,
+                Self::T7 => 7,
+                Self::T8 => 8,
+                Self::T9 => 9,
+                Self::T10 => 10,
+                Self::T11 => 11,
+                Self::T12 => 12,
+                Self::T13 => 13,
+                Self::T14 => 14,
+                Self::T15 => 15,
+                Self::T16 => 16,
+            }
+        }
+
+        /// The states that it leaves; none at the start.
+        pub const fn leaves(self) -> &'static [PowerDriveState] {
+            match self {
+                Self::T0 => &[],
+                Self::T1 => &[PowerDriveState::NotReadyToSwitchOn],
+                Self::T2 => &[PowerDriveState::SwitchOnDisabled],
+                Self::T3 => &[PowerDriveState::ReadyToSwitchOn],
+                Self::T4 => &[PowerDriveState::SwitchedOn],
+                Self::T5 => &[PowerDriveState::OperationEnabled],
+                Self::T6 => &[PowerDriveState::SwitchedOn],
+                Self::T7 => &[PowerDriveState::ReadyToSwitchOn],
+                Self::T8 => &[PowerDriveState::OperationEnabled],
+                Self::T9 => &[PowerDriveState::OperationEnabled],
+                Self::T10 => &[PowerDriveState::SwitchedOn],
+                Self::T11 => &[PowerDriveState::OperationEnabled],
+                Self::T12 => &[PowerDriveState::QuickStopActive],
+                Self::T13 => {
+                    &[
+                        PowerDriveState::NotReadyToSwitchOn,
+                        PowerDriveState::SwitchOnDisabled,
+                        PowerDriveState::ReadyToSwitchOn,
+                        PowerDriveState::SwitchedOn,
+                        PowerDriveState::OperationEnabled,
+                        PowerDriveState::QuickStopActive,
+                        PowerDriveState::FaultReactionActive,
+                        PowerDriveState::Fault,
+                    ]
+                }
+                Self::T14 => &[PowerDriveState::FaultReactionActive],
+                Self::T15 => &[PowerDriveState::Fault],
+                Self::T16 => &[PowerDriveState::QuickStopActive],
+            }
+        }
+
+        /// The state that it enters.
+        pub const fn enters(self) -> PowerDriveState {
+            match self {
+                Self::T0 => PowerDriveState::NotReadyToSwitchOn,
+                Self::T1 => PowerDriveState::SwitchOnDisabled,
+                Self::T2 => PowerDriveState::ReadyToSwitchOn,
+                Self::T3 => PowerDriveState::SwitchedOn,
+                Self::T4 => PowerDriveState::OperationEnabled,
+                Self::T5 => PowerDriveState::SwitchedOn,
+                Self::T6 => PowerDriveState::ReadyToSwitchOn,
+                Self::T7 => PowerDriveState::SwitchOnDisabled,
+                Self::T8 => PowerDriveState::ReadyToSwitchOn,
+                Self::T9 => PowerDriveState::SwitchOnDisabled,
+                Self::T10 => PowerDriveState::SwitchOnDisabled,
+                Self::T11 => PowerDriveState::QuickStopActive,
+                Self::T12 => PowerDriveState::SwitchOnDisabled,
+                Self::T13 => PowerDriveState::FaultReactionActive,
+                Self::T14 => PowerDriveState::Fault,
+                Self::T15 => PowerDriveState::SwitchOnDisabled,
+                Self::T16 => PowerDriveState::OperationEnabled,
+            }
+        }
+
+        /// How the device makes it without a command.
+        pub const fn by_device(self) -> super::firmware::state_machine::ByDevice {
+            match self {
+                Self::T0 => super::firmware::state_machine::ByDevice::Never,
+                Self::T1 => super::firmware::state_machine::ByDevice::Automatic,
+                Self::T2 => super::firmware::state_machine::ByDevice::Never,
+                Self::T3 => super::firmware::state_machine::ByDevice::Never,
+                Self::T4 => super::firmware::state_machine::ByDevice::Never,
+                Self::T5 => super::firmware::state_machine::ByDevice::Never,
+                Self::T6 => super::firmware::state_machine::ByDevice::Never,
+                Self::T7 => super::firmware::state_machine::ByDevice::Never,
+                Self::T8 => super::firmware::state_machine::ByDevice::Never,
+                Self::T9 => super::firmware::state_machine::ByDevice::Never,
+                Self::T10 => super::firmware::state_machine::ByDevice::Never,
+                Self::T11 => super::firmware::state_machine::ByDevice::Never,
+                Self::T12 => super::firmware::state_machine::ByDevice::Automatic,
+                Self::T13 => super::firmware::state_machine::ByDevice::Event,
+                Self::T14 => super::firmware::state_machine::ByDevice::Automatic,
+                Self::T15 => super::firmware::state_machine::ByDevice::Never,
+                Self::T16 => super::firmware::state_machine::ByDevice::Never,
+            }
+        }
+
+        /// Its number in words.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::T0 => "transition 0",
+                Self::T1 => "transition 1",
+                Self::T2 => "transition 2",
+                Self::T3 => "transition 3",
+                Self::T4 => "transition 4",
+                Self::T5 => "transition 5",
+                Self::T6 => "transition 6",
+                Self::T7 => "transition 7",
+                Self::T8 => "transition 8",
+                Self::T9 => "transition 9",
+                Self::T10 => "transition 10",
+                Self::T11 => "transition 11",
+                Self::T12 => "transition 12",
+                Self::T13 => "transition 13",
+                Self::T14 => "transition 14",
+                Self::T15 => "transition 15",
+                Self::T16 => "transition 16",
+            }
+        }
+    }
+    super::firmware::defmt_text!(PowerDriveTransition);
+
+    impl super::firmware::state_machine::MachineState for PowerDriveState {
+        type Dictionary = super::Fullmo;
+        type Transition = PowerDriveTransition;
+        type Word = super::types::DriveControlword;
+
+        const TRANSITIONS: &'static [PowerDriveTransition] = &PowerDriveTransition::ALL;
+
+        fn leaves(transition: PowerDriveTransition) -> &'static [Self] {
+            transition.leaves()
+        }
+
+        fn enters(transition: PowerDriveTransition) -> Self {
+            transition.enters()
+        }
+
+        fn by_device(
+            transition: PowerDriveTransition,
+        ) -> super::firmware::state_machine::ByDevice {
+            transition.by_device()
+        }
+
+        fn asks(
+            transition: PowerDriveTransition,
+            before: super::types::DriveControlword,
+            word: super::types::DriveControlword,
+        ) -> bool {
+            PowerDriveCommand::ALL
+                .into_iter()
+                .any(|command| {
+                    command.is_given(before, word)
+                        && command.transitions().contains(&transition)
+                })
+        }
+
+        fn command(dictionary: &super::Fullmo) -> super::types::DriveControlword {
+            super::types::DriveControlword(super::glue::get_u16(&dictionary.0, 704))
+        }
+
+        fn show(self, dictionary: &mut super::Fullmo) {
+            let (mask, value) = self.bits();
+            let word = super::glue::get_u16(&dictionary.0, 706);
+            super::glue::put_u16(&mut dictionary.0, 706, word & !mask | value);
+        }
+    }
+
+    impl super::firmware::state_machine::Start for PowerDriveState {
+        const START: Self = PowerDriveState::NotReadyToSwitchOn;
+    }
+
+    /// The power drive: it takes the commands of `6040h`, and shows its state in `6041h`.
+    pub type PowerDriveMachine = super::firmware::StateMachine<PowerDriveState>;
 }
 
 /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.

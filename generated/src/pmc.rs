@@ -6656,6 +6656,20 @@ pub mod machines {
             None
         }
 
+        /// The bits of the word that show the state, and their values.
+        pub const fn bits(self) -> (u16, u16) {
+            match self {
+                Self::NotReadyToSwitchOn => (0x004F, 0x0000),
+                Self::SwitchOnDisabled => (0x004F, 0x0040),
+                Self::ReadyToSwitchOn => (0x006F, 0x0021),
+                Self::SwitchedOn => (0x006F, 0x0023),
+                Self::OperationEnabled => (0x006F, 0x0027),
+                Self::QuickStopActive => (0x006F, 0x0007),
+                Self::FaultReactionActive => (0x004F, 0x000F),
+                Self::Fault => (0x004F, 0x0008),
+            }
+        }
+
         /// The name in the specification.
         pub const fn name(self) -> &'static str {
             match self {
@@ -6700,6 +6714,21 @@ pub mod machines {
     }
 
     impl PowerDriveCommand {
+        /// All commands.
+        pub const ALL: [Self; 11] = [
+            Self::Shutdown,
+            Self::SwitchOn,
+            Self::SwitchOnEnableOperation,
+            Self::DisableVoltage,
+            Self::Quickstop,
+            Self::DisableOperation,
+            Self::EnableOperation,
+            Self::FaultReset,
+            Self::Start,
+            Self::StartNewPosition,
+            Self::Stop,
+        ];
+
         /// The bits of the word that make the command, and their values; an edge counts as the level after it.
         pub const fn bits(self) -> (u16, u16) {
             match self {
@@ -6733,6 +6762,67 @@ pub mod machines {
             word.0 & mask == value
         }
 
+        /// The bits of the word that have to rise for the command, and those that have to fall.
+        pub const fn edges(self) -> (u16, u16) {
+            match self {
+                Self::FaultReset => (0x0080, 0x0000),
+                Self::Start => (0x0000, 0x0100),
+                Self::StartNewPosition => (0x0010, 0x0000),
+                _ => (0, 0),
+            }
+        }
+
+        /// Whether the word gives the command after the word before, from which edges are seen.
+        pub const fn is_given(
+            self,
+            before: super::types::Controlword,
+            word: super::types::Controlword,
+        ) -> bool {
+            let (rising, falling) = self.edges();
+            let before = before.0;
+            self.is_in(word) && before & rising == 0 && before & falling == falling
+        }
+
+        /// The transitions that it causes, each in the states that it leaves.
+        pub const fn transitions(self) -> &'static [PowerDriveTransition] {
+            match self {
+                Self::Shutdown => {
+                    &[
+                        PowerDriveTransition::T2,
+                        PowerDriveTransition::T6,
+                        PowerDriveTransition::T8,
+                    ]
+                }
+                Self::SwitchOn => &[PowerDriveTransition::T3],
+                Self::SwitchOnEnableOperation => {
+                    &[PowerDriveTransition::T3, PowerDriveTransition::T4]
+                }
+                Self::DisableVoltage => {
+                    &[
+                        PowerDriveTransition::T7,
+                        PowerDriveTransition::T9,
+                        PowerDriveTransition::T10,
+                        PowerDriveTransition::T12,
+                    ]
+                }
+                Self::Quickstop => {
+                    &[
+                        PowerDriveTransition::T7,
+                        PowerDriveTransition::T10,
+                        PowerDriveTransition::T11,
+                    ]
+                }
+                Self::DisableOperation => &[PowerDriveTransition::T5],
+                Self::EnableOperation => {
+                    &[PowerDriveTransition::T4, PowerDriveTransition::T16]
+                }
+                Self::FaultReset => &[PowerDriveTransition::T15],
+                Self::Start => &[],
+                Self::StartNewPosition => &[],
+                Self::Stop => &[],
+            }
+        }
+
         /// The name in the specification.
         pub const fn name(self) -> &'static str {
             match self {
@@ -6751,6 +6841,247 @@ pub mod machines {
         }
     }
     super::firmware::defmt_text!(PowerDriveCommand);
+
+    /// Transition of the power drive, by its number.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum PowerDriveTransition {
+        /// 0, the start → Not ready to switch-on. Automatically after power-on or reset. Action: The device tests and initialises itself.
+        T0,
+        /// 1, Not ready to switch-on → Switch-on disabled. Automatically. Action: Communication is activated, the watchdog contact closed.
+        T1,
+        /// 2, Switch-on disabled → Ready to Switch-on. Enable input on and Shutdown commanded. Action: None.
+        T2,
+        /// 3, Ready to Switch-on → Switched-on. Switch on commanded, or EFC signal active. Action: Output stage on, brake lifted, internal set-points initialised.
+        T3,
+        /// 4, Switched-on → Operation enabled. Enable operation commanded, or EFC signal active. Action: Operation of the axis is enabled; with an EFC signal the EFC drive is carried out.
+        T4,
+        /// 5, Operation enabled → Switched-on. Disable operation commanded, or 90° limit switch active. Action: Operation of the axis is disabled, the axis stops.
+        T5,
+        /// 6, Switched-on → Ready to Switch-on. Shutdown commanded. Action: The brake engages; the control is switched off after the brake set time. Without a brake the axis coasts.
+        T6,
+        /// 7, Ready to Switch-on → Switch-on disabled. Enable input off, or Disable Voltage or Quickstop commanded. Action: None.
+        T7,
+        /// 8, Operation enabled → Ready to Switch-on. Shutdown commanded. Action: The brake engages; the control is switched off after the brake set time.
+        T8,
+        /// 9, Operation enabled → Switch-on disabled. Disable Voltage commanded, or enable input off. Action: The brake engages; the control is switched off after the brake set time.
+        T9,
+        /// 10, Switched-on → Switch-on disabled. Negative quick stop (0° limit switch) active, Quickstop or Disable Voltage commanded, or enable input off. Action: The brake engages; the control is switched off after the brake set time.
+        T10,
+        /// 11, Operation enabled → Quick stop active. Negative quick stop (0° limit switch) active, or Quickstop commanded. Action: Quick stop at the current limit; the control is switched off after the brake set time.
+        T11,
+        /// 12, Quick stop active → Switch-on disabled. Automatically when the quick stop is finished, or Disable Voltage commanded. Action: None.
+        T12,
+        /// 13, any state → Fault reaction active. Internal error of the axis, communication error, or positive quick stop (95° limit switch). Action: The reaction of the error: for encoders and following error as set in fault reaction option code (605Eh), for a lost connection as set in abort connection option code (6007h), for the other errors of Table 48 a fixed one. The watchdog contact opens.
+        T13,
+        /// 14, Fault reaction active → Fault. Automatically. Action: The brake engages; the control is switched off after the brake set time.
+        T14,
+        /// 15, Fault → Switch-on disabled. Fault reset commanded while no error is pending, or EFC signal active. Action: The watchdog contact closes.
+        T15,
+        /// 16, Quick stop active → Operation enabled. EFC signal active while neither the 90° nor the 95° limit switch is. Action: Output stage on, brake lifted, EFC drive carried out if possible.
+        T16,
+    }
+
+    impl PowerDriveTransition {
+        /// All transitions, ascending.
+        pub const ALL: [Self; 17] = [
+            Self::T0,
+            Self::T1,
+            Self::T2,
+            Self::T3,
+            Self::T4,
+            Self::T5,
+            Self::T6,
+            Self::T7,
+            Self::T8,
+            Self::T9,
+            Self::T10,
+            Self::T11,
+            Self::T12,
+            Self::T13,
+            Self::T14,
+            Self::T15,
+            Self::T16,
+        ];
+
+        /// The number in the specification.
+        pub const fn number(self) -> u8 {
+            match self {
+                Self::T0 => 0,
+                Self::T1 => 1,
+                Self::T2 => 2,
+                Self::T3 => 3,
+                Self::T4 => 4,
+                Self::T5 => 5,
+                Self::T6 => 6,
+                Self::T7 => 7,
+                Self::T8 => 8,
+                Self::T9 => 9,
+                Self::T10 => 10,
+                Self::T11 => 11,
+                Self::T12 => 12,
+                Self::T13 => 13,
+                Self::T14 => 14,
+                Self::T15 => 15,
+                Self::T16 => 16,
+            }
+        }
+
+        /// The states that it leaves; none at the start.
+        pub const fn leaves(self) -> &'static [PowerDriveState] {
+            match self {
+                Self::T0 => &[],
+                Self::T1 => &[PowerDriveState::NotReadyToSwitchOn],
+                Self::T2 => &[PowerDriveState::SwitchOnDisabled],
+                Self::T3 => &[PowerDriveState::ReadyToSwitchOn],
+                Self::T4 => &[PowerDriveState::SwitchedOn],
+                Self::T5 => &[PowerDriveState::OperationEnabled],
+                Self::T6 => &[PowerDriveState::SwitchedOn],
+                Self::T7 => &[PowerDriveState::ReadyToSwitchOn],
+                Self::T8 => &[PowerDriveState::OperationEnabled],
+                Self::T9 => &[PowerDriveState::OperationEnabled],
+                Self::T10 => &[PowerDriveState::SwitchedOn],
+                Self::T11 => &[PowerDriveState::OperationEnabled],
+                Self::T12 => &[PowerDriveState::QuickStopActive],
+                Self::T13 => {
+                    &[
+                        PowerDriveState::NotReadyToSwitchOn,
+                        PowerDriveState::SwitchOnDisabled,
+                        PowerDriveState::ReadyToSwitchOn,
+                        PowerDriveState::SwitchedOn,
+                        PowerDriveState::OperationEnabled,
+                        PowerDriveState::QuickStopActive,
+                        PowerDriveState::FaultReactionActive,
+                        PowerDriveState::Fault,
+                    ]
+                }
+                Self::T14 => &[PowerDriveState::FaultReactionActive],
+                Self::T15 => &[PowerDriveState::Fault],
+                Self::T16 => &[PowerDriveState::QuickStopActive],
+            }
+        }
+
+        /// The state that it enters.
+        pub const fn enters(self) -> PowerDriveState {
+            match self {
+                Self::T0 => PowerDriveState::NotReadyToSwitchOn,
+                Self::T1 => PowerDriveState::SwitchOnDisabled,
+                Self::T2 => PowerDriveState::ReadyToSwitchOn,
+                Self::T3 => PowerDriveState::SwitchedOn,
+                Self::T4 => PowerDriveState::OperationEnabled,
+                Self::T5 => PowerDriveState::SwitchedOn,
+                Self::T6 => PowerDriveState::ReadyToSwitchOn,
+                Self::T7 => PowerDriveState::SwitchOnDisabled,
+                Self::T8 => PowerDriveState::ReadyToSwitchOn,
+                Self::T9 => PowerDriveState::SwitchOnDisabled,
+                Self::T10 => PowerDriveState::SwitchOnDisabled,
+                Self::T11 => PowerDriveState::QuickStopActive,
+                Self::T12 => PowerDriveState::SwitchOnDisabled,
+                Self::T13 => PowerDriveState::FaultReactionActive,
+                Self::T14 => PowerDriveState::Fault,
+                Self::T15 => PowerDriveState::SwitchOnDisabled,
+                Self::T16 => PowerDriveState::OperationEnabled,
+            }
+        }
+
+        /// How the device makes it without a command.
+        pub const fn by_device(self) -> super::firmware::state_machine::ByDevice {
+            match self {
+                Self::T0 => super::firmware::state_machine::ByDevice::Never,
+                Self::T1 => super::firmware::state_machine::ByDevice::Automatic,
+                Self::T2 => super::firmware::state_machine::ByDevice::Event,
+                Self::T3 => super::firmware::state_machine::ByDevice::Event,
+                Self::T4 => super::firmware::state_machine::ByDevice::Event,
+                Self::T5 => super::firmware::state_machine::ByDevice::Event,
+                Self::T6 => super::firmware::state_machine::ByDevice::Never,
+                Self::T7 => super::firmware::state_machine::ByDevice::Event,
+                Self::T8 => super::firmware::state_machine::ByDevice::Never,
+                Self::T9 => super::firmware::state_machine::ByDevice::Event,
+                Self::T10 => super::firmware::state_machine::ByDevice::Event,
+                Self::T11 => super::firmware::state_machine::ByDevice::Event,
+                Self::T12 => super::firmware::state_machine::ByDevice::Automatic,
+                Self::T13 => super::firmware::state_machine::ByDevice::Event,
+                Self::T14 => super::firmware::state_machine::ByDevice::Automatic,
+                Self::T15 => super::firmware::state_machine::ByDevice::Event,
+                Self::T16 => super::firmware::state_machine::ByDevice::Event,
+            }
+        }
+
+        /// Its number in words.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::T0 => "transition 0",
+                Self::T1 => "transition 1",
+                Self::T2 => "transition 2",
+                Self::T3 => "transition 3",
+                Self::T4 => "transition 4",
+                Self::T5 => "transition 5",
+                Self::T6 => "transition 6",
+                Self::T7 => "transition 7",
+                Self::T8 => "transition 8",
+                Self::T9 => "transition 9",
+                Self::T10 => "transition 10",
+                Self::T11 => "transition 11",
+                Self::T12 => "transition 12",
+                Self::T13 => "transition 13",
+                Self::T14 => "transition 14",
+                Self::T15 => "transition 15",
+                Self::T16 => "transition 16",
+            }
+        }
+    }
+    super::firmware::defmt_text!(PowerDriveTransition);
+
+    impl super::firmware::state_machine::MachineState for PowerDriveState {
+        type Dictionary = super::Pmc;
+        type Transition = PowerDriveTransition;
+        type Word = super::types::Controlword;
+
+        const TRANSITIONS: &'static [PowerDriveTransition] = &PowerDriveTransition::ALL;
+
+        fn leaves(transition: PowerDriveTransition) -> &'static [Self] {
+            transition.leaves()
+        }
+
+        fn enters(transition: PowerDriveTransition) -> Self {
+            transition.enters()
+        }
+
+        fn by_device(
+            transition: PowerDriveTransition,
+        ) -> super::firmware::state_machine::ByDevice {
+            transition.by_device()
+        }
+
+        fn asks(
+            transition: PowerDriveTransition,
+            before: super::types::Controlword,
+            word: super::types::Controlword,
+        ) -> bool {
+            PowerDriveCommand::ALL
+                .into_iter()
+                .any(|command| {
+                    command.is_given(before, word)
+                        && command.transitions().contains(&transition)
+                })
+        }
+
+        fn command(dictionary: &super::Pmc) -> super::types::Controlword {
+            super::types::Controlword(super::glue::get_u16(&dictionary.0, 676))
+        }
+
+        fn show(self, dictionary: &mut super::Pmc) {
+            let (mask, value) = self.bits();
+            let word = super::glue::get_u16(&dictionary.0, 678);
+            super::glue::put_u16(&mut dictionary.0, 678, word & !mask | value);
+        }
+    }
+
+    impl super::firmware::state_machine::Start for PowerDriveState {
+        const START: Self = PowerDriveState::NotReadyToSwitchOn;
+    }
+
+    /// The power drive: it takes the commands of `6040h`, and shows its state in `6041h`.
+    pub type PowerDriveMachine = super::firmware::StateMachine<PowerDriveState>;
 }
 
 /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.

@@ -258,6 +258,10 @@ impl Systems<'_> {
                     let change = Change::text(place.clone(), Fact::Meaning, &ways(before), &ways(after));
                     let change = change.map(|change| change.so(Class::Plc, "it leads elsewhere"));
                     changes.extend(change.map(|change| change.part(part.clone())));
+                    let causes = (before.by_device.word(), after.by_device.word());
+                    let change = Change::text(place.clone(), Fact::Reaction, causes.0, causes.1)
+                        .map(|change| change.so(Class::Behaviour, "the device makes it by itself otherwise"));
+                    changes.extend(change.map(|change| change.part(format!("{part}, by-device"))));
                     let words = [
                         ("event", &before.event, &after.event, "something else causes it"),
                         ("action", &before.action, &after.action, DOES_SOMETHING_ELSE),

@@ -49,7 +49,7 @@
 //! | state, command | gone or another pattern | plc | |
 //! | | added | behaviour, addition | a program meets a state that it does not know |
 //! | transition | gone or between other states, added | plc, behaviour | |
-//! | | another event or action | behaviour | |
+//! | | another event or action, made by the device otherwise | behaviour | |
 //! | command | other transitions | behaviour | |
 //! | condition between entries | added or another, removed | plc, addition | a configuration that was accepted is refused |
 //! | descriptions, links between objects, category, issue, error codes of bits, manual, errata | any | documents | |

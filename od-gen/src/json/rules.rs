@@ -79,6 +79,7 @@ pub(super) fn machine(machine: &StateMachine) -> MachineView<'_> {
                     "to": transition.to,
                     "event": words(&transition.event),
                     "action": words(&transition.action),
+                    "by_device": transition.by_device.word(),
                 })
             })
             .collect(),

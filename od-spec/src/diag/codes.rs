@@ -150,6 +150,8 @@ codes! {
         "The value under `send:` does not have the bits that `pattern:` demands."
     AMBIGUOUS_STATES Error "OD0605" "states that look the same":
         "One value of the status entry would show two states at once."
+    WRONG_TRANSITION Error "OD0612" "a transition whose cause cannot be":
+        "`by-device:` says how the device makes a transition that nobody commands. The start has no other cause; a transition that is made by itself and leaves the state that it enters would never end; and one that the device never makes needs a command."
     CONSTRAINT_DEVICES Error "OD0607" "a constraint across devices":
         "No single device has all the entries that the condition names without a device. Write `device:` before them."
     UNITS_DIFFER Error "OD0610" "a comparison of different units":

@@ -2,6 +2,7 @@
 
 use super::shape::{Key, KeyKind, Keys, NAMES, Shape, U8, U32};
 use super::table::keys;
+use crate::model::ByDevice;
 
 macro_rules! machine_keys {
     ($then:ident $($head:tt)*) => {
@@ -45,6 +46,7 @@ macro_rules! transition_keys {
             "to": Shape::Text => to: Option<Name>, "state it enters";
             "event": Shape::Words => event: Words, "what causes it";
             "action": Shape::Words => action: Words, "what the device does";
+            "by-device": Shape::Choice(ByDevice::WORDS) => by_device: Option<Spanned<ByDevice>>, "how the device makes it without a command: `automatic` when what it does in the state is done, `event` when something happens, `never`; `event` where no command causes it, `never` elsewhere", "automatic";
         } }
     };
 }

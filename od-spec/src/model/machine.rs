@@ -48,6 +48,38 @@ pub struct Transition {
     pub event: Text,
     /// What the device does.
     pub action: Text,
+    /// How the device makes it without a command.
+    pub by_device: ByDevice,
+}
+
+/// How a device makes a transition that nobody commands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ByDevice {
+    /// Only a command causes it, or the start.
+    Never,
+    /// Something happens to the device: a fault, an input.
+    Event,
+    /// What the device does in the state is done.
+    Automatic,
+}
+
+impl ByDevice {
+    /// The words of a specification.
+    pub const WORDS: &'static [&'static str] = &["never", "event", "automatic"];
+
+    /// The word that a specification uses.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Never => "never",
+            Self::Event => "event",
+            Self::Automatic => "automatic",
+        }
+    }
+
+    /// The meaning of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Never, Self::Event, Self::Automatic].into_iter().find(|one| one.word() == word)
+    }
 }
 
 /// A command and its coding in the command entry.
@@ -95,6 +127,18 @@ impl BitPattern {
                 PatternBit::Any => (0, 0),
             };
             (mask << 1 | matters, value << 1 | level)
+        })
+    }
+
+    /// Masks of the bits that have to rise and of those that have to fall.
+    pub fn edges(&self) -> (u64, u64) {
+        self.0.iter().fold((0, 0), |(rising, falling), bit| {
+            let (rises, falls) = match bit {
+                PatternBit::Rising => (1, 0),
+                PatternBit::Falling => (0, 1),
+                PatternBit::Zero | PatternBit::One | PatternBit::Any => (0, 0),
+            };
+            (rising << 1 | rises, falling << 1 | falls)
         })
     }
 }

@@ -48,7 +48,7 @@ pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use flow::{Block, Flow, Inflow};
 pub(crate) use held::Held;
 pub use hysteresis::{Switch, SwitchBack, SwitchPoints, SwitchSide};
-pub use machine::{BitPattern, Command, PatternBit, State, StateMachine, Transition};
+pub use machine::{BitPattern, ByDevice, Command, PatternBit, State, StateMachine, Transition};
 pub use named_type::{
     BitErrors, BitField, BitUsage, Edge, EnumValue, EnumValues, ModeMeaning, NamedType, TypeKind,
 };

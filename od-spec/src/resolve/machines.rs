@@ -9,11 +9,13 @@ use super::refs::{Broken, NamesOf};
 use super::scope::unknown;
 use super::types::words;
 use super::varied::Varied;
-use crate::ast::{MachineDecl, Name, Spec};
+use crate::ast::{MachineDecl, Name, Spec, TransitionDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::limits::STATES;
-use crate::model::{BitPattern, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition};
+use crate::model::{
+    BitPattern, ByDevice, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition,
+};
 use crate::source::{Span, Spanned};
 
 pub(super) fn resolve(
@@ -85,6 +87,7 @@ fn whole<'a>(
                 transition.to = over.to.clone().or_else(|| transition.to.clone());
                 transition.event = over.event.clone().or_else(|| transition.event.clone());
                 transition.action = over.action.clone().or_else(|| transition.action.clone());
+                transition.by_device = over.by_device.or(transition.by_device);
             }
             None => transitions.push(over.clone()),
         }
@@ -179,6 +182,21 @@ fn machine(
         })
         .collect();
     check_states_differ(decl, &states, diagnostics);
+    let transitions = transitions(decl, diagnostics);
+    let commands = commands(decl, command, device, diagnostics);
+    Some(StateMachine {
+        name: decl.name.value.clone(),
+        devices: on,
+        status,
+        command,
+        states,
+        transitions,
+        commands,
+    })
+}
+
+/// The transitions, between states that the machine has.
+fn transitions(decl: &MachineDecl, diagnostics: &mut Diagnostics) -> Vec<Transition> {
     let names: BTreeSet<&str> = decl.states.iter().map(|state| state.name.value.as_str()).collect();
     let known = |name: &Name, diagnostics: &mut Diagnostics| {
         let found = names.contains(name.value.as_str());
@@ -190,6 +208,8 @@ fn machine(
         found
     };
     let mut transitions: Vec<Transition> = Vec::new();
+    let commanded: BTreeSet<i128> =
+        decl.commands.iter().flat_map(|one| &one.transitions).map(|number| number.value).collect();
     for one in &decl.transitions {
         let from = match one.from.as_slice() {
             [start] if start.value == "start" => Vec::new(),
@@ -201,23 +221,50 @@ fn machine(
         let Some(to) = one.to.as_ref().filter(|to| known(to, diagnostics)) else { continue };
         transitions.push(Transition {
             number: to_u8(one.number.value),
-            from,
             to: to.value.clone(),
             event: words(&one.event),
             action: words(&one.action),
+            by_device: by_device(one, &from, to, commanded.contains(&one.number.value), diagnostics),
+            from,
         });
     }
     transitions.sort_by_key(|transition| transition.number);
-    let commands = commands(decl, command, device, diagnostics);
-    Some(StateMachine {
-        name: decl.name.value.clone(),
-        devices: on,
-        status,
-        command,
-        states,
-        transitions,
-        commands,
-    })
+    transitions
+}
+
+/// How the device makes a transition by itself; a cause that cannot be is reported.
+fn by_device(
+    one: &TransitionDecl,
+    from: &[String],
+    to: &Name,
+    is_commanded: bool,
+    diagnostics: &mut Diagnostics,
+) -> ByDevice {
+    let is_start = one.from.iter().any(|name| name.value == "start");
+    let Some(written) = one.by_device else {
+        return if is_start || is_commanded { ByDevice::Never } else { ByDevice::Event };
+    };
+    let number = one.number.value;
+    let (message, label, help) = match written.value {
+        ByDevice::Automatic | ByDevice::Event if is_start => (
+            format!("transition {number} is the start, which has no other cause"),
+            "nothing comes before power-on",
+            "remove the key",
+        ),
+        ByDevice::Automatic if from.contains(&to.value) => (
+            format!("transition {number} would be made again and again"),
+            "it leaves the state that it enters",
+            "leave the state out of `from:`, or write `event`",
+        ),
+        ByDevice::Never if !is_start && !is_commanded => (
+            format!("nothing causes transition {number}"),
+            "the device never does, and no command either",
+            "name the transition in `transitions:` of a command, or write `event` or `automatic`",
+        ),
+        ByDevice::Never | ByDevice::Event | ByDevice::Automatic => return written.value,
+    };
+    diagnostics.push(Diagnostic::new(codes::WRONG_TRANSITION, written.span, message).label(label).help(help));
+    written.value
 }
 
 fn commands(

@@ -3,16 +3,17 @@
 use std::fmt::Write as _;
 
 use od_spec::model::{BitPattern, Command, ErrorCode};
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::docs::{doc, escape};
 use super::literal::hex;
+use super::transitions;
 use super::value::Values;
 use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine, ValueKind};
 
 /// The name of a machine as the beginning of another: what sets it apart from a keyword is not needed there.
-fn stem(name: &str) -> &str {
+pub(super) fn stem(name: &str) -> &str {
     name.trim_end_matches('_')
 }
 
@@ -37,7 +38,8 @@ impl Plan<'_> {
             return quote!();
         };
         let (states, commands) = (self.states(planned, status), self.commands(planned, command));
-        quote!(#states #commands)
+        let transitions = self.transitions(planned, status, command);
+        quote!(#states #commands #transitions)
     }
 
     fn states(&self, planned: &PlannedMachine<'_>, status: &PlannedEntry<'_>) -> TokenStream {
@@ -45,6 +47,7 @@ impl Plan<'_> {
         let name = format_ident!("{}State", stem(&planned.name));
         let about = doc(&format!("State of the {}, as `{}` shows it.", escape(&machine.name), status.id));
         let (mut variants, mut arms, mut names) = (Vec::new(), Vec::new(), Vec::new());
+        let mut parts = Vec::new();
         for (variant, state) in planned.states.iter().zip(&machine.states) {
             let variant = format_ident!("{variant}");
             let about = self.words(&state.about);
@@ -53,11 +56,13 @@ impl Plan<'_> {
             let (mask, value) = pattern(&state.pattern);
             let text = &state.name;
             variants.push(quote!(#about #variant,));
+            parts.push(quote!(Self::#variant => (#mask, #value),));
             arms.push(quote!(if word & #mask == #value { return Some(Self::#variant); }));
             names.push(quote!(Self::#variant => #text,));
         }
         let (word_type, word) = self.word(status);
         let converted = converted(&word);
+        let raw = self.bits_type(status);
         quote! {
             #about
             #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -71,6 +76,13 @@ impl Plan<'_> {
                     #converted
                     #(#arms)*
                     None
+                }
+
+                /// The bits of the word that show the state, and their values.
+                pub const fn bits(self) -> (#raw, #raw) {
+                    match self {
+                        #(#parts)*
+                    }
                 }
 
                 /// The name in the specification.
@@ -91,18 +103,43 @@ impl Plan<'_> {
             return quote!();
         }
         let name = format_ident!("{}Command", stem(&planned.name));
+        let transition = format_ident!("{}Transition", stem(&planned.name));
         let about = doc(&format!("Command to the {}, as `{}` takes it.", escape(&machine.name), command.id));
         let (mut variants, mut parts, mut names) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut all, mut edges, mut causes) = (Vec::new(), Vec::new(), Vec::new());
         for (variant, one) in planned.commands.iter().zip(&machine.commands) {
             let variant = format_ident!("{variant}");
             let about = doc(&self.command_doc(one));
             let (mask, value) = pattern(&one.pattern);
+            let (rising, falling) = one.pattern.edges();
+            let digits = one.pattern.0.len().div_ceil(4);
+            let (rising, falling) = (hex(rising, digits), hex(falling, digits));
             let text = &one.name;
+            let caused = one.transitions.iter().map(|number| transitions::variant(*number));
+            all.push(quote!(Self::#variant));
+            if one.pattern.edges() != (0, 0) {
+                edges.push(quote!(Self::#variant => (#rising, #falling),));
+            }
+            causes.push(quote!(Self::#variant => &[#(#transition::#caused),*],));
             variants.push(quote!(#about #variant,));
             parts.push(quote!(Self::#variant => (#mask, #value),));
             names.push(quote!(Self::#variant => #text,));
         }
-        let methods = self.command_methods(command, &parts);
+        if edges.len() < parts.len() {
+            edges.push(quote!(_ => (0, 0),));
+        }
+        let methods = self.command_methods(command, &parts, &edges);
+        let count = Literal::usize_unsuffixed(all.len());
+        let caused = (!machine.transitions.is_empty()).then(|| {
+            quote! {
+                /// The transitions that it causes, each in the states that it leaves.
+                pub const fn transitions(self) -> &'static [#transition] {
+                    match self {
+                        #(#causes)*
+                    }
+                }
+            }
+        });
         quote! {
             #about
             #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -111,7 +148,12 @@ impl Plan<'_> {
             }
 
             impl #name {
+                /// All commands.
+                pub const ALL: [Self; #count] = [#(#all),*];
+
                 #methods
+
+                #caused
 
                 /// The name in the specification.
                 pub const fn name(self) -> &'static str {
@@ -126,22 +168,24 @@ impl Plan<'_> {
     }
 
     /// What a command does to the word.
-    fn command_methods(&self, command: &PlannedEntry<'_>, parts: &[TokenStream]) -> TokenStream {
+    fn command_methods(
+        &self,
+        command: &PlannedEntry<'_>,
+        parts: &[TokenStream],
+        edges: &[TokenStream],
+    ) -> TokenStream {
         let (word_type, word) = self.word(command);
         let kind = word_kind(command);
         let made = quote!(word & !mask | value);
         let made = if is_signed(&kind) { quote!((#made).cast_signed()) } else { made };
         let made = Values::wrap(&kind, &quote!(super::), &made);
-        let unsigned = format_ident!(
-            "u{}",
-            kind.data_type.bits().filter(|bits| matches!(bits, 8 | 16 | 32)).unwrap_or(64)
-        );
-        let raw = if is_signed(&kind) {
-            quote!(#unsigned)
-        } else {
-            Values { plan: self }.raw_type(&kind, &quote!(super::))
-        };
+        let raw = self.bits_type(command);
         let converted = converted(&word);
+        let before = match (kind.named.is_some(), is_signed(&kind)) {
+            (true, _) => Some(quote!(let before = before.0;)),
+            (false, true) => Some(quote!(let before = before.cast_unsigned();)),
+            (false, false) => None,
+        };
         quote! {
             /// The bits of the word that make the command, and their values; an edge counts as the level after it.
             pub const fn bits(self) -> (#raw, #raw) {
@@ -162,7 +206,32 @@ impl Plan<'_> {
                 let (mask, value) = self.bits();
                 #word & mask == value
             }
+
+            /// The bits of the word that have to rise for the command, and those that have to fall.
+            pub const fn edges(self) -> (#raw, #raw) {
+                match self {
+                    #(#edges)*
+                }
+            }
+
+            /// Whether the word gives the command after the word before, from which edges are seen.
+            pub const fn is_given(self, before: #word_type, word: #word_type) -> bool {
+                let (rising, falling) = self.edges();
+                #before
+                self.is_in(word) && before & rising == 0 && before & falling == falling
+            }
         }
+    }
+
+    /// The type of masks of a word.
+    fn bits_type(&self, entry: &PlannedEntry<'_>) -> TokenStream {
+        let kind = word_kind(entry);
+        if !is_signed(&kind) {
+            return Values { plan: self }.raw_type(&kind, &quote!(super::));
+        }
+        let bits = kind.data_type.bits().filter(|bits| matches!(bits, 8 | 16 | 32)).unwrap_or(64);
+        let unsigned = format_ident!("u{bits}");
+        quote!(#unsigned)
     }
 
     /// The type of a word, and its raw number.
@@ -247,19 +316,19 @@ impl Plan<'_> {
 }
 
 /// Mask and value of a pattern.
-fn pattern(pattern: &BitPattern) -> (proc_macro2::Literal, proc_macro2::Literal) {
+fn pattern(pattern: &BitPattern) -> (Literal, Literal) {
     let (mask, value) = pattern.mask_and_value();
     let digits = pattern.0.len().div_ceil(4);
     (hex(mask, digits), hex(value, digits))
 }
 
 /// Whether a word is a plain signed number, whose bits have to be taken as unsigned ones.
-fn is_signed(kind: &ValueKind) -> bool {
+pub(super) fn is_signed(kind: &ValueKind) -> bool {
     kind.named.is_none() && kind.data_type.is_signed()
 }
 
 /// What a word is in code: a bit field or a plain number; a unit or special values say nothing about its bits.
-fn word_kind(entry: &PlannedEntry<'_>) -> ValueKind {
+pub(super) fn word_kind(entry: &PlannedEntry<'_>) -> ValueKind {
     ValueKind { unit: None, special: None, ..entry.kind.clone() }
 }
 

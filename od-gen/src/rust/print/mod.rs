@@ -9,6 +9,7 @@ mod machines;
 mod pdos;
 mod runs;
 mod table;
+mod transitions;
 mod types;
 mod value;
 mod values;

@@ -133,6 +133,15 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "the device no longer makes a transition by itself",
+        at: "state-machines:",
+        find: "        by-device: event\n        event: Disable Voltage commanded, or enable input off.",
+        replace: "        event: Disable Voltage commanded, or enable input off.",
+        expected: &[
+            "pmc: ~ state machine `power drive`, transition 9, by-device: reaction: event -> never [behaviour]",
+        ],
+    },
+    Case {
         name: "a priority comes",
         at: "errors:",
         find: "  0x3120: {name: Grid under voltage,",
