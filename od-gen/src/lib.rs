@@ -29,6 +29,8 @@ mod hexadecimal;
 pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(feature = "runtime")]
+pub mod monitor;
 #[cfg(feature = "yaml")]
 pub mod parameters;
 mod plan;
@@ -39,6 +41,8 @@ pub mod runtime;
 pub mod rust;
 #[cfg(feature = "runtime")]
 pub mod slcan;
+#[cfg(all(feature = "links", target_os = "linux"))]
+pub mod socketcan;
 pub mod source;
 #[cfg(feature = "runtime")]
 pub mod trace;

@@ -17,7 +17,7 @@ pub(super) fn nmt_command(command: u8) -> Option<&'static str> {
 }
 
 /// The state in a heartbeat or in the answer to node guarding.
-pub(super) fn state(byte: u8) -> String {
+pub(crate) fn state(byte: u8) -> String {
     match byte & 0x7F {
         0 => "boot-up".to_owned(),
         4 => "stopped".to_owned(),

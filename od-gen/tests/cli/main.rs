@@ -21,6 +21,7 @@ mod formats;
 mod import;
 #[path = "../../../tests/shared/shipped.rs"]
 mod in_one_file;
+mod monitor;
 mod new;
 mod node;
 mod parts;
