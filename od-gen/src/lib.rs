@@ -31,6 +31,8 @@ mod hexadecimal;
 pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(feature = "runtime")]
+pub mod monitor;
 #[cfg(any(feature = "dbc", feature = "runtime"))]
 mod nmt;
 #[cfg(feature = "yaml")]
@@ -43,6 +45,8 @@ pub mod runtime;
 pub mod rust;
 #[cfg(feature = "runtime")]
 pub mod slcan;
+#[cfg(all(feature = "links", target_os = "linux"))]
+pub mod socketcan;
 pub mod source;
 #[cfg(feature = "runtime")]
 pub mod trace;

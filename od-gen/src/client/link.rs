@@ -2,34 +2,43 @@
 
 use std::collections::VecDeque;
 use std::fmt;
-use std::io::{ErrorKind, Read as _, Write as _};
-use std::net::{Shutdown, TcpStream};
+use std::io::ErrorKind;
+use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use firmware_glue::frame::Frame;
 
+use super::port::{Manner, Port};
 use super::{Bus, BusError};
 use crate::slcan::{CanFrame, Heard, Host, line};
 
 /// An adapter answers a command within this time.
 const PATIENCE: Duration = Duration::from_secs(2);
 
+/// One that answers at all has answered its first command by then.
+const FIRST: Duration = Duration::from_millis(500);
+
 /// So long at most an adapter is heard after the end.
 const FAREWELL: Duration = Duration::from_millis(300);
+
+/// What a port says in the end has come when it says nothing for so long.
+const QUIET: Duration = Duration::from_millis(30);
 
 /// Bit rates in kbit/s, by the digit of their command.
 const BIT_RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
 
 /// A bus behind an adapter, whose channel is open for as long as it lives.
 #[derive(Debug)]
-pub struct SlcanBus {
-    stream: TcpStream,
+pub struct SlcanBus<P: Port = TcpStream> {
+    stream: P,
     host: Host,
     /// Bytes that came and were not looked at.
     bytes: VecDeque<u8>,
     /// Frames that came while an answer was waited for.
     waiting: VecDeque<Frame>,
     start: Instant,
+    /// Whether commands have answers.
+    manner: Manner,
 }
 
 /// Why a channel is not open.
@@ -75,22 +84,31 @@ fn broken(error: std::io::Error) -> BusError {
     BusError::Connection(error)
 }
 
-impl SlcanBus {
+impl<P: Port> SlcanBus<P> {
     /// Opens the channel of an adapter, at a bit rate in kbit/s, or at that which the adapter has.
     ///
     /// # Errors
     /// [`OpenError`]: it is not open then.
-    pub fn open(stream: TcpStream, bit_rate: Option<u16>) -> Result<Self, OpenError> {
-        stream.set_nodelay(true).and_then(|()| stream.set_write_timeout(Some(PATIENCE))).map_err(broken)?;
+    pub fn open(mut stream: P, bit_rate: Option<u16>) -> Result<Self, OpenError> {
+        stream.prepare(PATIENCE).map_err(broken)?;
         let mut bus = Self {
             stream,
             host: Host::new(),
             bytes: VecDeque::new(),
             waiting: VecDeque::new(),
             start: Instant::now(),
+            manner: Manner::Answers,
         };
         // Whoever was there before may have left it open; one that is closed may refuse.
-        bus.command("C\r")?;
+        let patience = match bus.stream.manner() {
+            Manner::Answers => PATIENCE,
+            Manner::MayBeSilent => FIRST,
+        };
+        match (bus.asked("C\r", patience)?, bus.stream.manner()) {
+            (Some(_), _) => {}
+            (None, Manner::Answers) => return Err(OpenError::Silent),
+            (None, Manner::MayBeSilent) => bus.manner = Manner::MayBeSilent,
+        }
         if let Some(rate) = bit_rate {
             let digit = BIT_RATES.iter().position(|known| *known == rate);
             let digit = digit.ok_or(OpenError::NoSuchBitRate(rate))?;
@@ -104,16 +122,31 @@ impl SlcanBus {
         }
     }
 
-    /// Gives a command and waits for its answer.
+    /// What the adapter does with commands.
+    pub const fn manner(&self) -> Manner {
+        self.manner
+    }
+
+    /// Gives a command and waits for its answer; one that never answers is taken to have done it.
     fn command(&mut self, text: &str) -> Result<Heard, OpenError> {
+        match self.manner {
+            Manner::Answers => self.asked(text, PATIENCE)?.ok_or(OpenError::Silent),
+            Manner::MayBeSilent => {
+                self.stream.write_all(text.as_bytes()).map_err(broken)?;
+                Ok(Heard::Done)
+            }
+        }
+    }
+
+    /// The answer to a command, until a time.
+    fn asked(&mut self, text: &str, patience: Duration) -> Result<Option<Heard>, BusError> {
         self.stream.write_all(text.as_bytes()).map_err(broken)?;
-        let until = Instant::now() + PATIENCE;
+        let until = Instant::now() + patience;
         loop {
             match self.hear(until)? {
-                Some(answer @ (Heard::Done | Heard::Refused)) => return Ok(answer),
+                answer @ (Some(Heard::Done | Heard::Refused) | None) => return Ok(answer),
                 Some(Heard::Frame(CanFrame::Standard(frame))) => self.waiting.push_back(frame),
                 Some(Heard::Frame(CanFrame::Extended { .. }) | Heard::Other) => {}
-                None => return Err(OpenError::Silent),
             }
         }
     }
@@ -130,7 +163,7 @@ impl SlcanBus {
             if left.is_zero() {
                 return Ok(None);
             }
-            self.stream.set_read_timeout(Some(left)).map_err(broken)?;
+            self.stream.wait_at_most(left).map_err(broken)?;
             let mut buffer = [0; 512];
             match self.stream.read(&mut buffer) {
                 Ok(0) => return Err(BusError::Closed),
@@ -145,7 +178,7 @@ impl SlcanBus {
     }
 }
 
-impl Bus for SlcanBus {
+impl<P: Port> Bus for SlcanBus<P> {
     fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
         self.stream.write_all(line(frame).as_bytes()).map_err(broken)
     }
@@ -171,12 +204,21 @@ impl Bus for SlcanBus {
     }
 }
 
-impl Drop for SlcanBus {
+impl<P: Port> Drop for SlcanBus<P> {
     fn drop(&mut self) {
         // Who is gone has nothing to say about it any more. One that is closed with answers unread is reset, and the adapter may lose
         // what was sent last: it is told the end, and heard to its own.
         let until = Instant::now() + FAREWELL;
-        let _ = self.stream.write_all(b"C\r").and_then(|()| self.stream.shutdown(Shutdown::Write));
-        while Instant::now() < until && self.hear(until).is_ok_and(|heard| heard.is_some()) {}
+        let _ = self.stream.write_all(b"C\r").and_then(|()| self.stream.finish());
+        while Instant::now() < until {
+            // A serial port has no end to be heard: it is quiet then.
+            let until = match self.stream.manner() {
+                Manner::Answers => until,
+                Manner::MayBeSilent => Instant::now() + QUIET,
+            };
+            if !self.hear(until).is_ok_and(|heard| heard.is_some()) {
+                return;
+            }
+        }
     }
 }

@@ -5,8 +5,11 @@
 
 mod access;
 mod link;
+mod port;
 mod restore;
 mod scan;
+#[cfg(feature = "links")]
+mod serial;
 #[cfg(test)]
 mod tests;
 
@@ -17,8 +20,11 @@ use firmware_glue::frame::Frame;
 
 pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
+pub use self::port::{Manner, Port};
 pub use self::restore::{involved, kept, plan, value};
 pub use self::scan::{Answered, Contradiction, Identity, recognize, scan};
+#[cfg(feature = "links")]
+pub use self::serial::Serial;
 
 /// Where frames go and come from, and what time it is there.
 pub trait Bus {
@@ -39,6 +45,20 @@ pub trait Bus {
 }
 
 impl<B: Bus + ?Sized> Bus for &mut B {
+    fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
+        (**self).send(frame)
+    }
+
+    fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        (**self).receive(within)
+    }
+
+    fn now(&self) -> u64 {
+        (**self).now()
+    }
+}
+
+impl<B: Bus + ?Sized> Bus for Box<B> {
     fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
         (**self).send(frame)
     }

@@ -34,6 +34,11 @@ impl<'t> Bus<'t> {
     }
 
     /// Its nodes, in the order in which they were given.
+    pub fn nodes(&self) -> &[VirtualNode<'t>] {
+        &self.nodes
+    }
+
+    /// Its nodes, in the order in which they were given.
     pub fn nodes_mut(&mut self) -> &mut [VirtualNode<'t>] {
         &mut self.nodes
     }

@@ -83,6 +83,12 @@ impl<'t> LiveDictionary<'t> {
         self.values.hold(row, value)
     }
 
+    /// The value of an entry, whatever its access; `None` where it has none that could be shown.
+    pub fn value(&self, entry: EntryId) -> Option<Vec<u8>> {
+        let row = self.values.table().find(entry.index, entry.sub).ok()?;
+        self.values.held(row).ok().map(|value| value.to_vec())
+    }
+
     /// Whether every constraint that holds now would hold with a value of an entry; a value that the entry cannot have changes nothing.
     pub(crate) fn stays_consistent(&self, entry: EntryId, value: &[u8]) -> bool {
         let mut with = self.clone();

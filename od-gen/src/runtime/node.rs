@@ -6,7 +6,7 @@ use firmware_glue::clock::{Instant, earlier};
 use firmware_glue::emcy::{Emergency, Raised};
 use firmware_glue::frame::Frame;
 use firmware_glue::lss;
-use firmware_glue::nmt::Service;
+use firmware_glue::nmt::{Service, State};
 use firmware_glue::node::NoRoom;
 use firmware_glue::sdo::{Channel, SdoServer};
 use firmware_glue::{AbortCode, Dictionary, EntryId, Node, NodeId};
@@ -80,6 +80,11 @@ impl<'t> VirtualNode<'t> {
     /// Its node-ID, which LSS can change; none where LSS has taken it.
     pub fn id(&self) -> Option<u8> {
         self.node.id().map(NodeId::get)
+    }
+
+    /// Its state.
+    pub const fn state(&self) -> State {
+        self.node.state()
     }
 
     /// Takes a frame, and says what answers it. What else there is to say comes with [`poll`](Self::poll).

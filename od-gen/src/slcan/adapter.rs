@@ -48,6 +48,11 @@ impl Adapter {
         Self { channel: Channel::Closed, time_stamps: TimeStamps::Off }
     }
 
+    /// Whether frames from the bus reach the host.
+    pub fn is_open(&self) -> bool {
+        self.channel != Channel::Closed
+    }
+
     /// Takes a line of the host, without its end.
     pub fn take(&mut self, line: &str) -> Reply {
         // Hosts send empty lines to begin anew.

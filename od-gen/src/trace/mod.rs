@@ -13,12 +13,54 @@ mod transfer;
 use std::fmt::Write as _;
 
 use firmware_glue::frame::Frame;
-use od_spec::model::Direction;
+use od_spec::model::{Direction, EntryId};
 
 pub use self::line::{BadLine, Line, Seen, What, read};
 pub use self::node::Node;
 use self::node::{SdoSide, count, hexadecimal};
+pub(crate) use self::services::state;
 use crate::slcan::CanFrame;
+
+/// What a frame belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Service {
+    /// A command of the master.
+    Nmt,
+    /// SYNC.
+    Sync,
+    /// TIME.
+    Time,
+    /// An emergency message.
+    Emergency,
+    /// A PDO.
+    Pdo,
+    /// A transfer of an entry.
+    Sdo,
+    /// Boot-up, heartbeat and node guarding.
+    Heartbeat,
+    /// Layer setting services.
+    Lss,
+    /// Nothing that is known.
+    Unknown,
+}
+
+/// What a frame says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Told {
+    /// What it belongs to.
+    pub service: Service,
+    /// The node that it comes from or is for, where it is about one.
+    pub node: Option<u8>,
+    /// All of it in words: identifier, sender or receiver, service, content.
+    pub text: String,
+}
+
+impl Told {
+    fn new(service: Service, node: Option<u8>, text: impl Into<String>) -> Self {
+        Self { service, node, text: text.into() }
+    }
+}
 
 /// Tells what frames say, one after the other.
 #[derive(Debug)]
@@ -32,25 +74,48 @@ impl<'a> Decoder<'a> {
         Self { nodes }
     }
 
+    /// The nodes that it knows.
+    pub fn nodes(&self) -> &[Node<'a>] {
+        &self.nodes
+    }
+
+    /// Takes note of what a node has, beside what the trace shows.
+    pub fn learn(&mut self, node: u8, entry: EntryId, bytes: &[u8]) {
+        if let Some(known) = self.nodes.iter_mut().find(|known| known.id == node) {
+            known.accept(entry.index.0, entry.sub.0, bytes);
+        }
+    }
+
     /// What was on the bus, on one line: identifier, sender or receiver, service, content.
     pub fn tell(&mut self, what: &What) -> String {
+        self.told(what).text
+    }
+
+    /// [`tell`](Self::tell), with what it belongs to.
+    pub fn told(&mut self, what: &What) -> Told {
+        let unknown = |text| Told::new(Service::Unknown, None, text);
         match what {
-            What::Frame(CanFrame::Standard(frame)) => self.frame(frame),
+            What::Frame(CanFrame::Standard(frame)) => self.of_frame(frame),
             What::Frame(CanFrame::Extended { id, length }) => {
-                format!("{id:08X}h  unknown: an identifier of 29 bits, {}", count((*length).into()))
+                unknown(format!("{id:08X}h  unknown: an identifier of 29 bits, {}", count((*length).into())))
             }
-            What::Fd(id) => format!("{id:03X}h  unknown: a frame of CAN FD"),
-            What::Error => "error frame: the interface has seen an error on the bus".to_owned(),
+            What::Fd(id) => unknown(format!("{id:03X}h  unknown: a frame of CAN FD")),
+            What::Error => unknown("error frame: the interface has seen an error on the bus".to_owned()),
         }
     }
 
     /// What a frame says.
     pub fn frame(&mut self, frame: &Frame) -> String {
-        let id = frame.id().get();
-        format!("{id:03X}h  {}", self.content(id, frame.bytes(), frame.length()))
+        self.of_frame(frame).text
     }
 
-    fn content(&mut self, id: u16, bytes: Option<&[u8]>, length: u8) -> String {
+    fn of_frame(&mut self, frame: &Frame) -> Told {
+        let id = frame.id().get();
+        let content = self.content(id, frame.bytes(), frame.length());
+        Told { text: format!("{id:03X}h  {}", content.text), ..content }
+    }
+
+    fn content(&mut self, id: u16, bytes: Option<&[u8]>, length: u8) -> Told {
         if let Some(text) = self.of_all(id, bytes) {
             return text;
         }
@@ -61,39 +126,43 @@ impl<'a> Decoder<'a> {
             Some(bytes) => hexadecimal(bytes),
             None => format!("a remote frame for {}", count(length.into())),
         };
-        let Some((service, node)) = predefined(id) else { return format!("unknown: {content}") };
+        let Some((service, name, node)) = predefined(id) else {
+            return Told::new(Service::Unknown, None, format!("unknown: {content}"));
+        };
         if self.nodes.iter().any(|known| known.id == node) {
             // Its device has no such PDO, or has given it another identifier.
-            return format!("unknown: {service} that node {node} would have as predefined; {content}");
+            let text = format!("unknown: {name} that node {node} would have as predefined; {content}");
+            return Told::new(Service::Unknown, Some(node), text);
         }
-        match (service, bytes) {
-            ("heartbeat", Some([state])) => {
-                format!("node {node} (no dictionary)  heartbeat  {}", services::state(*state))
-            }
-            ("EMCY", Some(bytes)) => {
-                format!("node {node} (no dictionary)  EMCY  {}", services::emergency(None, bytes))
-            }
-            _ => format!("node {node} (no dictionary)  {service}  {content}"),
-        }
+        let content = match (service, bytes) {
+            (Service::Heartbeat, Some([state])) => services::state(*state),
+            (Service::Emergency, Some(bytes)) => services::emergency(None, bytes),
+            _ => content,
+        };
+        Told::new(service, Some(node), format!("node {node} (no dictionary)  {name}  {content}"))
     }
 
     /// What is for all nodes.
-    fn of_all(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<String> {
-        match (id, bytes) {
-            (0x000, Some(bytes)) => Some(self.nmt(bytes)),
-            (0x7E5, Some(bytes)) => Some(format!("LSS master  {}", services::lss(bytes))),
-            (0x7E4, Some(bytes)) => Some(format!("LSS slave  {}", services::lss(bytes))),
-            (_, bytes) if self.is_shared(id, 0x1005, 0x080) => Some(match bytes {
-                Some([]) => "SYNC".to_owned(),
-                Some([counter]) => format!("SYNC  counter {counter}"),
-                Some(more) => format!("SYNC  with {} bytes, where it has a counter or none", more.len()),
-                None => "SYNC  as a remote frame".to_owned(),
-            }),
-            (_, Some(bytes)) if self.is_shared(id, 0x1012, 0x100) => {
-                Some(format!("TIME  {}", services::time(bytes)))
+    fn of_all(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
+        let (service, text) = match (id, bytes) {
+            (0x000, Some(bytes)) => return Some(self.nmt(bytes)),
+            (0x7E5, Some(bytes)) => (Service::Lss, format!("LSS master  {}", services::lss(bytes))),
+            (0x7E4, Some(bytes)) => (Service::Lss, format!("LSS slave  {}", services::lss(bytes))),
+            (_, bytes) if self.is_shared(id, 0x1005, 0x080) => {
+                let text = match bytes {
+                    Some([]) => "SYNC".to_owned(),
+                    Some([counter]) => format!("SYNC  counter {counter}"),
+                    Some(more) => format!("SYNC  with {} bytes, where it has a counter or none", more.len()),
+                    None => "SYNC  as a remote frame".to_owned(),
+                };
+                (Service::Sync, text)
             }
-            _ => None,
-        }
+            (_, Some(bytes)) if self.is_shared(id, 0x1012, 0x100) => {
+                (Service::Time, format!("TIME  {}", services::time(bytes)))
+            }
+            _ => return None,
+        };
+        Some(Told::new(service, None, text))
     }
 
     /// Whether an identifier is that of a service which all nodes share: that of the nodes which say so, or else the usual one.
@@ -107,9 +176,10 @@ impl<'a> Decoder<'a> {
         if stated.peek().is_none() { id == usual } else { stated.any(|cob_id| cob_id == id) }
     }
 
-    fn nmt(&mut self, bytes: &[u8]) -> String {
+    fn nmt(&mut self, bytes: &[u8]) -> Told {
         let [command, node] = *bytes else {
-            return format!("NMT  {} where a command has 2", count(bytes.len()));
+            let text = format!("NMT  {} where a command has 2", count(bytes.len()));
+            return Told::new(Service::Nmt, None, text);
         };
         for known in self.nodes.iter_mut().filter(|known| node == 0 || known.id == node) {
             if matches!(command, 129 | 130) {
@@ -121,36 +191,42 @@ impl<'a> Decoder<'a> {
             None if node == 0 => "all nodes".to_owned(),
             None => format!("node {node} (no dictionary)"),
         };
-        match services::nmt_command(command) {
+        let text = match services::nmt_command(command) {
             Some(word) => format!("NMT  {word}: {whom}"),
             None => format!("NMT  unknown command {command}: {whom}"),
-        }
+        };
+        Told::new(Service::Nmt, Some(node).filter(|node| *node != 0), text)
     }
 
     /// What comes from a node that is known, or is for it.
-    fn of_a_node(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<String> {
-        if let Some(text) = self.pdo(id, bytes) {
-            return Some(text);
+    fn of_a_node(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
+        if let Some(told) = self.pdo(id, bytes) {
+            return Some(told);
         }
         for node in &mut self.nodes {
             let name = node.name();
             let own = u16::from(node.id);
+            let told = |service, text| Some(Told::new(service, u8::try_from(own).ok(), text));
             if let Some((channel, side)) = node.sdo_at(id) {
-                let Some(bytes) = bytes else { return Some(format!("{name}  SDO as a remote frame")) };
+                let Some(bytes) = bytes else {
+                    return told(Service::Sdo, format!("{name}  SDO as a remote frame"));
+                };
                 let arrow = match side {
                     SdoSide::Client => "SDO →",
                     SdoSide::Server => "SDO ←",
                 };
-                return Some(format!("{name}  {arrow}  {}", sdo::frame(node, channel, side, bytes)));
+                let content = sdo::frame(node, channel, side, bytes);
+                return told(Service::Sdo, format!("{name}  {arrow}  {content}"));
             }
             if node.cob_id(0x1014, 0) == Some(id) {
-                return Some(match bytes {
+                let text = match bytes {
                     Some(bytes) => format!("{name}  EMCY  {}", services::emergency(Some(node), bytes)),
                     None => format!("{name}  EMCY as a remote frame"),
-                });
+                };
+                return told(Service::Emergency, text);
             }
             if id == 0x700 + own {
-                return Some(match bytes {
+                let text = match bytes {
                     Some([0]) => {
                         node.reset();
                         format!("{name}  boot-up")
@@ -158,14 +234,15 @@ impl<'a> Decoder<'a> {
                     Some([state]) => format!("{name}  heartbeat  {}", services::state(*state)),
                     Some(more) => format!("{name}  heartbeat  {} where it has 1", count(more.len())),
                     None => format!("{name}  node guarding  asked for its state"),
-                });
+                };
+                return told(Service::Heartbeat, text);
             }
         }
         None
     }
 
     /// A PDO: of its sender, if that is known; and who else has it.
-    fn pdo(&self, id: u16, bytes: Option<&[u8]>) -> Option<String> {
+    fn pdo(&self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
         let of_nodes = self.nodes.iter().flat_map(|node| node.pdos_at(id).map(move |pdo| (node, pdo)));
         let mut ends: Vec<_> = of_nodes.collect();
         ends.sort_by_key(|(_, pdo)| pdo.direction == Direction::Receive);
@@ -182,27 +259,27 @@ impl<'a> Decoder<'a> {
         for (node, pdo) in others {
             let _ = write!(text, "  [also {}]", label(node, pdo).replace("  ", " "));
         }
-        Some(text)
+        Some(Told::new(Service::Pdo, Some(node.id), text))
     }
 }
 
-/// The service and the node that an identifier belongs to as long as nobody changes it (CiA 301 table 36).
-fn predefined(id: u16) -> Option<(&'static str, u8)> {
+/// The service, its name and the node that an identifier belongs to as long as nobody changes it (CiA 301 table 36).
+fn predefined(id: u16) -> Option<(Service, &'static str, u8)> {
     let node = u8::try_from(id & 0x7F).ok().filter(|node| *node > 0)?;
-    let service = match id & 0x780 {
-        0x080 => "EMCY",
-        0x180 => "TPDO1",
-        0x200 => "RPDO1",
-        0x280 => "TPDO2",
-        0x300 => "RPDO2",
-        0x380 => "TPDO3",
-        0x400 => "RPDO3",
-        0x480 => "TPDO4",
-        0x500 => "RPDO4",
-        0x580 => "SDO ←",
-        0x600 => "SDO →",
-        0x700 => "heartbeat",
+    let (service, name) = match id & 0x780 {
+        0x080 => (Service::Emergency, "EMCY"),
+        0x180 => (Service::Pdo, "TPDO1"),
+        0x200 => (Service::Pdo, "RPDO1"),
+        0x280 => (Service::Pdo, "TPDO2"),
+        0x300 => (Service::Pdo, "RPDO2"),
+        0x380 => (Service::Pdo, "TPDO3"),
+        0x400 => (Service::Pdo, "RPDO3"),
+        0x480 => (Service::Pdo, "TPDO4"),
+        0x500 => (Service::Pdo, "RPDO4"),
+        0x580 => (Service::Sdo, "SDO ←"),
+        0x600 => (Service::Sdo, "SDO →"),
+        0x700 => (Service::Heartbeat, "heartbeat"),
         _ => return None,
     };
-    Some((service, node))
+    Some((service, name, node))
 }

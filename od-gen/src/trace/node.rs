@@ -51,18 +51,23 @@ impl<'a> Node<'a> {
     }
 
     /// `pmc (node 5)`.
-    pub(super) fn name(&self) -> String {
+    pub fn name(&self) -> String {
         format!("{} (node {})", self.device.key, self.id)
     }
 
     /// A parameter as it is now.
-    pub(super) fn parameter(&self, index: u16, sub: u8) -> Option<u32> {
+    pub(crate) fn parameter(&self, index: u16, sub: u8) -> Option<u32> {
         let id = EntryId { index: Index(index), sub: SubIndex(sub) };
         if let Some(written) = self.written.get(&id) {
             return Some(*written);
         }
         let default = self.device.entry(id)?.default.as_ref()?;
         u32::try_from(default.integer_for(self.id)?).ok()
+    }
+
+    /// A parameter as the trace shows it; nothing where it is as specified, as far as anybody knows.
+    pub(crate) fn seen(&self, index: u16, sub: u8) -> Option<u32> {
+        self.written.get(&EntryId { index: Index(index), sub: SubIndex(sub) }).copied()
     }
 
     /// The identifier in a parameter, if it is valid and has 11 bits.

@@ -11,7 +11,7 @@ pub(super) fn nmt_command(command: u8) -> Option<&'static str> {
 }
 
 /// The state in a heartbeat or in the answer to node guarding.
-pub(super) fn state(byte: u8) -> String {
+pub(crate) fn state(byte: u8) -> String {
     let state = byte & 0x7F;
     nmt::word(&nmt::STATES, state).map_or_else(|| format!("unknown state {state}"), str::to_owned)
 }

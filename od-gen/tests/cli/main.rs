@@ -23,6 +23,7 @@ mod import;
 #[path = "../../../tests/shared/shipped.rs"]
 mod in_one_file;
 mod machine;
+mod monitor;
 mod new;
 mod node;
 mod parts;

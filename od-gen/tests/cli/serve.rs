@@ -202,3 +202,296 @@ fn a_trace_of_a_machine_is_decoded() {
     let told = crate::stdout(&output);
     assert!(told.contains("596h  drive (node 22)  SDO ←  3000h lowest voltage = 520.0 V"), "{told}");
 }
+
+#[test]
+fn values_run_and_stop() {
+    let scratch = Scratch::new("serve-ramps");
+    scratch.file("lamp.od.yaml", lamp_that_tells());
+    let mut served = WithClient::lamps(&scratch, &["--script", "-"]);
+    served.ask("O\r", "\r");
+    served.ask("t00020105\r", "z\r");
+    let mut input = served.served.child.stdin.take().unwrap();
+    writeln!(input, "5 ramp brightness=0 %..5 % in 0.3").unwrap();
+    // Each step comes once and in its order, and the last one is the end.
+    for step in 0..=5 {
+        served.ask("", &format!("t1851{step:02X}\r"));
+    }
+    writeln!(input, "5 triangle 2000=10..12 in 0.2").unwrap();
+    for step in [10, 11, 12, 11, 10, 11] {
+        served.ask("", &format!("t1851{step:02X}\r"));
+    }
+    // Where it stops nobody knows, but there it stays: the next thing that comes is what is set.
+    writeln!(input, "5 stop 2000\n5 set 2000=99").unwrap();
+    served.answers("", "t185163\r");
+    writeln!(input, "5 sine 2000=0..100 in 0.5\n5 set 2000=98").unwrap();
+    served.answers("", "t185162\r");
+    std::thread::sleep(Duration::from_millis(100));
+    served.ask("V\r", "V1010\r");
+    // 101 % is more than the lamp has: the ramp ends there, and says so once.
+    writeln!(input, "5 ramp 2000=100..200 in 1\nwait 0.2\n5 set 2000=97").unwrap();
+    served.answers("", "t185164\r");
+    served.answers("", "t185161\r");
+    served.served.child.kill().unwrap();
+    let mut log = String::new();
+    served.served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    assert_eq!(log.matches("2000h (brightness) cannot be set to this: 0609 0031h").count(), 1, "{log}");
+}
+
+#[test]
+fn ramps_with_mistakes_are_refused_as_a_whole() {
+    let scratch = Scratch::new("serve-wrong-ramps");
+    scratch.file(
+        "lamp.od.yaml",
+        LAMP.replace(
+            "pdos:",
+            "  0x2001: {name: label, type: visible-string, access: rw, capacity: 9}\npdos:",
+        ),
+    );
+    scratch.file(
+        "day.txt",
+        "5 ramp brightness=0 %..100 % in 2\n\
+         5 ramp\n\
+         5 ramp 2000=0..100\n\
+         5 ramp 2000=0..100 in\n\
+         5 ramp 2000=0..100 in 0\n\
+         5 ramp 2000=0..100 in 1000001\n\
+         5 ramp 2000=0..100 in -1\n\
+         5 ramp 2000=0..100 for 5\n\
+         5 ramp 2000=100 in 5\n\
+         5 ramp 2000=..100 in 5\n\
+         5 ramp 2000 in 5\n\
+         5 ramp bright=0..100 in 5\n\
+         5 ramp 2000=zero..100 in 5\n\
+         5 ramp 2000=0 %..hundred in 5\n\
+         5 ramp 2000=0..256 in 5\n\
+         5 sine label=a..b in 5\n\
+         5 rmap 2000=0..1 in 5\n\
+         5 stop\n\
+         5 stop bright\n",
+    );
+    let arguments = ["serve", "lamp.od.yaml", "--node", "5", "--script", "day.txt", "--format", "short"];
+    let output = odgen(&scratch.0, &arguments);
+    assert_eq!((code(&output), output.stdout.as_slice()), (1, &b""[..]));
+    insta::assert_snapshot!(stderr(&output));
+}
+
+#[test]
+fn places_that_cannot_be_are_told() {
+    let scratch = Scratch::new("serve-places");
+    scratch.file("lamp.od.yaml", LAMP);
+    scratch.file("taken", "");
+    let serve = |more: &[&str]| {
+        let output = odgen(&scratch.0, &[&["serve", "lamp.od.yaml", "--node", "5"], more].concat());
+        format!("$ odgen serve {}\n{}-> {}\n", more.join(" "), stderr(&output), code(&output))
+    };
+    let node = |more: &[&str]| {
+        let output = odgen(&scratch.0, &[&["node", "scan"], more].concat());
+        format!("$ odgen node scan {}\n{}-> {}\n", more.join(" "), stderr(&output), code(&output))
+    };
+    insta::assert_snapshot!(
+        [
+            serve(&["--slcan", "serial:/dev/ttyACM0"]),
+            serve(&["--watch"]),
+            serve(&["--watch", "--log"]),
+            node(&["--slcan", "pty"]),
+            node(&["--slcan", "serial:"]),
+        ]
+        .concat()
+    );
+    if cfg!(target_os = "linux") {
+        insta::assert_snapshot!(
+            "places_that_cannot_be_on_linux",
+            [
+                serve(&["--slcan", "pty:taken"]),
+                serve(&["--socketcan", "no-bus"]),
+                serve(&["--socketcan", "no-bus", "--slcan", "pty"]),
+                node(&["--socketcan", "no-bus"]),
+                node(&["--socketcan", "no-bus", "--bit-rate", "125"]),
+                node(&["--slcan", "serial:no-port"]),
+                node(&["--slcan", "serial:taken@9600"]),
+            ]
+            .concat()
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+mod terminal {
+    use super::*;
+    use crate::stdout;
+
+    /// Nodes at a serial port without wires, which are ended as a person does.
+    fn served(scratch: &Scratch, link: &str) -> (Served, String) {
+        scratch.file("lamp.od.yaml", LAMP);
+        let served = Served::at(scratch, &["lamp.od.yaml", "--node", "5"], link, Stdio::null());
+        let port = served.line.trim().rsplit(' ').next().unwrap().to_owned();
+        (served, port)
+    }
+
+    #[test]
+    fn hosts_come_and_go_at_a_pseudo_terminal() {
+        let scratch = Scratch::new("serve-pty");
+        let (mut served, port) = served(&scratch, "pty:bus");
+        assert_eq!(port, "serial:bus");
+        let node = |arguments: &[&str]| {
+            let output = odgen(&scratch.0, &[&["node"], arguments, &["--slcan", &port]].concat());
+            assert_eq!(code(&output), 0, "{}", stderr(&output));
+            stdout(&output)
+        };
+        assert_eq!(
+            node(&["write", "lamp.od.yaml", "--node", "5", "brightness=60 %"]),
+            "2000h brightness = 60 %  [3C]  written\n"
+        );
+        assert_eq!(node(&["read", "lamp.od.yaml", "--node", "5", "2000"]), "2000h brightness = 60 %  [3C]\n");
+        assert_eq!(
+            node(&["nmt", "reset-node", "--node", "5", "--bit-rate", "125"]),
+            "node 5 has started again\n"
+        );
+        // Somebody leaves half a line behind, an open channel, and frames that he does not read.
+        let mut host =
+            std::fs::OpenOptions::new().read(true).write(true).open(scratch.0.join("bus")).unwrap();
+        host.write_all(b"O\rt60584000200000000000\rt605840").unwrap();
+        std::thread::sleep(Duration::from_millis(200));
+        drop(host);
+        std::thread::sleep(Duration::from_millis(200));
+        assert_eq!(node(&["read", "lamp.od.yaml", "--node", "5", "2000"]), "2000h brightness = 80 %  [50]\n");
+        // An end that is asked for takes the link away.
+        let id = served.child.id().to_string();
+        assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        assert_eq!(served.child.wait().unwrap().code(), Some(0));
+        assert!(scratch.0.join("bus").symlink_metadata().is_err());
+    }
+
+    #[test]
+    fn a_link_that_a_killed_server_has_left_is_taken_over() {
+        let scratch = Scratch::new("serve-pty-again");
+        for _ in 0..2 {
+            let (served, port) = served(&scratch, "pty:bus");
+            assert_eq!(port, "serial:bus");
+            // It is killed with the test's hold on it.
+            drop(served);
+            assert!(scratch.0.join("bus").symlink_metadata().is_ok());
+        }
+    }
+
+    #[test]
+    fn a_host_that_reads_nothing_holds_up_nobody() {
+        let scratch = Scratch::new("serve-pty-deaf");
+        let (_served, port) = served(&scratch, "pty");
+        let path = port.trim_start_matches("serial:");
+        let mut deaf = std::fs::OpenOptions::new().read(true).write(true).open(path).unwrap();
+        for _ in 0..20_000 {
+            deaf.write_all(b"V\r").unwrap();
+        }
+        drop(deaf);
+        std::thread::sleep(Duration::from_millis(300));
+        let output =
+            odgen(&scratch.0, &["node", "read", "lamp.od.yaml", "--node", "5", "2000", "--slcan", &port]);
+        assert_eq!((code(&output), stdout(&output).as_str()), (0, "2000h brightness = 80 %  [50]\n"));
+    }
+}
+
+/// How long a client waits for an answer, at most, while something else goes on.
+fn longest_wait(client: &mut WithClient, during: impl FnOnce() -> bool + Send) -> Duration {
+    let mut longest = Duration::ZERO;
+    std::thread::scope(|scope| {
+        let other = scope.spawn(during);
+        while !other.is_finished() {
+            let asked = std::time::Instant::now();
+            client.ask("V\r", "V1010\r");
+            longest = longest.max(asked.elapsed());
+        }
+        assert!(other.join().unwrap());
+    });
+    longest
+}
+
+/// A lamp with four PDOs of eight bytes, sent with every SYNC.
+fn lamp_that_talks() -> String {
+    let mut lamp = LAMP.replace("[heartbeat producer]", "[heartbeat producer, sync consumer]");
+    let pdos = lamp.split_off(lamp.find("pdos:").unwrap());
+    drop(pdos);
+    lamp + "  0x2001: {name: much, type: unsigned64, access: ro, pdo: transmit}
+pdos:
+  lamp:
+    transmit:
+      1: {transmission: 1, map: [much]}
+      2: {transmission: 1, map: [much]}
+      3: {transmission: 1, map: [much]}
+      4: {transmission: 1, map: [much]}
+"
+}
+
+#[test]
+fn a_client_that_reads_nothing_holds_up_nobody() {
+    let scratch = Scratch::new("serve-deaf");
+    scratch.file("lamp.od.yaml", lamp_that_talks());
+    let ids: Vec<String> = (5..30).map(|id| id.to_string()).collect();
+    let mut arguments = vec!["lamp.od.yaml"];
+    arguments.extend(ids.iter().flat_map(|id| ["--node", id]));
+    let mut served = WithClient::of(Served::start(&scratch, &arguments, Stdio::null()));
+    let address = served.served.address().trim_start_matches("tcp:").to_owned();
+    let longest = longest_wait(&mut served, move || {
+        let mut deaf = TcpStream::connect(address).unwrap();
+        deaf.set_write_timeout(Some(Duration::from_secs(20))).unwrap();
+        deaf.write_all(b"O\rt00020100\r").unwrap();
+        // What the nodes say to it is more than anybody keeps for who does not take it: it is left in the end.
+        (0..8000).any(|number| {
+            if number > 6000 {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            deaf.write_all(b"t0800\r").is_err()
+        })
+    });
+    assert!(longest < Duration::from_millis(700), "{longest:?}");
+}
+
+#[test]
+fn nodes_that_answer_each_other_without_end_leave_room_for_clients() {
+    let scratch = Scratch::new("serve-storm");
+    let lamp = LAMP.replace("pdo: receive", "pdo: both").replace(
+        "receive: {1: {map: [brightness]}}",
+        "receive: {1: {map: [brightness]}}\n    transmit: {1: {map: [brightness]}}",
+    );
+    scratch.file("lamp.od.yaml", lamp);
+    let mut served = WithClient::lamps(&scratch, &["--node", "6"]);
+    served.ask("O\r", "\r");
+    // Each hears what the other one says, and says it again.
+    for command in ["t60582300140105020080\r", "t60582300140186010000\r"] {
+        served.answers(command, "t58586000140100000000\r");
+    }
+    for command in ["t60682300140106020080\r", "t60682300140185010000\r"] {
+        served.answers(command, "t58686000140100000000\r");
+    }
+    served.client.write_all(b"t00020100\r").unwrap();
+    served.client.write_all(b"t60582F00200005000000\r").unwrap();
+    served.answers("", "t58586000200000000000\r");
+    // A client that does not listen is not in the way of the storm, and is heard.
+    served.answers("C\r", "\r");
+    let address = served.served.address().to_owned();
+    let mut other = TcpStream::connect(address.trim_start_matches("tcp:")).unwrap();
+    other.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    other.write_all(b"V\r").unwrap();
+    let mut answer = [0; 6];
+    other.read_exact(&mut answer).unwrap();
+    assert_eq!(&answer, b"V1010\r");
+}
+
+#[cfg(unix)]
+#[test]
+fn clients_are_let_in_again_when_there_were_too_many() {
+    let scratch = Scratch::new("serve-many");
+    scratch.file("lamp.od.yaml", LAMP);
+    let served = Served::limited(&scratch, &["lamp.od.yaml", "--node", "5"], 24);
+    let address = served.address().trim_start_matches("tcp:").to_owned();
+    let many: Vec<_> = (0..40).map(|_| TcpStream::connect(&address).unwrap()).collect();
+    std::thread::sleep(Duration::from_millis(300));
+    drop(many);
+    std::thread::sleep(Duration::from_millis(300));
+    let mut client = TcpStream::connect(&address).unwrap();
+    client.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    client.write_all(b"V\r").unwrap();
+    let mut answer = [0; 6];
+    client.read_exact(&mut answer).unwrap();
+    assert_eq!(&answer, b"V1010\r");
+}

@@ -15,8 +15,27 @@ pub(crate) struct Served {
 impl Served {
     /// `odgen serve` with these arguments, in a directory.
     pub(crate) fn start(scratch: &Scratch, arguments: &[&str], stderr: Stdio) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-            .args([&["serve"], arguments, &["--slcan", "tcp:127.0.0.1:0"]].concat())
+        Self::at(scratch, arguments, "tcp:127.0.0.1:0", stderr)
+    }
+
+    /// [`start`](Self::start) at another place.
+    pub(crate) fn at(scratch: &Scratch, arguments: &[&str], place: &str, stderr: Stdio) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_odgen"));
+        command.args([&["serve"], arguments, &["--slcan", place]].concat());
+        Self::of(command, scratch, stderr)
+    }
+
+    /// [`start`](Self::start) with so many open files at most.
+    #[cfg(unix)]
+    pub(crate) fn limited(scratch: &Scratch, arguments: &[&str], files: u32) -> Self {
+        let mut command = Command::new("sh");
+        command.args(["-c", &format!("ulimit -n {files}; exec \"$@\""), "sh", env!("CARGO_BIN_EXE_odgen")]);
+        command.args([&["serve"], arguments, &["--slcan", "tcp:127.0.0.1:0"]].concat());
+        Self::of(command, scratch, Stdio::null())
+    }
+
+    fn of(mut command: Command, scratch: &Scratch, stderr: Stdio) -> Self {
+        let mut child = command
             .current_dir(&scratch.0)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())

@@ -20,8 +20,8 @@ pub(crate) use dbc::DbcArgs;
 pub(crate) use diff::{DiffArgs, DiffFormat};
 pub(crate) use node::{DcfArgs, ParamsArgs, SchemaArgs};
 pub(crate) use on_bus::{
-    LinkArgs, NmtName, NodeArgs, NodeBackupArgs, NodeCommand, NodeFileArgs, NodeGroupArgs, NodeNmtArgs,
-    NodeReadArgs, NodeScanArgs, NodeWriteArgs, OneNodeArgs,
+    LinkArgs, NmtName, NodeArgs, NodeBackupArgs, NodeCommand, NodeFileArgs, NodeGroupArgs, NodeMonitorArgs,
+    NodeNmtArgs, NodeReadArgs, NodeScanArgs, NodeWriteArgs, OneNodeArgs,
 };
 pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, ShowFormat};
 
@@ -192,13 +192,13 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Write a commented specification to start from
     New(NewArgs),
-    /// Talk to a node on a bus, by SLCAN over TCP
+    /// Talk to nodes on a bus, by an adapter with SLCAN (TCP or serial) or a CAN interface
     Node(NodeArgs),
     /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
     Params(ParamsArgs),
     /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine
     Plant(PlantArgs),
-    /// Be nodes on a bus: boot-up, heartbeat and SDO servers for clients that come by SLCAN over TCP
+    /// Be nodes on a bus, without hardware, for whoever comes by SLCAN (TCP or a pseudo-terminal) or a CAN interface
     Serve(ServeArgs),
     /// Tell what a message code means and what to do about it
     Explain {

@@ -15,7 +15,9 @@ mod fix;
 mod fmt;
 mod git;
 mod import;
+mod interrupt;
 mod line_diff;
+mod link;
 mod listing;
 mod new;
 mod node;
@@ -77,7 +79,7 @@ fn main() -> ExitCode {
         Command::Fix(args) => fix::run(&args, &report),
         Command::Fmt(args) => fmt::run(&args, directory, &report),
         Command::New(args) => new::run(&args, &report),
-        Command::Node(args) => node::run(&args, &report),
+        Command::Node(args) => node::run(&args, directory, &report),
         Command::Params(args) => params::run(&args, &report),
         Command::Plant(args) => plant::run(&args, &report),
         Command::Serve(args) => serve::run(&args, directory, &report),

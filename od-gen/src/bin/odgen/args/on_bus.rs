@@ -1,10 +1,12 @@
 //! Arguments of the commands that talk to nodes on a bus.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
+use od_gen::trace::Service;
 
-use super::{Format, Messages};
+use super::{Format, Messages, NodesArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeArgs {
@@ -24,6 +26,8 @@ pub(crate) enum NodeCommand {
     Compare(NodeFileArgs),
     /// Give a node, or the nodes of a machine, the values of a parameter file, in an order that they take, and read them back
     Restore(NodeFileArgs),
+    /// Tell what goes over the bus, while it does: heartbeats and their loss, states, emergencies, PDOs and transfers with names and units
+    Monitor(NodeMonitorArgs),
     /// Ask all 127 node-IDs who they are, and tell which of the specifications fits
     Scan(NodeScanArgs),
     /// Command the state of a node, or of all
@@ -42,6 +46,7 @@ impl NodeCommand {
             Self::Write(args) => args.node.link.messages.format,
             Self::Backup(args) => args.node.link.messages.format,
             Self::Compare(args) | Self::Restore(args) => args.node.link.messages.format,
+            Self::Monitor(args) => args.link.messages.format,
             Self::Scan(args) => args.link.messages.format,
             Self::Nmt(args) => args.link.messages.format,
             Self::Store(args) | Self::LoadDefaults(args) => args.link.messages.format,
@@ -52,9 +57,13 @@ impl NodeCommand {
 /// How the bus is reached.
 #[derive(Debug, Args)]
 pub(crate) struct LinkArgs {
-    /// The CAN adapter: an address at which SLCAN is spoken, such as that of `odgen serve`
-    #[arg(long, value_name = "tcp:HOST:PORT", default_value = "tcp:127.0.0.1:3333")]
+    /// The CAN adapter, which speaks SLCAN: `tcp:HOST:PORT`, such as `odgen serve`, or `serial:PORT[@BAUD]`, such as `serial:/dev/ttyACM0`
+    #[arg(long, value_name = "ADAPTER", default_value = "tcp:127.0.0.1:3333")]
     pub slcan: String,
+
+    /// In place of an adapter with SLCAN: a CAN interface of Linux (SocketCAN), such as `can0`
+    #[arg(long, value_name = "INTERFACE", conflicts_with = "slcan")]
+    pub socketcan: Option<String>,
 
     /// Bit rate that the adapter is set to, in kbit/s [default: what it has]
     #[arg(long, value_name = "KBIT")]
@@ -158,6 +167,79 @@ pub(crate) struct NodeScanArgs {
 
     #[command(flatten)]
     pub link: LinkArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeMonitorArgs {
+    #[command(flatten)]
+    pub nodes: NodesArgs,
+
+    /// Every frame, also SYNC, TIME, heartbeats with the same state and PDOs with the same values
+    #[arg(long)]
+    pub all: bool,
+
+    /// Only these services
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "SERVICE")]
+    pub only: Vec<ServiceName>,
+
+    /// Ask the nodes first which identifiers they use and what their PDOs carry, by SDO; otherwise that is as specified until it is written
+    #[arg(long)]
+    pub ask: bool,
+
+    /// End after so many seconds [default: with Ctrl-C]
+    #[arg(long = "for", value_name = "SECONDS", value_parser = duration)]
+    pub seconds: Option<Duration>,
+
+    #[command(flatten)]
+    pub link: LinkArgs,
+}
+
+/// `1.5`.
+fn duration(text: &str) -> Result<Duration, String> {
+    let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let seconds = text.parse().ok().filter(|_| is_plain);
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a number of seconds, such as `1.5`".to_owned())
+}
+
+/// What frames belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ServiceName {
+    /// Commands of the master
+    Nmt,
+    /// SYNC
+    Sync,
+    /// TIME
+    Time,
+    /// Emergency messages
+    Emcy,
+    /// PDOs
+    Pdo,
+    /// Transfers of entries
+    Sdo,
+    /// Boot-up, heartbeats and their loss, node guarding
+    Heartbeat,
+    /// Layer setting services
+    Lss,
+    /// Nothing that is known
+    Unknown,
+}
+
+impl ServiceName {
+    pub(crate) const fn service(self) -> Service {
+        match self {
+            Self::Nmt => Service::Nmt,
+            Self::Sync => Service::Sync,
+            Self::Time => Service::Time,
+            Self::Emcy => Service::Emergency,
+            Self::Pdo => Service::Pdo,
+            Self::Sdo => Service::Sdo,
+            Self::Heartbeat => Service::Heartbeat,
+            Self::Lss => Service::Lss,
+            Self::Unknown => Service::Unknown,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

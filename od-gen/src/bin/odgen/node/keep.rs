@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::client::{Bus, Client, SlcanBus, involved, kept, plan, value};
+use od_gen::client::{Bus, Client, involved, kept, plan, value};
 use od_gen::files::Existing;
 use od_gen::parameters::{About, ParameterText, write_all};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -19,6 +19,7 @@ use super::super::report::{Report, print, shown};
 use super::super::settings::{ParameterFiles, parameter_files};
 use super::super::{DIFFERS, ERRORS, SUCCESS};
 use super::access::{has_default, not_written};
+use super::reach::AnyBus;
 use super::{Described, Target, reach};
 
 /// What a node has, and what it does not tell, with the reason.
@@ -216,7 +217,7 @@ pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     with_file(args, "restored", restored, report)
 }
 
-fn with_file(args: &NodeFileArgs, done: &str, work: WithFile<SlcanBus>, report: &Report) -> Result<u8, u8> {
+fn with_file(args: &NodeFileArgs, done: &str, work: WithFile<AnyBus>, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
     if let Described::Machine(machine) = &described
         && args.file.is_dir()

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use od_gen::Artifact;
-use od_gen::client::SlcanBus;
+
 use od_gen::files::Existing;
 use od_gen::plant::stem;
 use od_spec::diag::{Diagnostic, codes};
@@ -18,6 +18,7 @@ use super::super::plant;
 use super::super::report::{Report, node_id, print, shown};
 use super::super::{DIFFERS, SUCCESS};
 use super::keep::{WithFile, beside, kept_line, parameters_of};
+use super::reach::AnyBus;
 use super::{Target, connect, is_meant};
 
 /// A machine, and the texts that its plant was read from.
@@ -123,7 +124,7 @@ impl Machine {
         &self,
         args: &NodeFileArgs,
         done: &str,
-        work: WithFile<SlcanBus>,
+        work: WithFile<AnyBus>,
         report: &Report,
     ) -> Result<u8, u8> {
         let (mut all, mut code) = (Vec::new(), SUCCESS);

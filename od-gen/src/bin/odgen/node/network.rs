@@ -16,7 +16,7 @@ use super::connect;
 const START: Duration = Duration::from_secs(5);
 
 /// What is said where nothing goes over the bus.
-fn broken(error: &BusError) -> Diagnostic {
+pub(super) fn broken(error: &BusError) -> Diagnostic {
     Diagnostic::without_place(codes::ACCESS_FAILED, error.to_string())
         .help("check adapter, bit rate and wires")
 }

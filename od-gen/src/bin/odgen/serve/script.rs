@@ -8,7 +8,7 @@ use firmware_glue::EntryId;
 use firmware_glue::emcy::Emergency;
 use od_gen::source::open;
 use od_spec::diag::{Diagnostic, Diagnostics, codes, nearest};
-use od_spec::model::{self, ErrorCode};
+use od_spec::model::{self, ErrorCode, Value};
 use od_spec::scalar::integer;
 use od_spec::source::{SourceMap, Span, Spanned};
 use od_spec::{SettingNames, settings};
@@ -17,11 +17,14 @@ use crate::ERRORS;
 use crate::bus_nodes::BusNodes;
 use crate::report::Report;
 
+use super::course::{self, Course, Shape};
+
 /// What a command does to a node.
-const VERBS: [&str; 3] = ["fault", "clear", "set"];
+const VERBS: [&str; 7] = ["fault", "clear", "set", "ramp", "triangle", "sine", "stop"];
 /// What commands look like.
-const COMMANDS: &str =
-    "write `5 fault 0x8611`, `5 clear 0x8611`, `5 set 6064.0=12.34°` with the node-ID first, or `wait 1.5`";
+const COMMANDS: &str = "write `5 fault 0x8611`, `5 clear 0x8611`, `5 set 6064.0=12.34°`, `5 ramp 6064.0=0.00°..90.00° in 10` or `5 stop 6064.0` with the node-ID first, or `wait 1.5`";
+/// What courses look like.
+const COURSES: &str = "write `5 ramp 6064.0=0.00°..90.00° in 10` for ten seconds; `triangle` and `sine` go there and back in that time, again and again";
 
 /// One command.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +56,10 @@ pub(super) enum Act {
         /// What a person calls the entry.
         name: String,
     },
+    /// The value of an entry changes with time from now on.
+    Go(Course),
+    /// The value of an entry stays as it is.
+    Stop(EntryId),
 }
 
 /// The commands that are still to be carried out.
@@ -161,12 +168,17 @@ impl<'a> Script<'a> {
             "fault" => Some(Act::Fault(Emergency::new(error_code(rest)?))),
             "clear" => Some(Act::Clear(error_code(rest)?)),
             "set" => set(device, id, rest, diagnostics),
+            "stop" => Some(Act::Stop(entry(device, rest)?)),
             other => {
+                if let Some((_, shape)) = Shape::ALL.into_iter().find(|(word, _)| *word == other) {
+                    let course = course(device, id, shape, rest, diagnostics)?;
+                    return Ok(course.map(|course| Step::Act { at, act: Act::Go(course) }));
+                }
                 let help = match nearest(other, VERBS) {
                     Some(verb) => format!("did you mean `{verb}`?"),
                     None => COMMANDS.to_owned(),
                 };
-                let message = format!("found {}, expected `fault`, `clear` or `set`", quoted(other));
+                let message = format!("found {}, expected {}", quoted(other), list(&VERBS));
                 return Err(refusal(codes::UNKNOWN_WORD, verb, message, help));
             }
         };
@@ -198,6 +210,73 @@ fn set(
     Some(Act::Set { entry: EntryId { index: id.index.0, sub: id.sub.0 }, value, name })
 }
 
+/// `6064.0=0.00°..90.00° in 10`.
+fn course(
+    device: &model::Dictionary,
+    node: u8,
+    shape: Shape,
+    part: Part<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Result<Option<Course>, Box<Diagnostic>> {
+    let (before, time) = last_word(part);
+    let (values, between) = last_word(before);
+    if between.text != "in" {
+        let message = format!("found {}, expected two values, `in` and a time", quoted(part.text));
+        return Err(refusal(codes::BAD_NOTATION, part, message, COURSES));
+    }
+    let seconds =
+        seconds_of(time).filter(|time| !time.is_zero() && *time <= course::LONGEST).ok_or_else(|| {
+            let message = format!("found {}, expected a number of seconds", quoted(time.text));
+            let help = format!("it is more than 0, and at most {}", course::LONGEST.as_secs());
+            refusal(codes::BAD_NOTATION, time, message, help)
+        })?;
+    let ends = values.text.split_once('=').and_then(|(entry, both)| {
+        let (from, to) = both.split_once("..")?;
+        Some((entry, from.trim_end(), to.trim_start()))
+    });
+    let Some((name, from, to)) = ends.filter(|(_, from, to)| !from.trim().is_empty() && !to.is_empty())
+    else {
+        let message = format!("found {}, expected an entry and two values", quoted(values.text));
+        return Err(refusal(codes::BAD_NOTATION, values, message, COURSES));
+    };
+    // Each value stands where it stands: the first one behind its entry, the second one at the end.
+    let first = Spanned::new(format!("{name}={from}"), values.place.part(0, name.len() + 1 + from.len()));
+    let second = format!("{name}={to}");
+    let start = values.text.len().saturating_sub(second.len());
+    let second = Spanned::new(second, values.place.part(start, values.text.len()));
+    let names = SettingNames::of(device);
+    let mut read = |text: Spanned<String>| {
+        let declared = settings(&[text], diagnostics).into_iter().next()?;
+        names.read_one(node, &declared, diagnostics)
+    };
+    let Some((id, from)) = read(first) else { return Ok(None) };
+    let Some((_, to)) = read(second) else { return Ok(None) };
+    let Some(entry) = device.entry(id) else { return Ok(None) };
+    let name = format!("{id} ({})", device.entry_name(id).unwrap_or_default());
+    let place = EntryId { index: id.index.0, sub: id.sub.0 };
+    let of_type = |value: &Value| value.bytes_for(entry.data_type, node).is_some();
+    let course = Course::new(place, name.clone(), entry.data_type, shape, (&from, &to), seconds)
+        .filter(|_| of_type(&from) && of_type(&to));
+    course.map(Some).ok_or_else(|| {
+        let message = format!("{name} has no values between these two");
+        refusal(
+            codes::BAD_ASSIGNMENT,
+            values,
+            message,
+            "name an entry that holds a number, and two numbers of its type",
+        )
+    })
+}
+
+/// An entry by index or name.
+fn entry(device: &model::Dictionary, part: Part<'_>) -> Result<EntryId, Box<Diagnostic>> {
+    let id = SettingNames::of(device).entry(part.text).ok_or_else(|| {
+        let message = format!("found {}, expected an entry of `{}`", quoted(part.text), device.key);
+        refusal(codes::UNKNOWN_ENTRY, part, message, "name it as `5 set` does: `6064.0`, or by its name")
+    })?;
+    Ok(EntryId { index: id.index.0, sub: id.sub.0 })
+}
+
 /// The code of an error, which is not "no error".
 fn error_code(word: Part<'_>) -> Result<u16, Box<Diagnostic>> {
     let code = integer(word.text).ok().and_then(|number| u16::try_from(number).ok());
@@ -209,12 +288,26 @@ fn error_code(word: Part<'_>) -> Result<u16, Box<Diagnostic>> {
 
 /// `1.5`.
 fn seconds(word: Part<'_>) -> Result<Duration, Box<Diagnostic>> {
-    let is_plain = word.text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-    let time = word.text.parse().ok().filter(|_| is_plain);
-    time.and_then(|time| Duration::try_from_secs_f64(time).ok()).ok_or_else(|| {
+    seconds_of(word).ok_or_else(|| {
         let message = format!("found {}, expected a number of seconds", quoted(word.text));
         refusal(codes::BAD_NOTATION, word, message, "write `wait 1.5` to wait for one and a half seconds")
     })
+}
+
+fn seconds_of(word: Part<'_>) -> Option<Duration> {
+    let is_plain = word.text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let time = word.text.parse().ok().filter(|_| is_plain)?;
+    Duration::try_from_secs_f64(time).ok()
+}
+
+/// `` `a`, `b` or `c` ``.
+fn list(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
 }
 
 /// What was found, also where that is nothing.
@@ -255,5 +348,19 @@ fn word(part: Part<'_>) -> (Part<'_>, Part<'_>) {
     (
         Part { text: first, place: place.part(0, end) },
         Part { text: rest, place: place.part(end, part.text.len()) },
+    )
+}
+
+/// What is before the last word, and that.
+fn last_word(part: Part<'_>) -> (Part<'_>, Part<'_>) {
+    let part = trimmed(part);
+    let start = part.text.rfind(char::is_whitespace).map_or(0, |at| {
+        at + part.text.get(at..).and_then(|rest| rest.chars().next()).map_or(1, char::len_utf8)
+    });
+    let (before, last) = part.text.split_at(start);
+    let place = part.place;
+    (
+        trimmed(Part { text: before, place: place.part(0, start) }),
+        Part { text: last, place: place.part(start, part.text.len()) },
     )
 }

@@ -1,0 +1,31 @@
+//! Ctrl-C, for commands that go on until somebody ends them and have something to say then.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+/// The exit code of a program that is interrupted a second time.
+const IMPATIENT: i32 = 130;
+
+/// Whether the user, or the system, wants the command to end.
+#[derive(Debug, Clone)]
+pub(crate) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// From now on Ctrl-C is noted, and a second one ends the program at once. Where the system does not tell, it ends it as ever.
+    pub(crate) fn noted() -> Self {
+        let wanted = Arc::new(AtomicBool::new(false));
+        for signal in [SIGINT, SIGTERM] {
+            let _ = flag::register_conditional_shutdown(signal, IMPATIENT, Arc::clone(&wanted))
+                .and_then(|_| flag::register(signal, Arc::clone(&wanted)));
+        }
+        Self(wanted)
+    }
+
+    /// Whether it has come.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,277 @@
+//! Who talks to the bus: hosts with SLCAN, each with an adapter of its own, and a CAN interface.
+//!
+//! A thread for each reads, and another one writes, so that nobody who is slow holds up the bus.
+
+use std::io::{ErrorKind, Read, Write};
+use std::net::{Shutdown, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, SyncSender, channel};
+use std::time::Duration;
+
+use firmware_glue::frame::Frame;
+use od_gen::slcan::{Adapter, CanFrame, LONGEST, REFUSED};
+
+use super::Event;
+
+/// So many bytes wait for a host that does not take them. One by TCP is left then; a terminal loses frames, as adapters do.
+const MOST_WAITING: usize = 1 << 20;
+/// After an error that says nothing of the next client, such as too many open files.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// A host and the adapter that it believes to talk to.
+struct Host {
+    number: u64,
+    adapter: Adapter,
+    outgoing: Outgoing,
+    way: Way,
+}
+
+/// How a host came.
+enum Way {
+    /// By a connection, which ends.
+    Connection(TcpStream),
+    /// By a terminal, which others may open again.
+    #[cfg_attr(
+        not(all(feature = "links", target_os = "linux")),
+        expect(dead_code, reason = "there are none")
+    )]
+    Terminal,
+}
+
+/// Hosts on a bus.
+#[derive(Default)]
+pub(super) struct Hosts {
+    list: Vec<Host>,
+    /// The number of the next one.
+    next: u64,
+}
+
+impl Hosts {
+    /// A client has come.
+    pub(super) fn welcome(&mut self, stream: TcpStream, events: &SyncSender<Event>) {
+        let ready = stream.set_nodelay(true).and_then(|()| Ok((stream.try_clone()?, stream.try_clone()?)));
+        let Ok((reading, writing)) = ready else { return };
+        let (number, events) = (self.number(), events.clone());
+        std::thread::spawn(move || read(number, reading, &events));
+        self.push(number, Outgoing::to(writing), Way::Connection(stream));
+    }
+
+    /// A terminal is there, at which hosts come and go.
+    #[cfg_attr(
+        not(all(feature = "links", target_os = "linux")),
+        expect(dead_code, reason = "there are none")
+    )]
+    pub(super) fn add_terminal(&mut self, writing: impl Write + Send + 'static) -> u64 {
+        let number = self.number();
+        self.push(number, Outgoing::to(writing), Way::Terminal);
+        number
+    }
+
+    const fn number(&mut self) -> u64 {
+        let number = self.next;
+        self.next += 1;
+        number
+    }
+
+    fn push(&mut self, number: u64, outgoing: Outgoing, way: Way) {
+        self.list.push(Host { number, adapter: Adapter::new(), outgoing, way });
+    }
+
+    /// How many hosts have their channel open.
+    pub(super) fn listening(&self) -> usize {
+        self.list.iter().filter(|host| host.adapter.is_open()).count()
+    }
+
+    /// Answers a line of a host; what it puts on the bus. `None` is a line that was too long for one.
+    pub(super) fn line(&mut self, number: u64, line: Option<&str>) -> Option<CanFrame> {
+        let host = self.list.iter_mut().find(|host| host.number == number)?;
+        let reply = line.map(|line| host.adapter.take(line));
+        host.outgoing.put(reply.map_or(REFUSED, |reply| reply.answer));
+        self.leave_who_takes_nothing();
+        reply.and_then(|reply| reply.send)
+    }
+
+    /// Shows a frame to all hosts but its sender.
+    pub(super) fn show(&mut self, frame: &Frame, sender: Option<u64>, milliseconds: u64) {
+        for host in self.list.iter_mut().filter(|host| Some(host.number) != sender) {
+            if let Some(line) = host.adapter.show(frame, milliseconds) {
+                host.outgoing.put(line.as_bytes());
+            }
+        }
+        self.leave_who_takes_nothing();
+    }
+
+    fn leave_who_takes_nothing(&mut self) {
+        self.list.retain(|host| match &host.way {
+            Way::Connection(stream) if host.outgoing.is_full() => {
+                let _ = stream.shutdown(Shutdown::Both);
+                false
+            }
+            Way::Connection(_) | Way::Terminal => true,
+        });
+    }
+
+    /// A host has gone. At a terminal the next one finds an adapter that was just switched on.
+    pub(super) fn gone(&mut self, number: u64) {
+        self.list.retain_mut(|host| match host.way {
+            Way::Connection(_) => host.number != number,
+            Way::Terminal => {
+                if host.number == number {
+                    host.adapter = Adapter::new();
+                    host.outgoing.forget();
+                }
+                true
+            }
+        });
+    }
+}
+
+/// Tells of clients that come, in a thread of its own.
+pub(super) fn accept(listener: TcpListener, events: SyncSender<Event>) {
+    std::thread::spawn(move || {
+        loop {
+            match listener.accept() {
+                Ok((stream, _)) => {
+                    if events.send(Event::Came(stream)).is_err() {
+                        return;
+                    }
+                }
+                // One that went away before it was let in, or no room for one more: the next one may come.
+                Err(_) => std::thread::sleep(PAUSE),
+            }
+        }
+    });
+}
+
+/// Tells the lines of a host until it goes.
+pub(super) fn read(number: u64, mut from: impl Read, events: &SyncSender<Event>) {
+    let mut lines = Lines::default();
+    let mut buffer = [0; 512];
+    loop {
+        let count = match from.read(&mut buffer) {
+            Ok(count) => count,
+            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+            Err(_) => 0,
+        };
+        if count == 0 {
+            let _ = events.send(Event::Gone(number));
+            return;
+        }
+        for line in lines.take(buffer.get(..count).unwrap_or_default()) {
+            if events.send(Event::Line(number, line)).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+/// Makes lines of what a host sends.
+#[derive(Default)]
+pub(super) struct Lines {
+    line: String,
+    is_too_long: bool,
+}
+
+impl Lines {
+    /// The lines that bytes complete; `None` is one that is too long.
+    pub(super) fn take(&mut self, bytes: &[u8]) -> Vec<Option<String>> {
+        let mut whole = Vec::new();
+        for byte in bytes {
+            match byte {
+                b'\r' => {
+                    let Self { line, is_too_long } = std::mem::take(self);
+                    whole.push((!is_too_long).then_some(line));
+                }
+                // Hosts on some systems send it behind the end of a line.
+                b'\n' => {}
+                _ if self.line.len() >= LONGEST => self.is_too_long = true,
+                byte => self.line.push(char::from(*byte)),
+            }
+        }
+        whole
+    }
+
+    /// Half a line is none, when who began it has gone.
+    #[cfg_attr(
+        not(all(feature = "links", target_os = "linux")),
+        expect(dead_code, reason = "there are no terminals")
+    )]
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
+
+/// What waits to be written to a host, by a thread of its own.
+struct Outgoing {
+    waiting: Arc<AtomicUsize>,
+    /// Counts the hosts of a terminal: what was for one of before is not written any more.
+    turn: Arc<AtomicU64>,
+    to: Sender<(u64, Vec<u8>)>,
+    fullness: Fullness,
+}
+
+/// Whether something could not wait any more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fullness {
+    Room,
+    Full,
+}
+
+impl Outgoing {
+    fn to(mut host: impl Write + Send + 'static) -> Self {
+        let (waiting, turn) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicU64::new(0)));
+        let (to, from) = channel::<(u64, Vec<u8>)>();
+        let (still, now) = (Arc::clone(&waiting), Arc::clone(&turn));
+        std::thread::spawn(move || {
+            for (turn, bytes) in from {
+                // One that cannot be written to has gone, and whoever reads from it says so.
+                if turn == now.load(Ordering::Relaxed) {
+                    let _ = host.write_all(&bytes).and_then(|()| host.flush());
+                }
+                still.fetch_sub(bytes.len(), Ordering::Relaxed);
+            }
+        });
+        Self { waiting, turn, to, fullness: Fullness::Room }
+    }
+
+    /// Lets bytes wait, if there is room.
+    fn put(&mut self, bytes: &[u8]) {
+        if self.waiting.load(Ordering::Relaxed) + bytes.len() > MOST_WAITING {
+            self.fullness = Fullness::Full;
+            return;
+        }
+        self.waiting.fetch_add(bytes.len(), Ordering::Relaxed);
+        let _ = self.to.send((self.turn.load(Ordering::Relaxed), bytes.to_vec()));
+    }
+
+    const fn is_full(&self) -> bool {
+        matches!(self.fullness, Fullness::Full)
+    }
+
+    fn forget(&mut self) {
+        self.turn.fetch_add(1, Ordering::Relaxed);
+        self.fullness = Fullness::Room;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_come_in_pieces_and_one_that_is_too_long_is_none() {
+        let mut lines = Lines::default();
+        assert_eq!(lines.take(b"t60"), []);
+        assert_eq!(
+            lines.take(b"10\rV\r\n\r"),
+            [Some("t6010".to_owned()), Some("V".to_owned()), Some(String::new())]
+        );
+        assert_eq!(lines.take(&[b'0'; 10_000]), []);
+        assert!(lines.line.len() <= LONGEST);
+        assert_eq!(lines.take(b"\r\xFF\r"), [None, Some("\u{FF}".to_owned())]);
+        assert_eq!(lines.take(b"t60"), []);
+        lines.forget();
+        assert_eq!(lines.take(b"V\r"), [Some("V".to_owned())]);
+    }
+}
