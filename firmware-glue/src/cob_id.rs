@@ -9,7 +9,7 @@ pub(crate) const NOT_VALID: u32 = 1 << 31;
 /// Bit 30 of a TPDO's COB-ID: no remote frames; reserved in an RPDO's.
 pub(crate) const NO_REMOTE_FRAMES: u32 = 1 << 30;
 /// Bit 30 of 1005h and 1012h: the device sends the message itself.
-const PRODUCER: u32 = 1 << 30;
+pub(crate) const PRODUCER: u32 = 1 << 30;
 /// Bit 29 chooses identifiers of 29 bits, which the dictionary does not support; bits 11 to 28 belong to such.
 const EXTENDED: u32 = 0x3FFF_F800;
 const CAN_ID: u32 = 0x7FF;

@@ -1,7 +1,7 @@
 //! Rules of single communication objects (CiA 301 9.6.3), beyond type and limits.
 
 use crate::abort::AbortCode;
-use crate::cob_id::{NOT_VALID, check_client_cob_id, check_cob_id, check_produced};
+use crate::cob_id::{NOT_VALID, PRODUCER, check_client_cob_id, check_cob_id, check_produced};
 use crate::effect::Effect;
 use crate::id::EntryId;
 use crate::number::unsigned;
@@ -43,6 +43,10 @@ pub(crate) fn check(
         // What the device itself holds, and no client writes.
         (0x1003, 0) | (0x1010 | 0x1011, _) if before == Before::Nothing => {}
         (0x1003, 0) if new != 0 => return Err(AbortCode::INVALID_VALUE),
+        // Nobody could say how often.
+        (0x1005, 0) if new & !old(0) & PRODUCER != 0 && current(table, image, 0x1006, 0).is_none() => {
+            return Err(AbortCode::INVALID_VALUE);
+        }
         (0x1005 | 0x1012, 0) => check_produced(old(0), new)?,
         (0x1010, 1..) => return command(new, SAVE),
         (0x1011, 1..) => return command(new, LOAD),

@@ -1,4 +1,4 @@
-//! Emergencies: errors that a node has, tells and remembers (CiA 301 9.2.5 and 9.6.3, 1001h, 1003h, 1014h, 1015h).
+//! Emergencies: errors that a node has, tells and remembers (CiA 301 9.2.5 and 9.6.3, 1001h, 1003h, 1014h, 1015h), and those of others that it hears (1028h).
 //!
 //! ```
 //! use firmware_glue::emcy::{Emergency, ErrorRegister};
@@ -11,7 +11,10 @@ use crate::clock::{Duration, Instant};
 use crate::cob_id::valid_id;
 use crate::dictionary::Dictionary;
 use crate::frame::{CanId, Frame};
+use crate::node_id::NodeId;
 use crate::parameters::{Parameters, set};
+use crate::stored::at_row;
+use crate::table::Row;
 
 /// Kinds of errors, one bit each: 1001h (CiA 301 table 48).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
@@ -136,6 +139,18 @@ impl Emergency {
         let [low, high, register, details @ ..] = <[u8; 8]>::try_from(frame.bytes()?).ok()?;
         Some(Self { code: u16::from_le_bytes([low, high]), register: ErrorRegister(register), details })
     }
+}
+
+/// An emergency of another node that the dictionary listens to, and whose it is: sub-index n of 1028h has the COB-ID of node n.
+pub fn heard<'t, D: Dictionary<'t>>(frame: &Frame, dictionary: &D) -> Option<(NodeId, Emergency)> {
+    let emergency = Emergency::from_frame(frame)?;
+    let table = dictionary.table();
+    let rows = table.object(0x1028).ok()?;
+    let is_it = |row: &Row| {
+        at_row(table, dictionary.image(), table.found(*row)).and_then(valid_id) == Some(frame.id())
+    };
+    let node = NodeId::new(table.id(rows.into_iter().find(is_it)?).sub)?;
+    Some((node, emergency))
 }
 
 /// A message that waits to be sent: code, error register at the time, the manufacturer's bytes.

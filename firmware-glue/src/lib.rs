@@ -20,7 +20,7 @@
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 //! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
 //! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
-//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `emcy`, `lss`), and all together (`Node`); frames in, frames out,
+//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo_engine`, `sync`, `emcy`, `lss`), and all together (`Node`); frames in, frames out,
 //!   time passed in
 //! - `storage`: `storage`, parameters in flash that survive a power failure at any byte
 
@@ -83,6 +83,8 @@ pub mod state_machine;
 #[cfg(feature = "storage")]
 pub mod storage;
 mod stored;
+#[cfg(feature = "node")]
+pub mod sync;
 pub mod table;
 mod table_dictionary;
 #[cfg(all(test, feature = "node"))]

@@ -31,6 +31,8 @@ pub enum Event {
     Heartbeat(NodeEvent),
     /// Something happened to the master that guards this node.
     Guarding(Guarding),
+    /// A node that 1028h names tells of an error, or, with the code 0000h, that one is gone.
+    Emergency(NodeId, Emergency),
     /// The bit rate is to be switched.
     Lss(LssEvent),
 }
@@ -93,6 +95,8 @@ impl<'t, D: crate::dictionary::Dictionary<'t>, A: PdoHandler<D>, const ERRORS: u
             PdoEvent::Received { .. }
             | PdoEvent::NotReceived { .. }
             | PdoEvent::Resumed { .. }
+            | PdoEvent::CameLate { .. }
+            | PdoEvent::NotSentInTime { .. }
             | PdoEvent::NotSent { .. } => {}
         }
         self.application.pdo_event(dictionary, event);

@@ -1,4 +1,4 @@
-//! A whole CANopen node: SDO server, PDOs, NMT, heartbeat and guarding, emergencies and LSS together, by the states of CiA 301 9.3.
+//! A whole CANopen node: SDO server, PDOs, SYNC, NMT, heartbeat and guarding, emergencies and LSS together, by the states of CiA 301 9.3.
 //!
 //! A firmware gives every frame it receives to [`Node::handle`] and sends the answer; it calls [`Node::poll`] until there is nothing to
 //! send, whenever something has happened or [`Node::next_deadline`] has come. The dictionary stays the firmware's.
@@ -43,7 +43,7 @@ pub use room::NoRoom;
 
 use crate::clock::{Instant, earlier};
 use crate::dictionary::Dictionary;
-use crate::emcy::{Emergency, EmergencyProducer, Raised};
+use crate::emcy::{self, Emergency, EmergencyProducer, Raised};
 use crate::frame::Frame;
 use crate::lss::{Identity, Lss, LssEvent, LssState, MaybeNode};
 use crate::nmt::{
@@ -54,6 +54,7 @@ use crate::node_id::NodeId;
 use crate::pdo_engine::PdoEngine;
 use crate::sdo::{Channel, SdoServer};
 use crate::stored::reset;
+use crate::sync::{Sync, SyncProducer};
 use crate::table::{Region, Storage, Table};
 
 /// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at once, of which up to five are its own (see [`raise`](Self::raise)), and `WATCHED`
@@ -67,6 +68,7 @@ pub struct Node<B, const T: usize, const R: usize, const ERRORS: usize, const WA
     control: ErrorControl,
     consumer: Consumer<WATCHED>,
     pdos: PdoEngine<T, R>,
+    sync: SyncProducer,
     emergencies: EmergencyProducer<ERRORS>,
     sdo: SdoServer<B>,
     lss: Lss,
@@ -92,6 +94,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             control: ErrorControl::new(),
             consumer: Consumer::new(),
             pdos: PdoEngine::new(table).map_err(NoRoom::Pdos)?,
+            sync: SyncProducer::new(),
             emergencies: EmergencyProducer::new(),
             sdo: SdoServer::new(NO_CHANNEL, buffer),
             lss: Lss::new(id),
@@ -193,6 +196,12 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if let Some(event) = self.consumer.handle(frame, dictionary, now) {
             application.node_event(dictionary, Event::Heartbeat(event));
         }
+        if self.state().allows(Service::Emergency)
+            && let Some((node, emergency)) = emcy::heard(frame, dictionary)
+        {
+            application.node_event(dictionary, Event::Emergency(node, emergency));
+            return None;
+        }
         if let Some((answer, event)) = self.control.guard(frame, dictionary, id, self.state(), now) {
             if let Some(event) = event {
                 application.node_event(dictionary, Event::Guarding(event));
@@ -240,6 +249,13 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if let Some(heartbeat) = self.control.poll(dictionary, id, self.state(), now) {
             return Some(heartbeat);
         }
+        if self.state().allows(Service::Sync)
+            && let Some(Sync { frame, counter }) = self.sync.poll(dictionary, now)
+        {
+            let emergencies = &mut self.emergencies;
+            self.pdos.sync(counter, dictionary, &mut WithEmergencies { application, emergencies }, now);
+            return Some(frame);
+        }
         if let Some(emergency) = self.emergency(dictionary, now) {
             return Some(emergency);
         }
@@ -266,7 +282,10 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         } else {
             None
         };
+        let sync =
+            if self.state().allows(Service::Sync) { self.sync.next_deadline(dictionary) } else { None };
         [
+            sync,
             self.control.next_deadline(dictionary),
             self.consumer.next_deadline(),
             self.pdos.next_deadline(dictionary),
@@ -336,11 +355,15 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
                 if !state.allows(Service::Sdo) {
                     self.sdo.reset();
                 }
+                if !state.allows(Service::Sync) {
+                    self.sync.stop();
+                }
             }
             Transition::ResetNode => self.restart = Some(Reset::Node),
             Transition::ResetCommunication => self.restart = Some(Reset::Communication),
         }
         if self.restart.is_some() {
+            self.sync.stop();
             self.pdos.stop();
             self.sdo.reset();
         }

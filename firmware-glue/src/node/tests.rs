@@ -7,6 +7,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::application::Application;
+use crate::emcy::ErrorRegister;
 use crate::frame::CanId;
 use crate::id::EntryId;
 use crate::lss::{BitRate, LssEvent, LssHandler, Reply};
@@ -304,6 +305,62 @@ fn a_dictionary_that_watches_more_nodes_than_there_is_room_for_has_no_node() {
 }
 
 #[test]
+fn a_node_that_produces_sync_follows_it_and_rests_while_stopped() {
+    let mut values = values();
+    values.push(value(0x1006, 0, 4, 100_000));
+    let mut bench = Bench::started_with(values);
+    set(&mut bench.dictionary, 0x1800, 2, 1);
+    set(&mut bench.dictionary, 0x1400, 2, 1);
+    set(&mut bench.dictionary, 0x1400, 5, 0);
+    bench.handle(0, &[1, 5], 0);
+    bench.handle(0x205, &[1, 2], 0);
+    // 1005h: bit 30.
+    assert!(bench.handle(0x605, &[0x23, 0x05, 0x10, 0, 0x80, 0, 0, 0x40], 0).is_some());
+    assert_eq!(bench.sent(0), [(0x80, vec![]), (0x185, vec![0, 0])]);
+    assert_eq!((bench.read(0x2000, 0), bench.sent(99)), (Some(0x0201), vec![]));
+    bench.handle(0, &[128, 5], 99);
+    assert_eq!(bench.node.next_deadline(&bench.dictionary), Some(at(100)));
+    assert_eq!(bench.sent(100), [(0x80, vec![])], "without PDOs");
+    bench.handle(0, &[2, 5], 110);
+    assert_eq!((bench.sent(140), bench.node.next_deadline(&bench.dictionary)), (vec![], None));
+    bench.handle(0, &[1, 5], 150);
+    assert_eq!(bench.sent(150), [(0x80, vec![]), (0x185, vec![0, 0])], "it begins anew");
+    bench.handle(0, &[129, 5], 1050);
+    assert_eq!(bench.sent(2000), [(0x705, vec![0])], "1005h is the factory's again");
+}
+
+#[test]
+fn emergencies_of_other_nodes_are_heard() {
+    let mut values = values();
+    values.extend([value(0x1028, 0, 1, 2), value(0x1028, 1, 4, 0x8000_0081), value(0x1028, 2, 4, 0x345)]);
+    let mut bench = Bench::started_with(values);
+    let data = [0x10, 0x23, 3, 9, 8, 0, 0, 0];
+    assert_eq!(
+        (bench.handle(0x81, &data, 0), bench.handle(0x345, &data[..7], 0), bench.events()),
+        (None, None, vec![])
+    );
+    bench.handle(0x345, &data, 0);
+    let emergency = Emergency::new(0x2310).with_details([9, 8, 0, 0, 0]);
+    let node = NodeId::new(2).expect("a node-ID");
+    assert_eq!(bench.events(), [Event::Emergency(node, emergency)]);
+    set(&mut bench.dictionary, 0x1028, 1, 0x81);
+    bench.handle(0x81, &[0; 8], 0);
+    let [Event::Emergency(node, emergency)] = bench.events()[..] else { panic!("an emergency") };
+    assert_eq!((node.get(), emergency.code(), emergency.register()), (1, 0, ErrorRegister::NONE));
+    bench.handle(0, &[2, 5], 0);
+    bench.events();
+    bench.handle(0x345, &data, 0);
+    assert_eq!(bench.events(), [], "not while it is stopped");
+}
+
+#[test]
+fn a_device_without_a_period_produces_no_sync() {
+    let mut bench = Bench::started();
+    let refused = bench.handle(0x605, &[0x23, 0x05, 0x10, 0, 0x80, 0, 0, 0x40], 0);
+    assert_eq!(refused, Some(vec![0x80, 0x05, 0x10, 0, 0x30, 0, 9, 6]));
+}
+
+#[test]
 fn a_reset_brings_back_what_it_is_for() {
     for (command, kind, application) in [(129, Reset::Node, 0), (130, Reset::Communication, 77)] {
         let mut bench = Bench::operational();
@@ -382,7 +439,10 @@ fn no_frame_breaks_a_node() {
         (random >> 33) % below
     };
     for start in [0, 5] {
-        let mut bench = Bench::new(start);
+        let mut more = values();
+        more.extend([value(0x1006, 0, 4, 0), value(0x1007, 0, 4, 0), value(0x1019, 0, 1, 0)]);
+        more.extend([value(0x1028, 0, 1, 1), value(0x1028, 1, 4, 0x81)]);
+        let mut bench = Bench::of(more, start);
         let mut now = 0;
         for _ in 0..40_000 {
             now += next(30);
@@ -395,9 +455,11 @@ fn no_frame_breaks_a_node() {
             }
             // Requests to objects that exist.
             if id.get() == 0x605 && next(3) > 0 {
-                let objects =
-                    [0x1003u16, 0x1005, 0x1014, 0x1016, 0x1017, 0x1400, 0x1600, 0x1800, 0x1A00, 0x2000];
-                let index = objects[usize::try_from(next(10)).expect("small")].to_le_bytes();
+                const OBJECTS: [u16; 14] = [
+                    0x1003, 0x1005, 0x1006, 0x1007, 0x1014, 0x1016, 0x1017, 0x1019, 0x1028, 0x1400, 0x1600,
+                    0x1800, 0x1A00, 0x2000,
+                ];
+                let index = OBJECTS[usize::try_from(next(14)).expect("small")].to_le_bytes();
                 data[0] = [0x22, 0x2F, 0x2B, 0x23, 0x40][usize::try_from(next(5)).expect("small")];
                 (data[1], data[2]) = (index[0], index[1]);
             }

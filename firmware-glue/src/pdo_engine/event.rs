@@ -51,6 +51,16 @@ pub enum PdoEvent<E> {
         /// Why.
         error: PdoError,
     },
+    /// A synchronous RPDO came after the synchronous window (1007h), and did not take effect.
+    CameLate {
+        /// Number of the RPDO.
+        number: u16,
+    },
+    /// There was no room for a synchronous TPDO within the synchronous window (1007h): it goes with the next SYNC that it is due at.
+    NotSentInTime {
+        /// Number of the TPDO.
+        number: u16,
+    },
     /// A SYNC has another length than 1019h says (1 byte if there is a counter, else none), and was not followed. Said once, until one has
     /// the right length. Emergency 8240h.
     SyncLength {

@@ -5,7 +5,7 @@
 //! a time, as the driver has room for them.
 //!
 //! A SYNC does two things, in this order: synchronous TPDOs take their values, then synchronous RPDOs that came since the SYNC
-//! before take effect. So a TPDO tells how things stood at the SYNC.
+//! before take effect. So a TPDO tells how things stood at the SYNC. What is not sent, or comes, after the synchronous window (1007h) is dropped and told.
 //!
 //! Where CiA 301 leaves a choice: a cyclic TPDO of type n goes with the n-th SYNC after the node became operational, the one
 //! with the start value counted as the first. A remote frame for a synchronous TPDO makes it go with the next SYNC. The inhibit time counts for event-driven
@@ -18,6 +18,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 mod transmit;
+mod window;
 
 pub use event::{PdoEvent, PdoHandler};
 
@@ -33,6 +34,7 @@ use crate::pdo;
 use crate::pdo_engine::receive::{Length, Receive};
 use crate::pdo_engine::settings::Settings;
 use crate::pdo_engine::transmit::Transmit;
+use crate::pdo_engine::window::Moment;
 use crate::table::{Pdo, Table};
 
 /// Sends up to `T` TPDOs and receives up to `R` RPDOs: as many as the dictionary has.
@@ -42,6 +44,8 @@ pub struct PdoEngine<const T: usize, const R: usize> {
     receive: [Receive; R],
     state: Running,
     sync: SyncLength,
+    /// When the last SYNC came.
+    synced: Option<Instant>,
     /// The TPDO that is looked at first, so that each has its turn.
     first: usize,
 }
@@ -93,6 +97,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
             receive: [Receive::NEW; R],
             state: Running::No,
             sync: SyncLength::Right,
+            synced: None,
             first: 0,
         })
     }
@@ -103,7 +108,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
             slot.start(Settings::of(dictionary, pdo), now);
         }
         self.receive = [Receive::NEW; R];
-        self.sync = SyncLength::Right;
+        (self.sync, self.synced) = (SyncLength::Right, None);
         self.state = Running::Yes;
     }
 
@@ -111,7 +116,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     pub fn stop(&mut self) {
         self.transmit = [Transmit::NEW; T];
         self.receive = [Receive::NEW; R];
-        self.sync = SyncLength::Right;
+        (self.sync, self.synced) = (SyncLength::Right, None);
         self.state = Running::No;
     }
 
@@ -174,8 +179,9 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
                 _ => {}
             };
         }
+        let moment = Moment::after(self.synced, dictionary, now);
         for (slot, pdo) in self.receive.iter_mut().zip(receive_pdos(table)) {
-            slot.handle(Settings::of(dictionary, pdo), number(pdo), frame, dictionary, application, now);
+            slot.handle(Settings::of(dictionary, pdo), number(pdo), frame, dictionary, application, moment);
         }
     }
 
@@ -190,7 +196,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         if self.state == Running::No {
             return;
         }
-        self.sync = SyncLength::Right;
+        (self.sync, self.synced) = (SyncLength::Right, Some(now));
         let table = dictionary.table();
         for (slot, pdo) in self.transmit.iter_mut().zip(transmit_pdos(table)) {
             slot.sync(Settings::of(dictionary, pdo), number(pdo), counter, dictionary, application, now);
@@ -216,12 +222,13 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
                 application.pdo_event(dictionary, PdoEvent::Overdue { number: number(pdo) });
             }
         }
+        let moment = Moment::after(self.synced, dictionary, now);
         let pdos = transmit_pdos(table);
         let first = self.first.min(pdos.len());
         for at in (first..pdos.len()).chain(0..first) {
             let (Some(slot), Some(pdo)) = (self.transmit.get_mut(at), pdos.get(at)) else { continue };
             let settings = Settings::of(dictionary, pdo);
-            if let Some(frame) = slot.poll(settings, number(pdo), dictionary, application, now) {
+            if let Some(frame) = slot.poll(settings, number(pdo), dictionary, application, moment) {
                 self.first = at + 1;
                 return Some(frame);
             }

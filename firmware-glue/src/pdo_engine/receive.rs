@@ -8,6 +8,7 @@ use crate::frame::Frame;
 use crate::pdo::{self, PdoError, Received};
 use crate::pdo_engine::event::{PdoEvent, PdoHandler};
 use crate::pdo_engine::settings::{Settings, Transmission};
+use crate::pdo_engine::window::{Moment, Window};
 
 /// What is known of an RPDO beyond its parameters.
 #[derive(Debug, Clone, Copy)]
@@ -67,7 +68,7 @@ impl Receive {
         frame: &Frame,
         dictionary: &mut D,
         application: &mut A,
-        now: Instant,
+        Moment { now, window }: Moment,
     ) {
         let (Some(settings), Some(data)) = (self.update(settings), frame.bytes()) else { return };
         if settings.id != frame.id() {
@@ -82,6 +83,9 @@ impl Receive {
             return;
         }
         match settings.transmission {
+            Transmission::SyncAfterEvent | Transmission::EverySync(_) if window == Window::Closed => {
+                return application.pdo_event(dictionary, PdoEvent::CameLate { number });
+            }
             Transmission::SyncAfterEvent | Transmission::EverySync(_) => self.waiting = Some(*frame),
             Transmission::Event => self.take(number, data, dictionary, application),
             // Not for RPDOs: the dictionary refuses them, but a table may begin with one.

@@ -6,6 +6,7 @@ use crate::frame::Frame;
 use crate::pdo;
 use crate::pdo_engine::event::{PdoEvent, PdoHandler};
 use crate::pdo_engine::settings::{RemoteFrames, Settings, Transmission};
+use crate::pdo_engine::window::{Moment, Window};
 
 /// What is known of a TPDO beyond its parameters.
 #[derive(Debug, Clone, Copy)]
@@ -146,9 +147,14 @@ impl Transmit {
         number: u16,
         dictionary: &mut D,
         application: &mut A,
-        now: Instant,
+        Moment { now, window }: Moment,
     ) -> Option<Frame> {
-        let id = self.update(settings, now)?.id;
+        let Settings { id, transmission, .. } = self.update(settings, now)?;
+        let is_synchronous =
+            matches!(transmission, Transmission::SyncAfterEvent | Transmission::EverySync(_));
+        if is_synchronous && window == Window::Closed && self.ready.take().is_some() {
+            application.pdo_event(dictionary, PdoEvent::NotSentInTime { number });
+        }
         if self.deadline(settings).is_none_or(|due| now < due) {
             return None;
         }
