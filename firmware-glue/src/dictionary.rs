@@ -9,7 +9,7 @@ use crate::effect::Effect;
 use crate::entries::Entries;
 use crate::info::Info;
 use crate::stored::{put, reset, value_of};
-use crate::table::{Attributes, Flags, Found, NONE, Place, Region, Row, Storage, Table};
+use crate::table::{Alias, Attributes, Flags, Found, NONE, Place, Region, Row, Storage, Table};
 use crate::value::{Value, number};
 
 /// A dictionary: values in a byte image, everything else in a table that lives for `'t`, of generated code for `'static`. The
@@ -153,7 +153,10 @@ pub trait Dictionary<'t>: Entries {
         data: &[u8],
         application: &mut A,
     ) -> Result<Self::Entry, AbortCode> {
-        let found = writable(self.table(), index, sub)?;
+        let found = self.table().lookup(index, sub)?;
+        if !found.shared.flags.has(Flags::WRITE) {
+            return Err(AbortCode::READ_ONLY);
+        }
         write_row(self, found, data, application)
     }
 
@@ -304,9 +307,9 @@ pub(crate) fn refresh<'t, D: Dictionary<'t>, A: Application<D>>(
 }
 
 /// An entry that a client may write, in some state of the device.
-#[inline]
+#[cfg(feature = "sdo-server")]
 pub(crate) fn writable<'t>(table: &Table<'t>, index: u16, sub: u8) -> Result<Found<'t>, AbortCode> {
-    let found = table.lookup(index, sub)?;
+    let found = table.search(index, sub)?;
     if found.shared.flags.has(Flags::WRITE) { Ok(found) } else { Err(AbortCode::READ_ONLY) }
 }
 
@@ -318,7 +321,7 @@ fn find_domain<'t>(
     access: Flags,
     refusal: AbortCode,
 ) -> Result<Found<'t>, AbortCode> {
-    let found = table.lookup(index, sub)?;
+    let found = table.search(index, sub)?;
     if !found.shared.flags.has(access) {
         Err(refusal)
     } else if found.shared.place != Place::Application {
@@ -391,7 +394,10 @@ fn held<'t, 'd>(
         Place::Image => Ok(Held { holder: found, data }),
         Place::Constant => Err(AbortCode::READ_ONLY),
         Place::Application => Err(AbortCode::UNSUPPORTED_ACCESS),
-        Place::Alias => aliased(table, found, data, buffer),
+        // Looked up here: see `value_of`.
+        Place::Alias => {
+            aliased(table, *table.alias(found.row).ok_or(AbortCode::INTERNAL)?, found.shared, data, buffer)
+        }
     }
 }
 
@@ -412,14 +418,14 @@ pub(crate) fn hold<'t>(
 #[inline(never)]
 fn aliased<'t, 'd>(
     table: &Table<'t>,
-    found: Found<'_>,
+    alias: Alias,
+    shared: &Attributes,
     data: &[u8],
     buffer: &'d mut [u8; 8],
 ) -> Result<Held<'t, 'd>, AbortCode> {
-    let alias = table.alias(found.row).ok_or(AbortCode::INTERNAL)?;
     let holder = table.found(alias.target);
     let target = holder.shared;
-    *buffer = alias.view.target(number(found.shared.data_type, data))?.to_le_bytes();
+    *buffer = alias.view.target(number(shared.data_type, data))?.to_le_bytes();
     let (value, rest) = buffer.split_at(usize::from(target.size).min(8));
     let negative = target.data_type.is_signed() && value.last().is_some_and(|last| last & 0x80 != 0);
     let sign = if negative { 0xFF } else { 0 };

@@ -226,7 +226,6 @@ pub fn put_bits<const N: usize>(data: &mut [u8; N], first: u32, bits: u32, value
 /// The mapping of a PDO now.
 #[derive(Clone, Copy)]
 struct Mapping<'t> {
-    table: &'t Table<'t>,
     /// Row of the number of entries; their parameters follow.
     number: Row,
     count: u8,
@@ -261,34 +260,35 @@ impl<'t> Mapping<'t> {
             let first = table.found(pdo.mapping.saturating_add(1));
             rows.len() == usize::from(count) && is_default(table, image, first, count)
         });
-        Ok(Self { table, number: pdo.mapping, count, rows })
+        Ok(Self { number: pdo.mapping, count, rows })
     }
 
     /// A mapping parameter.
     #[inline(always)]
     fn parameter<D: Dictionary<'t>>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
         let row = self.number.saturating_add(1 + Row::from(at));
-        at_row(self.table, dictionary.image(), self.table.found(row)).ok_or(PdoError::NotMapped)
+        let table = dictionary.table();
+        at_row(table, dictionary.image(), table.found(row)).ok_or(PdoError::NotMapped)
     }
 
     /// The entry at a position of the default mapping.
     #[inline(always)]
-    fn default(self, rows: &[Row], at: u8) -> Found<'t> {
-        self.table.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX))
+    fn default(table: &Table<'t>, rows: &[Row], at: u8) -> Found<'t> {
+        table.found(rows.get(usize::from(at)).copied().unwrap_or(Row::MAX))
     }
 
     /// What is mapped at a position.
     #[inline(always)]
     fn field<D: Dictionary<'t>>(self, dictionary: &D, at: u8) -> Result<Field<'t>, PdoError> {
         if let Some(rows) = self.rows {
-            let found = self.default(rows, at);
+            let found = Self::default(dictionary.table(), rows, at);
             return Ok(Field { found: Some(found), bits: width(found.shared) });
         }
         let mapped = Mapped::of(self.parameter(dictionary, at)?);
         if mapped.is_dummy() {
             return Ok(Field { found: None, bits: mapped.bits });
         }
-        let found = self.table.lookup(mapped.index, mapped.sub).map_err(|_| PdoError::NotMapped)?;
+        let found = dictionary.table().search(mapped.index, mapped.sub).map_err(|_| PdoError::NotMapped)?;
         Ok(Field { found: Some(found), bits: mapped.bits })
     }
 
@@ -309,7 +309,7 @@ impl<'t> Mapping<'t> {
     #[inline(always)]
     fn bits<D: Dictionary<'t>>(self, dictionary: &D, at: u8) -> Result<u32, PdoError> {
         if let Some(rows) = self.rows {
-            return Ok(width(self.default(rows, at).shared));
+            return Ok(width(Self::default(dictionary.table(), rows, at).shared));
         }
         Ok(Mapped::of(self.parameter(dictionary, at)?).bits)
     }

@@ -82,7 +82,7 @@ fn check_mapped(table: &Table<'_>, direction: Flags, parameter: u32) -> Result<u
         DUMMY_BITS.get(usize::from(mapped.index)).copied().unwrap_or_default()
     } else {
         let Found { shared, .. } =
-            table.lookup(mapped.index, mapped.sub).map_err(|_| AbortCode::NO_OBJECT)?;
+            table.search(mapped.index, mapped.sub).map_err(|_| AbortCode::NO_OBJECT)?;
         if !shared.flags.has(direction) {
             return Err(AbortCode::NOT_MAPPABLE);
         }

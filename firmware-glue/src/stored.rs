@@ -5,7 +5,7 @@ use core::ops::Range;
 use crate::abort::AbortCode;
 use crate::image::{self, NodeIdPlace};
 use crate::number::unsigned;
-use crate::table::{Attributes, Found, Place, Row, Table};
+use crate::table::{Alias, Attributes, Found, Place, Table};
 use crate::text::{prefix, store_string, trimmed};
 use crate::value::{Value, number};
 
@@ -20,7 +20,11 @@ pub(crate) fn value_of<'v>(
     let bytes = match shared.place {
         Place::Image => image,
         Place::Constant => table.parts().constants,
-        Place::Alias => return alias_value(table, image, found.row),
+        // Looked up here, where it is known of most tables that there is none: then nothing of it is linked.
+        Place::Alias => {
+            let alias = table.alias(found.row).ok_or(AbortCode::INTERNAL)?;
+            return alias_value(table, image, *alias, shared.size);
+        }
         Place::Application => return Err(AbortCode::UNSUPPORTED_ACCESS),
     };
     let at = found.offset();
@@ -40,16 +44,15 @@ fn string_value<'v>(bytes: &'v [u8], at: usize, shared: &Attributes) -> Result<V
 }
 
 #[inline(never)]
-fn alias_value<'v>(table: &Table<'_>, image: &[u8], row: Row) -> Result<Value<'v>, AbortCode> {
-    let alias = table.alias(row).ok_or(AbortCode::INTERNAL)?;
+fn alias_value<'v>(table: &Table<'_>, image: &[u8], alias: Alias, size: u16) -> Result<Value<'v>, AbortCode> {
     let target = table.found(alias.target);
     let number = number(target.shared.data_type, &value_of(table, image, target)?);
-    Ok(Value::computed(alias.view.show(number)?, table.attributes(row).size))
+    Ok(Value::computed(alias.view.show(number)?, size))
 }
 
 /// The present number of an entry, where it exists and has at most 32 bits.
 pub(crate) fn current(table: &Table<'_>, image: &[u8], index: u16, sub: u8) -> Option<u32> {
-    at_row(table, image, table.lookup(index, sub).ok()?)
+    at_row(table, image, table.search(index, sub).ok()?)
 }
 
 /// The present number of an entry, where it has at most 32 bits.

@@ -133,6 +133,12 @@ impl<'t> Table<'t> {
         self.find_sparse(first, sub)
     }
 
+    /// [`lookup`](Self::lookup) where it need not be fast: one function for all that call it.
+    #[inline(never)]
+    pub(crate) fn search(&self, index: u16, sub: u8) -> Result<Found<'t>, AbortCode> {
+        self.lookup(index, sub)
+    }
+
     /// [`lookup`](Self::lookup) of an entry that has some flags and is in an object without gaps, as almost every one is. Why another
     /// entry is not found is left to `lookup`.
     #[cfg(feature = "sdo-server")]

@@ -7,7 +7,9 @@
 A NAME picks a program from either folder. Nothing is skipped: what is missing on the machine is named.
 
 `sizes` has the sections of every program and what it links of the parts of core that make firmware
-large, with their callers. `sdo` is the SDO server of firmware-glue with the PMC. All
+large, with their callers. `sdo` is the SDO server of firmware-glue with the PMC, `services150`
+SDO, PDOs, NMT and heartbeat with 150 objects, `node150` and `node-pmc` whole nodes, the latter with
+everything there is; their flash beyond the vector table has a budget each. All
 other programs but `baseline` are one server of lookups, reads and checked
 writes (firmware/src/shared), over the PMC and over the model of tests/bench/runtime/scaled.py with
 10 (the fewest that it has), 150 and 2,000 objects, which the crate `scaled` generates when it is
@@ -31,7 +33,7 @@ The linker is rust-lld, which rustup brings with every toolchain, or arm-none-ea
 none. Sizes depend on these, so compare numbers of one toolchain only; `sizes` says which it was.
 
 The exit code is 0 when all went well, 1 when a build or a program failed or did not end in time,
-when a measured program can panic, or when an entry takes more flash than its target (of the scaled
+when a measured program can panic or is larger than its budget, or when an entry takes more flash than its target (of the scaled
 model in all, of the PMC for finding it), 3 when a tool is missing or the crates that the firmware
 uses cannot be fetched.
 """
@@ -68,6 +70,8 @@ SCALED = {10: "scaled10", 150: "scaled150", 2000: "scaled2000"}
 DEVICE = "pmc"  # a real device
 MODEL = ROOT / "tests" / "bench" / "runtime" / "scaled.py"
 FLASH_PER_ENTRY = 8  # target
+# Bytes of .text and .rodata, a little above what is measured: a change that costs more has to say so here.
+BUDGETS = {"services150": 23_000, "node150": 32_000, "node-pmc": 44_000, "sdo": 18_500}
 ENTRY_ROW = 4  # bytes of an item of ENTRIES
 PEER = "the best of the peers at 150 objects, in an earlier study", 69, 26  # flash per object, per entry
 
@@ -131,6 +135,10 @@ def main() -> int:
             elves = {name: Elf(program) for name, program in programs.items()}
             print(f"{toolchain.describe()}\n\n{table(elves)}\n\n{heavy(elves)}")
             faults = [f"{name} can panic" for name, elf in elves.items() if elf.named(HEAVY[PANICS])]
+            for name in BUDGETS.keys() & elves.keys():
+                size = elves[name].total([".text", ".rodata"])
+                if size > BUDGETS[name]:
+                    faults.append(f"{name} takes {size} bytes of flash, more than its budget of {BUDGETS[name]}")
             if set(SCALED.values()) <= set(elves):
                 text, fault = slopes({objects: elves[name] for objects, name in SCALED.items()})
                 print(f"\n{text}")

@@ -84,7 +84,8 @@ impl Download {
                 buffer.get_mut(from..to).ok_or(AbortCode::OUT_OF_MEMORY)?.copy_from_slice(data);
                 if last {
                     let value = buffer.get(..to).ok_or(AbortCode::INTERNAL)?;
-                    dictionary.write(index, sub, value, application)?;
+                    let found = writable(dictionary.table(), index, sub)?;
+                    write_row(dictionary, found, value, application)?;
                 }
             }
         }

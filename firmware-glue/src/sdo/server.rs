@@ -109,6 +109,16 @@ enum Phase {
     Ended,
 }
 
+/// An entry that may be read. One function for whoever is not in a hurry.
+#[inline(never)]
+fn find_to_upload<'t, D: Dictionary<'t>, A: Application<D>>(
+    EntryId { index, sub }: EntryId,
+    dictionary: &mut D,
+    application: &mut A,
+) -> Result<Found<'t>, AbortCode> {
+    readable(dictionary, index, sub, application)
+}
+
 /// Of an abort when no transfer goes on.
 const NO_ENTRY: EntryId = EntryId { index: 0, sub: 0 };
 
@@ -297,7 +307,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         match Request::decode(bytes) {
             Some(Request::Upload { id }) => {
                 self.transfer = Transfer::None;
-                Some(match readable(dictionary, id.index, id.sub, application) {
+                Some(match find_to_upload(id, dictionary, application) {
                     Ok(found) => self.begin_longer_upload(id, found, dictionary, application),
                     Err(code) => self.abort(id, code),
                 })

@@ -4,10 +4,10 @@ use super::super::block::{Receiver, Sender};
 use super::super::codec::{Answer, BlockSegment, Received, Request};
 use super::super::download::Download;
 use super::super::upload::Upload;
-use super::{Phase, SdoServer, Transfer};
+use super::{Phase, SdoServer, Transfer, find_to_upload};
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::dictionary::{Dictionary, readable};
+use crate::dictionary::Dictionary;
 use crate::id::EntryId;
 use crate::stored::value_of;
 
@@ -122,7 +122,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
     ) -> Result<[u8; 8], AbortCode> {
         let sender = Sender::new(block_size)?;
         self.transfer = Transfer::None;
-        let found = readable(dictionary, id.index, id.sub, application)?;
+        let found = find_to_upload(id, dictionary, application)?;
         let is_short = value_of(dictionary.table(), dictionary.image(), found)
             .is_ok_and(|value| value.len() <= usize::from(threshold));
         if threshold > 0 && is_short {

@@ -1,0 +1,13 @@
+//! A whole node with the scaled model of 150 objects: SDO server, PDOs, NMT, heartbeats sent and watched, guarding, emergencies, LSS.
+#![no_std]
+#![no_main]
+
+use thumb_scaled::scaled150::Controller as Device;
+
+/// Nothing is stored, nothing is asked.
+type Drive = ();
+
+const DRIVE: Drive = ();
+
+#[path = "../shared/node.rs"]
+mod program;

@@ -1,0 +1,95 @@
+//! A whole node with the PMC and everything that there is: parameters in a flash, LSS that keeps what it sets, errors by their code.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
+use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
+use firmware_glue::node::{NodeHandler, Reset};
+use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::storage::{ALL, Command, ParameterStore};
+use firmware_glue::{AbortCode, Application, Dictionary as _, NodeId};
+use od_generated::pmc::{Entry, Pmc as Device};
+
+/// A flash that is somewhere else.
+struct Flash;
+
+impl ErrorType for Flash {
+    type Error = NorFlashErrorKind;
+}
+
+impl ReadNorFlash for Flash {
+    const READ_SIZE: usize = 1;
+
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Self::Error> {
+        black_box((offset, bytes));
+        black_box(Ok(()))
+    }
+
+    fn capacity(&self) -> usize {
+        8192
+    }
+}
+
+impl NorFlash for Flash {
+    const WRITE_SIZE: usize = 8;
+    const ERASE_SIZE: usize = 4096;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Self::Error> {
+        black_box((from, to));
+        black_box(Ok(()))
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Self::Error> {
+        black_box((offset, bytes));
+        black_box(Ok(()))
+    }
+}
+
+/// What a drive does beside driving.
+struct Drive {
+    store: Option<ParameterStore<Flash, 64>>,
+}
+
+const DRIVE: Drive = Drive { store: None };
+
+impl Application<Device> for Drive {
+    fn is_unlocked(&self) -> bool {
+        black_box(false)
+    }
+
+    fn accept(&mut self, od: &mut Device, entry: Entry, _: &[u8]) -> Result<(), AbortCode> {
+        let Some(command) = Command::of(od.info(entry).id()) else { return Ok(()) };
+        let store = self.store.as_mut().ok_or(AbortCode::HARDWARE)?;
+        store.command(od, command).map(drop).map_err(AbortCode::from)
+    }
+}
+
+impl PdoHandler<Device> for Drive {}
+
+impl LssHandler for Drive {
+    fn has_bit_rate(&self, rate: BitRate) -> bool {
+        black_box(rate);
+        black_box(true)
+    }
+
+    fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
+        black_box((node, rate));
+        Reply::Done
+    }
+}
+
+impl NodeHandler<Device> for Drive {
+    fn restart(&mut self, od: &mut Device, node: NodeId, reset: Reset) {
+        if reset == Reset::Node {
+            self.store = ParameterStore::new(Flash, 0, 4096).ok();
+        }
+        if let Some(store) = &mut self.store {
+            store.load(od, node, &ALL);
+        }
+    }
+}
+
+#[path = "../shared/node.rs"]
+mod program;
