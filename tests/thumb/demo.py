@@ -4,13 +4,16 @@
     demo.py [--odgen target/debug/odgen]     build, measure, run in QEMU, check
     demo.py --run [PORT]                     build and run until Ctrl-C; the adapter is at tcp:127.0.0.1:3333
 
-The firmware is firmware-glue/examples/pitch-controller. The client knows it by the generated EDS alone and does to it what
+The firmware is firmware-glue/examples/pitch-controller, a PMC. The client knows it by the generated EDS alone and does to it what
 tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here stands what a virtual node has not: an axis that moves, a
-fault with its cause, parameters in a flash, a UART that hears nonsense.
+fault with its cause, parameters in a flash, a UART that hears nonsense. The programs of tests/thumb/node have the same drivers and the
+dictionaries of PMM and Fullmo drive, whose entries are tried in the same way.
 
-With --odgen, `odgen node` looks for the node, backs it up, compares, and restores it, too; and what the PMC has not is checked of a
-second program, tests/thumb/everything, whose EDS odgen makes: strings that can be written, DOMAINs, SYNC, LSS, nodes that it watches. The EDS readers have to be installed: it
-needs python-canopen, and is run with the Python of target/readers. Exit codes as those of run.py.
+With --odgen, `odgen node` looks for the demo firmware, backs it up, compares, and restores it, too; and what those devices have not is
+checked of one with everything, whose EDS odgen makes: strings that can be written, DOMAINs, SYNC, LSS, nodes that it watches.
+
+It needs python-canopen, which the tests of the EDS readers install: target/readers/venv/bin/python. `--run` does without. Exit codes as
+those of run.py.
 """
 
 from __future__ import annotations
@@ -35,17 +38,16 @@ sys.path.append(str(run.ROOT / "tests" / "readers"))
 if TYPE_CHECKING:
     from sdo_client import Check
 
-EVERYTHING, EVERYTHING_PROGRAM = run.HERE / "everything", "thumb-everything"
+NODES, EVERYTHING = run.HERE / "node", "everything"
 EVERYTHING_SPECIFICATION = run.ROOT / "tests" / "readers" / "everything.od.yaml"
 FIRMWARE = run.ROOT / "firmware-glue" / "examples" / "pitch-controller"
 PROGRAM = "pitch-controller"
 DEVICE = "pmc"
 SPECIFICATION = run.ROOT / "od-spec" / "devices" / "pitch-control-system.od.yaml"
-DUMP = run.ROOT / "generated" / "pitch-control-system.json"
-EDS = run.ROOT / "generated" / "eds" / f"{DEVICE}.eds"
+GENERATED, STEMS = run.ROOT / "generated", ["pitch-control-system", "fullmo-drive"]
 BOARD = ["-machine", "mps2-an386", "-nographic", "-monitor", "none"]
 HOST, PORT = "127.0.0.1", 3333
-FEWEST = 2900  # checks: fewer were not all
+FEWEST = 7000  # checks: fewer were not all
 
 
 class Board:
@@ -97,8 +99,8 @@ def main() -> int:
             return serve(Board(program, options.run))
         faults = measure(toolchain)
         _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
-        _, everything = run.build(toolchain, EVERYTHING)[EVERYTHING_PROGRAM]
-        return max(faults, check(program, everything, options.odgen))
+        others = {name: other for name, (_, other) in run.build(toolchain, NODES).items()}
+        return max(faults, check(program, others, options.odgen))
     except (run.Failed, run.Missing) as error:
         print(f"error: {error}", file=sys.stderr)
         return 3 if isinstance(error, run.Missing) else 1
@@ -152,15 +154,15 @@ class Tally:
         print(f"{what}: {done} tried, {right} right, {len(failures)} wrong, {seconds:.1f} s", flush=True)
 
 
-def check(program: Path, everything: Path, odgen: Path | None) -> int:
-    # `--run` does without python-canopen.
-    from demo_checks import check_axis, check_storage, check_text, check_writes
-    from everything_checks import check_everything
-    from virtual_node import Reached, check_device
+def check(program: Path, others: dict[str, Path], odgen: Path | None) -> int:
+    """The demo firmware, and the nodes of other devices."""
+    try:
+        from demo_checks import check_axis, check_storage, check_text, check_writes
+        from everything_checks import check_everything
+        from virtual_node import Reached, check_device
+    except ImportError as error:
+        raise run.Missing(f"{error.name} is not installed: run it with target/readers/venv/bin/python") from error
 
-    dump = json.loads(DUMP.read_text(encoding="utf-8"))
-    (device,) = (one for one in dump["devices"] if one["key"] == DEVICE)
-    types, entries = dump["types"], sum(len(one["entries"]) for one in device["objects"])
     tally = Tally()
 
     def client(what: str, part: Callable[[], Check]) -> None:
@@ -170,20 +172,30 @@ def check(program: Path, everything: Path, odgen: Path | None) -> int:
 
         tally.add(f"python-canopen and {what}", checked)
 
-    with running(program) as board:
-        address = board.address
-        client("the UART of the demo firmware", lambda: check_text(board.raw()))
-        client(f"its {entries} entries, states, blocks", lambda: check_device(Reached(address), EDS, device, types))
-        client("its limits", lambda: check_writes(address, EDS, device, types))
-        client("its axis, PDOs, heartbeat, emergencies", lambda: check_axis(address, EDS, device, types))
-        client("its flash", lambda: check_storage(address, EDS))
-        if odgen:
-            tally.add("odgen node and the demo firmware", lambda: check_odgen(odgen.resolve(), f"tcp:{address}"))
+    def entries(address: str, eds: Path, device: dict, types: list[dict]) -> None:
+        name, count = device["key"], sum(len(one["entries"]) for one in device["objects"])
+        client(f"{name}, {count} entries, states, blocks", lambda: check_device(Reached(address), eds, device, types))
+        client(f"{name}, limits", lambda: check_writes(address, eds, device, types))
+
+    dumps = [json.loads((GENERATED / f"{stem}.json").read_text(encoding="utf-8")) for stem in STEMS]
+    for device, types in [(device, dump["types"]) for dump in dumps for device in dump["devices"]]:
+        name = device["key"]
+        eds = GENERATED / "eds" / f"{name}.eds"
+        is_demo = name == DEVICE
+        with running(program if is_demo else others[name]) as board:
+            if is_demo:
+                client(f"{name}, UART", lambda: check_text(board.raw()))
+            entries(board.address, eds, device, types)
+            if is_demo:
+                client(f"{name}, axis, PDOs, heartbeat, emergencies", lambda: check_axis(board.address, eds, device, types))
+                client(f"{name}, flash", lambda: check_storage(board.address, eds))
+                if odgen:
+                    tally.add(f"odgen node and {name}", lambda: check_odgen(odgen.resolve(), f"tcp:{board.address}"))
     if odgen:
-        with tempfile.TemporaryDirectory() as folder, running(everything) as board:
+        with tempfile.TemporaryDirectory() as folder, running(others[EVERYTHING]) as board:
             command = [odgen.resolve(), "build", EVERYTHING_SPECIFICATION, "--out", folder]
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-            eds = Path(folder, "eds", "everything.eds")
+            eds = Path(folder, "eds", f"{EVERYTHING}.eds")
             client("strings, DOMAINs, SYNC, LSS", lambda: check_everything(board.address, eds))
         if tally.passed < FEWEST:
             print(f"error: {tally.passed} checks, expected at least {FEWEST}", file=sys.stderr)

@@ -47,8 +47,8 @@ def check_text(connection: socket.socket) -> Check:
     def expect(what: str, said: bytes, answer: bytes) -> None:
         connection.sendall(said)
         got = b""
-        while len(got) < len(answer):
-            got += connection.recv(4096)
+        while len(got) < len(answer) and (more := connection.recv(4096)):
+            got += more
         check.that(what, got, answer)
 
     with connection:

@@ -1,4 +1,4 @@
-"""What demo.py checks of the program `everything`: what the PMC of the demo firmware has not."""
+"""What demo.py checks of the device with everything: what the shipped ones have not."""
 
 from __future__ import annotations
 
