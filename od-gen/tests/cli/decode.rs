@@ -177,3 +177,40 @@ fn nodes_are_named_or_are_those_of_dcfs() {
     ];
     assert_snapshot!("decode-nodes", all.join("---\n"));
 }
+
+#[test]
+fn lines_of_an_adapter_are_told_as_they_come() {
+    let scratch = Scratch::new("decode-returns");
+    scratch.file("lamp.od.yaml", LAMP);
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_odgen"))
+        .args(["decode", "lamp.od.yaml", "--node", "5", "--format", "short"])
+        .current_dir(&scratch.0)
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let mut output = std::io::BufReader::new(child.stdout.take().unwrap());
+    // There is no line feed, and the pipe stays open.
+    for (line, told) in [
+        ("t705100\r", "705h  lamp (node 5)  boot-up\n"),
+        ("t705105\r\n", "705h  lamp (node 5)  heartbeat  operational\n"),
+        ("\n\rt7051", ""),
+        ("7F\r", "705h  lamp (node 5)  heartbeat  pre-operational\n"),
+    ] {
+        std::io::Write::write_all(&mut input, line.as_bytes()).unwrap();
+        let mut said = String::new();
+        if !told.is_empty() {
+            std::io::BufRead::read_line(&mut output, &mut said).unwrap();
+        }
+        assert_eq!(said, told);
+    }
+    // A line that nobody ends in time is wrong, and not kept.
+    let endless = [b"t705100 ".as_slice(), &vec![b'x'; 1 << 20], b"\rwhat\r"].concat();
+    std::io::Write::write_all(&mut input, &endless).unwrap();
+    drop(input);
+    let said = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
+    assert!(said.contains("<stdin>:6:1: error[OD0714]: expected a line of at most 4096 bytes"), "{said}");
+    assert!(said.contains("<stdin>:7:1: error[OD0714]"), "{said}");
+}

@@ -391,61 +391,6 @@ mod terminal {
     }
 }
 
-/// How long a client waits for an answer, at most, while something else goes on.
-fn longest_wait(client: &mut WithClient, during: impl FnOnce() -> bool + Send) -> Duration {
-    let mut longest = Duration::ZERO;
-    std::thread::scope(|scope| {
-        let other = scope.spawn(during);
-        while !other.is_finished() {
-            let asked = std::time::Instant::now();
-            client.ask("V\r", "V1010\r");
-            longest = longest.max(asked.elapsed());
-        }
-        assert!(other.join().unwrap());
-    });
-    longest
-}
-
-/// A lamp with four PDOs of eight bytes, sent with every SYNC.
-fn lamp_that_talks() -> String {
-    let mut lamp = LAMP.replace("[heartbeat producer]", "[heartbeat producer, sync consumer]");
-    let pdos = lamp.split_off(lamp.find("pdos:").unwrap());
-    drop(pdos);
-    lamp + "  0x2001: {name: much, type: unsigned64, access: ro, pdo: transmit}
-pdos:
-  lamp:
-    transmit:
-      1: {transmission: 1, map: [much]}
-      2: {transmission: 1, map: [much]}
-      3: {transmission: 1, map: [much]}
-      4: {transmission: 1, map: [much]}
-"
-}
-
-#[test]
-fn a_client_that_reads_nothing_holds_up_nobody() {
-    let scratch = Scratch::new("serve-deaf");
-    scratch.file("lamp.od.yaml", lamp_that_talks());
-    let ids: Vec<String> = (5..30).map(|id| id.to_string()).collect();
-    let mut arguments = vec!["lamp.od.yaml"];
-    arguments.extend(ids.iter().flat_map(|id| ["--node", id]));
-    let mut served = WithClient::of(Served::start(&scratch, &arguments, Stdio::null()));
-    let address = served.served.address().trim_start_matches("tcp:").to_owned();
-    let longest = longest_wait(&mut served, move || {
-        let mut deaf = TcpStream::connect(address).unwrap();
-        deaf.set_write_timeout(Some(Duration::from_secs(20))).unwrap();
-        deaf.write_all(b"O\rt00020100\r").unwrap();
-        // What the nodes say to it is more than anybody keeps for who does not take it: it is left in the end.
-        (0..8000).any(|number| {
-            if number > 6000 {
-                std::thread::sleep(Duration::from_millis(5));
-            }
-            deaf.write_all(b"t0800\r").is_err()
-        })
-    });
-    assert!(longest < Duration::from_millis(700), "{longest:?}");
-}
-
 #[test]
 fn nodes_that_answer_each_other_without_end_leave_room_for_clients() {
     let scratch = Scratch::new("serve-storm");

@@ -1,7 +1,7 @@
 //! `odgen decode`.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Write as _};
+use std::io::{BufRead, BufReader, ErrorKind, Write as _};
 use std::path::Path;
 
 use od_gen::trace::{BadLine, Decoder, Line, Node, Seen, read};
@@ -47,33 +47,38 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
     let (mut number, mut bad) = (0_usize, 0_usize);
     let mut out = std::io::stdout().lock();
     let mut bytes = Vec::new();
+    let mut lines = Lines::default();
     loop {
-        bytes.clear();
-        match from.read_until(b'\n', &mut bytes) {
-            Ok(0) => break,
-            Ok(_) => number += 1,
+        let length = match lines.next(&mut from, &mut bytes) {
+            Ok(None) => break,
+            Ok(Some(length)) => length,
             Err(error) => {
                 let message = format!("cannot read {name} behind line {number}: {error}");
                 return Err(report.refuse(Diagnostic::without_place(codes::UNREADABLE, message)));
             }
-        }
-        let text = String::from_utf8_lossy(&bytes);
-        // An SLCAN adapter ends its lines with a carriage return alone.
-        for line in text.split(['\r', '\n']) {
-            match read(line) {
-                Ok(Line::Empty) => {}
-                Ok(Line::Seen(Seen { head, what })) => {
-                    let head = head.join(" ");
-                    let between = if head.is_empty() { "" } else { "  " };
-                    let told = format!("{head}{between}{}\n", decoder.tell(&what));
-                    let written = out.write_all(printable(&told, false).as_bytes());
-                    written.and_then(|()| out.flush()).map_err(|error| not_printed(&error))?;
-                }
-                Err(fault) => {
-                    bad += 1;
-                    if bad <= SHOWN {
-                        complain(name, number, line, &fault, report);
-                    }
+        };
+        number += 1;
+        let line = &*String::from_utf8_lossy(&bytes);
+        let read = match length {
+            Length::Whole => read(line),
+            Length::Cut => Err(BadLine {
+                at: 0..line.len(),
+                expected: format!("a line of at most {LONGEST_LINE} bytes"),
+            }),
+        };
+        match read {
+            Ok(Line::Empty) => {}
+            Ok(Line::Seen(Seen { head, what })) => {
+                let head = head.join(" ");
+                let between = if head.is_empty() { "" } else { "  " };
+                let told = format!("{head}{between}{}\n", decoder.tell(&what));
+                let written = out.write_all(printable(&told, false).as_bytes());
+                written.and_then(|()| out.flush()).map_err(|error| not_printed(&error))?;
+            }
+            Err(fault) => {
+                bad += 1;
+                if bad <= SHOWN {
+                    complain(name, number, line, &fault, report);
                 }
             }
         }
@@ -82,6 +87,65 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
         report.note(&format!("{name}: {} more lines cannot be read", bad - SHOWN));
     }
     Ok(if bad > 0 { ERRORS } else { SUCCESS })
+}
+
+/// Lines that end with a line feed, with both, or, as those of an SLCAN adapter do, with a carriage return alone. One ends as soon as
+/// its end is there, also behind a pipe, and no more of it is kept than a line has.
+#[derive(Default)]
+struct Lines {
+    last: Last,
+}
+
+/// What the byte before was.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Last {
+    #[default]
+    Other,
+    Return,
+}
+
+/// Whether a line is there as it was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Length {
+    Whole,
+    Cut,
+}
+
+impl Lines {
+    /// The next line, without its end; `None` behind the last one.
+    fn next(&mut self, from: &mut impl BufRead, line: &mut Vec<u8>) -> std::io::Result<Option<Length>> {
+        line.clear();
+        let (mut length, mut is_begun) = (Length::Whole, false);
+        loop {
+            let bytes = match from.fill_buf() {
+                Ok(bytes) => bytes,
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => return Err(error),
+            };
+            let Some(first) = bytes.first() else { return Ok(is_begun.then_some(length)) };
+            if std::mem::take(&mut self.last) == Last::Return && *first == b'\n' {
+                from.consume(1);
+                continue;
+            }
+            is_begun = true;
+            let end = bytes.iter().position(|byte| matches!(byte, b'\r' | b'\n'));
+            let part = bytes.get(..end.unwrap_or(bytes.len())).unwrap_or_default();
+            let room = LONGEST_LINE.saturating_sub(line.len());
+            if part.len() > room {
+                length = Length::Cut;
+            }
+            line.extend(part.iter().take(room));
+            if let Some(end) = end {
+                if bytes.get(end) == Some(&b'\r') {
+                    self.last = Last::Return;
+                }
+                from.consume(end + 1);
+                return Ok(Some(length));
+            }
+            let all = bytes.len();
+            from.consume(all);
+        }
+    }
 }
 
 /// Shows a line that cannot be read. A trace may be endless, so that nobody keeps it: lines before this one stand empty.

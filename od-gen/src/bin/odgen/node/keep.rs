@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::client::{Bus, Client, involved, kept, plan, value};
+use od_gen::client::{AccessError, Bus, Client, involved, kept, plan, value};
 use od_gen::files::Existing;
 use od_gen::parameters::{About, ParameterText, write_all};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
@@ -15,6 +15,7 @@ use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, ru
 
 use super::super::args::{NodeBackupArgs, NodeFileArgs};
 use super::super::output::{forced, save};
+use super::super::progress::Progress;
 use super::super::report::{Report, print, shown};
 use super::super::settings::{ParameterFiles, parameter_files};
 use super::super::{DIFFERS, ERRORS, SUCCESS};
@@ -35,8 +36,22 @@ fn had<B: Bus>(
     ids: impl IntoIterator<Item = EntryId>,
     report: &Report,
 ) -> Result<Had, u8> {
+    let ids: Vec<EntryId> = ids.into_iter().collect();
+    let mut progress = Progress::new("read", "values", ids.len(), report.audience());
+    let had = had_of(client, target, &ids, &mut progress);
+    progress.clear();
+    had.map_err(|(id, error)| report.refuse(target.failed("read", id, &error)))
+}
+
+fn had_of<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    ids: &[EntryId],
+    progress: &mut Progress,
+) -> Result<Had, (EntryId, AccessError)> {
     let mut had = Had { values: ParameterValues::new(), untold: Vec::new() };
-    for id in ids {
+    for (at, id) in ids.iter().copied().enumerate() {
+        progress.show(at);
         let Some(entry) = target.device.entry(id) else { continue };
         match client.read(target.id, id) {
             Ok(bytes) => match value(entry, &bytes) {
@@ -51,7 +66,7 @@ fn had<B: Bus>(
                 None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
             },
             Err(error) if error.is_of_entry() => had.untold.push((id, error.to_string())),
-            Err(error) => return Err(report.refuse(target.failed("read", id, &error))),
+            Err(error) => return Err((id, error)),
         }
     }
     Ok(had)

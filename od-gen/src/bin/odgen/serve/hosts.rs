@@ -5,7 +5,7 @@
 use std::io::{ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, SyncSender, channel};
 use std::time::Duration;
 
@@ -202,13 +202,20 @@ impl Lines {
     }
 }
 
-/// What waits to be written to a host, by a thread of its own.
+/// What is written to a host, by a thread of its own.
 struct Outgoing {
-    waiting: Arc<AtomicUsize>,
-    /// Counts the hosts of a terminal: what was for one of before is not written any more.
-    turn: Arc<AtomicU64>,
-    to: Sender<(u64, Vec<u8>)>,
+    to: Sender<(Arc<Turn>, Vec<u8>)>,
+    turn: Arc<Turn>,
     fullness: Fullness,
+}
+
+/// The time of one host at a terminal; a connection has one only.
+#[derive(Default)]
+struct Turn {
+    /// Bytes that wait.
+    waiting: AtomicUsize,
+    /// What still waits then is for nobody.
+    is_over: AtomicBool,
 }
 
 /// Whether something could not wait any more.
@@ -220,29 +227,27 @@ enum Fullness {
 
 impl Outgoing {
     fn to(mut host: impl Write + Send + 'static) -> Self {
-        let (waiting, turn) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicU64::new(0)));
-        let (to, from) = channel::<(u64, Vec<u8>)>();
-        let (still, now) = (Arc::clone(&waiting), Arc::clone(&turn));
+        let (to, from) = channel::<(Arc<Turn>, Vec<u8>)>();
         std::thread::spawn(move || {
             for (turn, bytes) in from {
                 // One that cannot be written to has gone, and whoever reads from it says so.
-                if turn == now.load(Ordering::Relaxed) {
+                if !turn.is_over.load(Ordering::Relaxed) {
                     let _ = host.write_all(&bytes).and_then(|()| host.flush());
                 }
-                still.fetch_sub(bytes.len(), Ordering::Relaxed);
+                turn.waiting.fetch_sub(bytes.len(), Ordering::Relaxed);
             }
         });
-        Self { waiting, turn, to, fullness: Fullness::Room }
+        Self { to, turn: Arc::default(), fullness: Fullness::Room }
     }
 
     /// Lets bytes wait, if there is room.
     fn put(&mut self, bytes: &[u8]) {
-        if self.waiting.load(Ordering::Relaxed) + bytes.len() > MOST_WAITING {
+        if self.turn.waiting.load(Ordering::Relaxed) + bytes.len() > MOST_WAITING {
             self.fullness = Fullness::Full;
             return;
         }
-        self.waiting.fetch_add(bytes.len(), Ordering::Relaxed);
-        let _ = self.to.send((self.turn.load(Ordering::Relaxed), bytes.to_vec()));
+        self.turn.waiting.fetch_add(bytes.len(), Ordering::Relaxed);
+        let _ = self.to.send((Arc::clone(&self.turn), bytes.to_vec()));
     }
 
     const fn is_full(&self) -> bool {
@@ -250,7 +255,8 @@ impl Outgoing {
     }
 
     fn forget(&mut self) {
-        self.turn.fetch_add(1, Ordering::Relaxed);
+        self.turn.is_over.store(true, Ordering::Relaxed);
+        self.turn = Arc::default();
         self.fullness = Fullness::Room;
     }
 }
@@ -273,5 +279,64 @@ mod tests {
         assert_eq!(lines.take(b"t60"), []);
         lines.forget();
         assert_eq!(lines.take(b"V\r"), [Some("V".to_owned())]);
+    }
+
+    #[test]
+    fn a_client_that_takes_nothing_holds_up_nobody_and_is_left() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let mut deaf = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let (events, _incoming) = std::sync::mpsc::sync_channel(16);
+        let mut hosts = Hosts::default();
+        hosts.welcome(listener.accept().unwrap().0, &events);
+        assert_eq!(hosts.line(0, Some("O")), None);
+        let frame = firmware_glue::frame::CanId::new(0x181).and_then(|id| Frame::data(id, &[0; 8])).unwrap();
+        let mut longest = Duration::ZERO;
+        // More than any system keeps for a connection.
+        for _ in 0..4_000_000 {
+            let begin = std::time::Instant::now();
+            hosts.show(&frame, None, 0);
+            longest = longest.max(begin.elapsed());
+            if hosts.list.is_empty() {
+                break;
+            }
+        }
+        assert!(hosts.list.is_empty() && longest < Duration::from_millis(500), "{longest:?}");
+        // What it was sent before it can still have; then comes the end.
+        deaf.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+        let mut all = Vec::new();
+        assert!(deaf.read_to_end(&mut all).is_ok_and(|count| count > 0) || !all.is_empty());
+    }
+
+    #[test]
+    fn a_terminal_that_takes_nothing_loses_frames_and_begins_anew() {
+        /// Takes nothing until somebody lets it.
+        struct Stuck(std::sync::mpsc::Receiver<()>, Sender<Vec<u8>>);
+        impl Write for Stuck {
+            fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+                let _ = self.0.recv();
+                let _ = self.1.send(bytes.to_vec());
+                Ok(bytes.len())
+            }
+            fn flush(&mut self) -> std::io::Result<()> {
+                Ok(())
+            }
+        }
+        let (let_it, stuck) = channel();
+        let (wrote, written) = channel();
+        let mut hosts = Hosts::default();
+        let number = hosts.add_terminal(Stuck(stuck, wrote));
+        for _ in 0..MOST_WAITING / 4 {
+            hosts.line(number, Some("V"));
+        }
+        assert!(
+            hosts.list.iter().all(|host| host.outgoing.turn.waiting.load(Ordering::Relaxed) <= MOST_WAITING)
+        );
+        hosts.gone(number);
+        drop(let_it);
+        hosts.line(number, Some("N"));
+        // The first answer was on its way; those behind it were for somebody who has gone.
+        let seen: Vec<Vec<u8>> =
+            (0..2).map(|_| written.recv_timeout(Duration::from_secs(10)).unwrap()).collect();
+        assert_eq!(seen, [b"V1010\r".to_vec(), b"NODGE\r".to_vec()]);
     }
 }
