@@ -106,6 +106,7 @@ words! {
         "Wo das gedruckte Handbuch etwas anderes sagt als dieses Dokument, sich widerspricht oder schweigt, und warum dieses Dokument sagt, was es sagt.";
     Erratum "erratum": "Erratum", "Erratum";
     ErrorCodes "error_codes": "Error codes", "Fehlercodes";
+    ErrorRegister "error_register": "In 1001h", "In 1001h";
     Errors "errors": "Errors", "Fehler";
     ErrorsIntro "errors_intro":
         "From a code to its cause, to what the device does, to the bits that show it and to what resets it. A field that is empty is not stated.",

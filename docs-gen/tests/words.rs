@@ -30,7 +30,7 @@ impl Loader for Devices {
     }
 }
 
-/// What none of them has: views of every kind, and a manufacturer's storage group.
+/// What none of them has: views of every kind, a manufacturer's storage group, and stated bits of 1001h.
 const VIEWS: &str = "\
 od-spec: 1
 title: Views
@@ -49,6 +49,8 @@ objects:
   0x5002: {alias: 0x2000, name: rounded to zero, type: unsigned16, unit: volt, rounding: zero}
   0x5003: {alias: 0x2001, name: refused, type: integer16, outside: abort}
   0x5004: {alias: 0x2001, name: wrapped, type: integer16, outside: wrap}
+errors:
+  0x4210: {name: too hot, register: [temperature, manufacturer]}
 ";
 
 /// A device that saves all parameters together.

@@ -10,68 +10,12 @@
 use crate::clock::{Duration, Instant};
 use crate::cob_id::valid_id;
 use crate::dictionary::Dictionary;
+pub use crate::error_register::{DeviceError, ErrorRegister};
 use crate::frame::{CanId, Frame};
 use crate::node_id::NodeId;
 use crate::parameters::{Parameters, set};
 use crate::stored::at_row;
 use crate::table::Row;
-
-/// Kinds of errors, one bit each: 1001h (CiA 301 table 48).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ErrorRegister(u8);
-
-impl ErrorRegister {
-    /// No error.
-    pub const NONE: Self = Self(0);
-    /// Any error; set with every other.
-    pub const GENERIC: Self = Self(1 << 0);
-    /// Current.
-    pub const CURRENT: Self = Self(1 << 1);
-    /// Voltage.
-    pub const VOLTAGE: Self = Self(1 << 2);
-    /// Temperature.
-    pub const TEMPERATURE: Self = Self(1 << 3);
-    /// Communication: overrun, error state.
-    pub const COMMUNICATION: Self = Self(1 << 4);
-    /// What the device profile says.
-    pub const PROFILE: Self = Self(1 << 5);
-    /// What the manufacturer says.
-    pub const MANUFACTURER: Self = Self(1 << 7);
-
-    /// The bits of a number; the reserved bit 6 is left out.
-    #[must_use]
-    pub const fn from_bits(bits: u8) -> Self {
-        Self(bits & !(1 << 6))
-    }
-
-    /// The bits as a number.
-    #[must_use]
-    pub const fn bits(self) -> u8 {
-        self.0
-    }
-
-    /// These kinds and more.
-    #[must_use]
-    pub const fn with(self, more: Self) -> Self {
-        Self(self.0 | more.0)
-    }
-
-    /// The kind that an error code belongs to by its class (CiA 301 table 21), and the generic bit; none of an "error reset".
-    #[must_use]
-    pub const fn of_code(code: u16) -> Self {
-        let kind = match code >> 8 {
-            0x00 => return Self::NONE,
-            0x20..=0x2F => Self::CURRENT,
-            0x30..=0x3F => Self::VOLTAGE,
-            0x40..=0x4F => Self::TEMPERATURE,
-            0x81..=0x82 => Self::COMMUNICATION,
-            0xFF => Self::MANUFACTURER,
-            _ => Self::NONE,
-        };
-        kind.with(Self::GENERIC)
-    }
-}
 
 /// An error of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,6 +44,11 @@ impl Emergency {
     #[must_use]
     pub const fn new(code: u16) -> Self {
         Self { code, register: ErrorRegister::of_code(code), details: [0; 5] }
+    }
+
+    /// An error of the device, with the bits of 1001h that its specification says: `errors::ErrorCode` of generated code.
+    pub fn of<E: DeviceError>(error: E) -> Self {
+        Self::new(error.code()).with_register(error.register())
     }
 
     /// With other bits of 1001h than the class of its code says; the generic bit is always set.
@@ -137,7 +86,11 @@ impl Emergency {
     #[must_use]
     pub fn from_frame(frame: &Frame) -> Option<Self> {
         let [low, high, register, details @ ..] = <[u8; 8]>::try_from(frame.bytes()?).ok()?;
-        Some(Self { code: u16::from_le_bytes([low, high]), register: ErrorRegister(register), details })
+        Some(Self {
+            code: u16::from_le_bytes([low, high]),
+            register: ErrorRegister::received(register),
+            details,
+        })
     }
 }
 
@@ -163,7 +116,7 @@ impl Message {
     fn new(code: u16, register: ErrorRegister, details: [u8; 5]) -> Self {
         let mut bytes = [0; 8];
         let [low, high] = code.to_le_bytes();
-        for (byte, value) in bytes.iter_mut().zip([low, high, register.0].into_iter().chain(details)) {
+        for (byte, value) in bytes.iter_mut().zip([low, high, register.bits()].into_iter().chain(details)) {
             *byte = value;
         }
         Self(bytes)
@@ -240,7 +193,7 @@ impl<const N: usize> EmergencyProducer<N> {
 
     fn tell<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
         let register = self.register();
-        set(dictionary, 0x1001, 0, register.0.into());
+        set(dictionary, 0x1001, 0, register.bits().into());
         remember(dictionary, emergency);
         self.wait(Message::new(emergency.code, register, emergency.details));
     }
@@ -280,7 +233,7 @@ impl<const N: usize> EmergencyProducer<N> {
 
     fn reset_told<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) {
         let register = self.register();
-        set(dictionary, 0x1001, 0, register.0.into());
+        set(dictionary, 0x1001, 0, register.bits().into());
         self.wait(Message::new(0, register, [0; 5]));
     }
 

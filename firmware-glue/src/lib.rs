@@ -46,6 +46,7 @@ mod effect;
 #[cfg(feature = "node")]
 pub mod emcy;
 mod entries;
+pub mod error_register;
 mod fault;
 mod flags;
 pub mod frame;

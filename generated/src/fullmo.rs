@@ -5714,6 +5714,184 @@ pub mod errors {
 
     /// Kein Fullmo-Gerät. Das Gerät erkennt sich nicht als Fullmo-Gerät.
     pub const KEIN_FULLMO_GERAET: u16 = 0xFFFF;
+
+    /// An error that the device reports.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum ErrorCode {
+        /// Störung der Endstufe (Signal FLTA). Das Signal FLTA der Endstufe meldet einen Fehler.
+        StoerungDerEndstufeSignalFlta,
+        /// Zwischenkreisspannung zu hoch. Überspannung im Zwischenkreis.
+        ZwischenkreisspannungZuHoch,
+        /// Zwischenkreisspannung zu niedrig. Unterspannung im Zwischenkreis.
+        ZwischenkreisspannungZuNiedrig,
+        /// Störung der Endstufe. Die Endstufe meldet einen Fehler.
+        StoerungDerEndstufe,
+        /// Temperatur zu hoch. Eine Temperatur ist zu hoch.
+        TemperaturZuHoch,
+        /// I²t-Überlast. Die I²t-Überwachung hat ausgelöst.
+        I2tUeberlast,
+        /// 12-V-Spannung zu niedrig. Unterspannung der 12-V-Versorgung.
+        N12VSpannungZuNiedrig,
+        /// 24-V-Spannung zu niedrig. Unterspannung der 24-V-Versorgung.
+        N24VSpannungZuNiedrig,
+        /// 5-V-Spannung zu niedrig. Unterspannung der 5-V-Versorgung.
+        N5VSpannungZuNiedrig,
+        /// 12-V-Spannung zu hoch. Überspannung der 12-V-Versorgung.
+        N12VSpannungZuHoch,
+        /// 24-V-Spannung zu hoch. Überspannung der 24-V-Versorgung.
+        N24VSpannungZuHoch,
+        /// 5-V-Spannung zu hoch. Überspannung der 5-V-Versorgung.
+        N5VSpannungZuHoch,
+        /// Fehler der Hardwarefreigabe. Fehler am Freigabeeingang (hardware enable).
+        FehlerDerHardwarefreigabe,
+        /// EEPROM-Fehler. Fehler des nichtflüchtigen Speichers.
+        EepromFehler,
+        /// Bremswiderstand gestört. Fehler am Ballastwiderstand.
+        BremswiderstandGestoert,
+        /// Störung der Endstufe (Signal FLTB). Das Signal FLTB der Endstufe meldet einen Fehler.
+        StoerungDerEndstufeSignalFltb,
+        /// Motor blockiert. Die Blockfahrtüberwachung hat einen blockierten Motor erkannt; siehe auch die Einschränkung im Drehmomentbetrieb (5.1).
+        MotorBlockiert,
+        /// Gebersystem gestört. Fehler des Motorgebers.
+        GebersystemGestoert,
+        /// CAN-Kommunikation gestört. Fehler der CAN-Kommunikation.
+        CanKommunikationGestoert,
+        /// Bremse gestört. Fehler der Bremse.
+        BremseGestoert,
+        /// Kein Fullmo-Gerät. Das Gerät erkennt sich nicht als Fullmo-Gerät.
+        KeinFullmoGeraet,
+    }
+
+    impl ErrorCode {
+        /// All errors, by code.
+        pub const ALL: [Self; 21] = [
+            Self::StoerungDerEndstufeSignalFlta,
+            Self::ZwischenkreisspannungZuHoch,
+            Self::ZwischenkreisspannungZuNiedrig,
+            Self::StoerungDerEndstufe,
+            Self::TemperaturZuHoch,
+            Self::I2tUeberlast,
+            Self::N12VSpannungZuNiedrig,
+            Self::N24VSpannungZuNiedrig,
+            Self::N5VSpannungZuNiedrig,
+            Self::N12VSpannungZuHoch,
+            Self::N24VSpannungZuHoch,
+            Self::N5VSpannungZuHoch,
+            Self::FehlerDerHardwarefreigabe,
+            Self::EepromFehler,
+            Self::BremswiderstandGestoert,
+            Self::StoerungDerEndstufeSignalFltb,
+            Self::MotorBlockiert,
+            Self::GebersystemGestoert,
+            Self::CanKommunikationGestoert,
+            Self::BremseGestoert,
+            Self::KeinFullmoGeraet,
+        ];
+
+        /// The code.
+        pub const fn code(self) -> u16 {
+            match self {
+                Self::StoerungDerEndstufeSignalFlta => 0x2221,
+                Self::ZwischenkreisspannungZuHoch => 0x3211,
+                Self::ZwischenkreisspannungZuNiedrig => 0x3221,
+                Self::StoerungDerEndstufe => 0x3330,
+                Self::TemperaturZuHoch => 0x4210,
+                Self::I2tUeberlast => 0x4220,
+                Self::N12VSpannungZuNiedrig => 0x5111,
+                Self::N24VSpannungZuNiedrig => 0x5112,
+                Self::N5VSpannungZuNiedrig => 0x5113,
+                Self::N12VSpannungZuHoch => 0x5114,
+                Self::N24VSpannungZuHoch => 0x5115,
+                Self::N5VSpannungZuHoch => 0x5116,
+                Self::FehlerDerHardwarefreigabe => 0x5441,
+                Self::EepromFehler => 0x5530,
+                Self::BremswiderstandGestoert => 0x7111,
+                Self::StoerungDerEndstufeSignalFltb => 0x7113,
+                Self::MotorBlockiert => 0x7121,
+                Self::GebersystemGestoert => 0x7305,
+                Self::CanKommunikationGestoert => 0x8160,
+                Self::BremseGestoert => 0xFF01,
+                Self::KeinFullmoGeraet => 0xFFFF,
+            }
+        }
+
+        /// The error of a code, if the device has it.
+        pub const fn of(code: u16) -> Option<Self> {
+            match code {
+                0x2221 => Some(Self::StoerungDerEndstufeSignalFlta),
+                0x3211 => Some(Self::ZwischenkreisspannungZuHoch),
+                0x3221 => Some(Self::ZwischenkreisspannungZuNiedrig),
+                0x3330 => Some(Self::StoerungDerEndstufe),
+                0x4210 => Some(Self::TemperaturZuHoch),
+                0x4220 => Some(Self::I2tUeberlast),
+                0x5111 => Some(Self::N12VSpannungZuNiedrig),
+                0x5112 => Some(Self::N24VSpannungZuNiedrig),
+                0x5113 => Some(Self::N5VSpannungZuNiedrig),
+                0x5114 => Some(Self::N12VSpannungZuHoch),
+                0x5115 => Some(Self::N24VSpannungZuHoch),
+                0x5116 => Some(Self::N5VSpannungZuHoch),
+                0x5441 => Some(Self::FehlerDerHardwarefreigabe),
+                0x5530 => Some(Self::EepromFehler),
+                0x7111 => Some(Self::BremswiderstandGestoert),
+                0x7113 => Some(Self::StoerungDerEndstufeSignalFltb),
+                0x7121 => Some(Self::MotorBlockiert),
+                0x7305 => Some(Self::GebersystemGestoert),
+                0x8160 => Some(Self::CanKommunikationGestoert),
+                0xFF01 => Some(Self::BremseGestoert),
+                0xFFFF => Some(Self::KeinFullmoGeraet),
+                _ => None,
+            }
+        }
+
+        /// The name in the specification.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::StoerungDerEndstufeSignalFlta => {
+                    "Störung der Endstufe (Signal FLTA)"
+                }
+                Self::ZwischenkreisspannungZuHoch => "Zwischenkreisspannung zu hoch",
+                Self::ZwischenkreisspannungZuNiedrig => {
+                    "Zwischenkreisspannung zu niedrig"
+                }
+                Self::StoerungDerEndstufe => "Störung der Endstufe",
+                Self::TemperaturZuHoch => "Temperatur zu hoch",
+                Self::I2tUeberlast => "I²t-Überlast",
+                Self::N12VSpannungZuNiedrig => "12-V-Spannung zu niedrig",
+                Self::N24VSpannungZuNiedrig => "24-V-Spannung zu niedrig",
+                Self::N5VSpannungZuNiedrig => "5-V-Spannung zu niedrig",
+                Self::N12VSpannungZuHoch => "12-V-Spannung zu hoch",
+                Self::N24VSpannungZuHoch => "24-V-Spannung zu hoch",
+                Self::N5VSpannungZuHoch => "5-V-Spannung zu hoch",
+                Self::FehlerDerHardwarefreigabe => "Fehler der Hardwarefreigabe",
+                Self::EepromFehler => "EEPROM-Fehler",
+                Self::BremswiderstandGestoert => "Bremswiderstand gestört",
+                Self::StoerungDerEndstufeSignalFltb => {
+                    "Störung der Endstufe (Signal FLTB)"
+                }
+                Self::MotorBlockiert => "Motor blockiert",
+                Self::GebersystemGestoert => "Gebersystem gestört",
+                Self::CanKommunikationGestoert => "CAN-Kommunikation gestört",
+                Self::BremseGestoert => "Bremse gestört",
+                Self::KeinFullmoGeraet => "Kein Fullmo-Gerät",
+            }
+        }
+
+        /// The bits of 1001h that it sets: those that the specification states, or else that of its class.
+        pub const fn register(self) -> super::firmware::error_register::ErrorRegister {
+            super::firmware::error_register::ErrorRegister::of_code(self.code())
+        }
+    }
+
+    impl super::firmware::error_register::DeviceError for ErrorCode {
+        fn code(self) -> u16 {
+            self.code()
+        }
+
+        fn register(self) -> super::firmware::error_register::ErrorRegister {
+            self.register()
+        }
+    }
+    super::firmware::defmt_text!(ErrorCode);
 }
 
 /// Physical units: newtypes around raw values.

@@ -7168,6 +7168,300 @@ pub mod errors {
 
     /// Difference motor encoder – blade encoder too large.
     pub const DIFFERENCE_MOTOR_ENCODER_BLADE_ENCODER_TOO_LARGE: u16 = 0x8620;
+
+    /// An error that the device reports.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum ErrorCode {
+        /// Over current at controller output. The motor is switched off. Priority A.
+        OverCurrentAtControllerOutput,
+        /// Short circuit, or ground fault, motor side. The motor is switched off. Priority A.
+        ShortCircuitOrGroundFaultMotorSide,
+        /// Over voltage in the DC link, PMC. The motor is switched off. Priority A.
+        OverVoltageInTheDcLinkPmc,
+        /// Under voltage in the DC link. PMC as in Table 6; the PMM too when the link falls below dc-link voltage.minimal value (30FAh.3). The priority is that of the PMC. PMC: the motor is switched off. Priority B.
+        UnderVoltageInTheDcLink,
+        /// Unit temperature (heat sink) too high. On the PMM: warning or error limit of 3111h reached. The priority is that of the PMC. PMC: a warning of 30 s, then the motor is switched off. Priority B.
+        UnitTemperatureHeatSinkTooHigh,
+        /// Motor temperature too high. A warning of 30 s, then the motor is switched off. Priority B.
+        MotorTemperatureTooHigh,
+        /// Hardware error RAM.
+        HardwareErrorRam,
+        /// Error programming the EEPROM.
+        ErrorProgrammingTheEeprom,
+        /// Watchdog-Reset. The priority is that of the PMC. PMC: the motor is switched off, as a consequence of the reset. Priority A.
+        WatchdogReset,
+        /// Software trap, Firmware error. The motor is switched off. Priority A.
+        SoftwareTrapFirmwareError,
+        /// Wrong parameter. The axis takes no command. Priority B.
+        WrongParameter,
+        /// No power stage identifier. The axis takes no command. Priority B.
+        NoPowerStageIdentifier,
+        /// Encoder error (general).
+        EncoderErrorGeneral,
+        /// Encoder error (motor), sine/cosine. 605Eh chooses the reaction. Priority B.
+        EncoderErrorMotorSineCosine,
+        /// Encoder error (motor), data channel. 605Eh chooses the reaction. Priority B.
+        EncoderErrorMotorDataChannel,
+        /// 2nd Encoder error (blade encoder). 605Eh chooses the reaction. Priority B.
+        N2ndEncoderErrorBladeEncoder,
+        /// CAN communication, general.
+        CanCommunicationGeneral,
+        /// CAN overflow, telegrams lost.
+        CanOverflowTelegramsLost,
+        /// CAN in error passive.
+        CanInErrorPassive,
+        /// Heartbeat or Node guarding failed.
+        HeartbeatOrNodeGuardingFailed,
+        /// CAN was bus off.
+        CanWasBusOff,
+        /// MPDO target object not found.
+        MpdoTargetObjectNotFound,
+        /// Velocity controller, maximum speed frequency exceeded. The motor is switched off. Priority B.
+        VelocityControllerMaximumSpeedFrequencyExceeded,
+        /// following error too large. 605Eh chooses the reaction. Priority B.
+        FollowingErrorTooLarge,
+        /// Difference motor encoder – blade encoder too large.
+        DifferenceMotorEncoderBladeEncoderTooLarge,
+    }
+
+    impl ErrorCode {
+        /// All errors, by code.
+        pub const ALL: [Self; 25] = [
+            Self::OverCurrentAtControllerOutput,
+            Self::ShortCircuitOrGroundFaultMotorSide,
+            Self::OverVoltageInTheDcLinkPmc,
+            Self::UnderVoltageInTheDcLink,
+            Self::UnitTemperatureHeatSinkTooHigh,
+            Self::MotorTemperatureTooHigh,
+            Self::HardwareErrorRam,
+            Self::ErrorProgrammingTheEeprom,
+            Self::WatchdogReset,
+            Self::SoftwareTrapFirmwareError,
+            Self::WrongParameter,
+            Self::NoPowerStageIdentifier,
+            Self::EncoderErrorGeneral,
+            Self::EncoderErrorMotorSineCosine,
+            Self::EncoderErrorMotorDataChannel,
+            Self::N2ndEncoderErrorBladeEncoder,
+            Self::CanCommunicationGeneral,
+            Self::CanOverflowTelegramsLost,
+            Self::CanInErrorPassive,
+            Self::HeartbeatOrNodeGuardingFailed,
+            Self::CanWasBusOff,
+            Self::MpdoTargetObjectNotFound,
+            Self::VelocityControllerMaximumSpeedFrequencyExceeded,
+            Self::FollowingErrorTooLarge,
+            Self::DifferenceMotorEncoderBladeEncoderTooLarge,
+        ];
+
+        /// The code.
+        pub const fn code(self) -> u16 {
+            match self {
+                Self::OverCurrentAtControllerOutput => 0x2310,
+                Self::ShortCircuitOrGroundFaultMotorSide => 0x2320,
+                Self::OverVoltageInTheDcLinkPmc => 0x3210,
+                Self::UnderVoltageInTheDcLink => 0x3220,
+                Self::UnitTemperatureHeatSinkTooHigh => 0x4210,
+                Self::MotorTemperatureTooHigh => 0x4310,
+                Self::HardwareErrorRam => 0x5510,
+                Self::ErrorProgrammingTheEeprom => 0x5530,
+                Self::WatchdogReset => 0x6010,
+                Self::SoftwareTrapFirmwareError => 0x6080,
+                Self::WrongParameter => 0x6320,
+                Self::NoPowerStageIdentifier => 0x6380,
+                Self::EncoderErrorGeneral => 0x7300,
+                Self::EncoderErrorMotorSineCosine => 0x7305,
+                Self::EncoderErrorMotorDataChannel => 0x7320,
+                Self::N2ndEncoderErrorBladeEncoder => 0x7321,
+                Self::CanCommunicationGeneral => 0x8100,
+                Self::CanOverflowTelegramsLost => 0x8110,
+                Self::CanInErrorPassive => 0x8120,
+                Self::HeartbeatOrNodeGuardingFailed => 0x8130,
+                Self::CanWasBusOff => 0x8140,
+                Self::MpdoTargetObjectNotFound => 0x8230,
+                Self::VelocityControllerMaximumSpeedFrequencyExceeded => 0x8400,
+                Self::FollowingErrorTooLarge => 0x8611,
+                Self::DifferenceMotorEncoderBladeEncoderTooLarge => 0x8620,
+            }
+        }
+
+        /// The error of a code, if the device has it.
+        pub const fn of(code: u16) -> Option<Self> {
+            match code {
+                0x2310 => Some(Self::OverCurrentAtControllerOutput),
+                0x2320 => Some(Self::ShortCircuitOrGroundFaultMotorSide),
+                0x3210 => Some(Self::OverVoltageInTheDcLinkPmc),
+                0x3220 => Some(Self::UnderVoltageInTheDcLink),
+                0x4210 => Some(Self::UnitTemperatureHeatSinkTooHigh),
+                0x4310 => Some(Self::MotorTemperatureTooHigh),
+                0x5510 => Some(Self::HardwareErrorRam),
+                0x5530 => Some(Self::ErrorProgrammingTheEeprom),
+                0x6010 => Some(Self::WatchdogReset),
+                0x6080 => Some(Self::SoftwareTrapFirmwareError),
+                0x6320 => Some(Self::WrongParameter),
+                0x6380 => Some(Self::NoPowerStageIdentifier),
+                0x7300 => Some(Self::EncoderErrorGeneral),
+                0x7305 => Some(Self::EncoderErrorMotorSineCosine),
+                0x7320 => Some(Self::EncoderErrorMotorDataChannel),
+                0x7321 => Some(Self::N2ndEncoderErrorBladeEncoder),
+                0x8100 => Some(Self::CanCommunicationGeneral),
+                0x8110 => Some(Self::CanOverflowTelegramsLost),
+                0x8120 => Some(Self::CanInErrorPassive),
+                0x8130 => Some(Self::HeartbeatOrNodeGuardingFailed),
+                0x8140 => Some(Self::CanWasBusOff),
+                0x8230 => Some(Self::MpdoTargetObjectNotFound),
+                0x8400 => Some(Self::VelocityControllerMaximumSpeedFrequencyExceeded),
+                0x8611 => Some(Self::FollowingErrorTooLarge),
+                0x8620 => Some(Self::DifferenceMotorEncoderBladeEncoderTooLarge),
+                _ => None,
+            }
+        }
+
+        /// The name in the specification.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::OverCurrentAtControllerOutput => {
+                    "Over current at controller output"
+                }
+                Self::ShortCircuitOrGroundFaultMotorSide => {
+                    "Short circuit, or ground fault, motor side"
+                }
+                Self::OverVoltageInTheDcLinkPmc => "Over voltage in the DC link, PMC",
+                Self::UnderVoltageInTheDcLink => "Under voltage in the DC link",
+                Self::UnitTemperatureHeatSinkTooHigh => {
+                    "Unit temperature (heat sink) too high"
+                }
+                Self::MotorTemperatureTooHigh => "Motor temperature too high",
+                Self::HardwareErrorRam => "Hardware error RAM",
+                Self::ErrorProgrammingTheEeprom => "Error programming the EEPROM",
+                Self::WatchdogReset => "Watchdog-Reset",
+                Self::SoftwareTrapFirmwareError => "Software trap, Firmware error",
+                Self::WrongParameter => "Wrong parameter",
+                Self::NoPowerStageIdentifier => "No power stage identifier",
+                Self::EncoderErrorGeneral => "Encoder error (general)",
+                Self::EncoderErrorMotorSineCosine => "Encoder error (motor), sine/cosine",
+                Self::EncoderErrorMotorDataChannel => {
+                    "Encoder error (motor), data channel"
+                }
+                Self::N2ndEncoderErrorBladeEncoder => "2nd Encoder error (blade encoder)",
+                Self::CanCommunicationGeneral => "CAN communication, general",
+                Self::CanOverflowTelegramsLost => "CAN overflow, telegrams lost",
+                Self::CanInErrorPassive => "CAN in error passive",
+                Self::HeartbeatOrNodeGuardingFailed => {
+                    "Heartbeat or Node guarding failed"
+                }
+                Self::CanWasBusOff => "CAN was bus off",
+                Self::MpdoTargetObjectNotFound => "MPDO target object not found",
+                Self::VelocityControllerMaximumSpeedFrequencyExceeded => {
+                    "Velocity controller, maximum speed frequency exceeded"
+                }
+                Self::FollowingErrorTooLarge => "following error too large",
+                Self::DifferenceMotorEncoderBladeEncoderTooLarge => {
+                    "Difference motor encoder – blade encoder too large"
+                }
+            }
+        }
+
+        /// The bits of 1001h that it sets: those that the specification states, or else that of its class.
+        pub const fn register(self) -> super::firmware::error_register::ErrorRegister {
+            super::firmware::error_register::ErrorRegister::of_code(self.code())
+        }
+
+        /// The priority, where the specification states one.
+        pub const fn priority(self) -> Option<Priority> {
+            match self {
+                Self::OverCurrentAtControllerOutput
+                | Self::ShortCircuitOrGroundFaultMotorSide
+                | Self::OverVoltageInTheDcLinkPmc
+                | Self::WatchdogReset
+                | Self::SoftwareTrapFirmwareError => Some(Priority::A),
+                Self::UnderVoltageInTheDcLink
+                | Self::UnitTemperatureHeatSinkTooHigh
+                | Self::MotorTemperatureTooHigh
+                | Self::WrongParameter
+                | Self::NoPowerStageIdentifier
+                | Self::EncoderErrorMotorSineCosine
+                | Self::EncoderErrorMotorDataChannel
+                | Self::N2ndEncoderErrorBladeEncoder
+                | Self::VelocityControllerMaximumSpeedFrequencyExceeded
+                | Self::FollowingErrorTooLarge => Some(Priority::B),
+                _ => None,
+            }
+        }
+
+        /// What the device does, in the words of the specification, where it states that.
+        pub const fn reaction(self) -> Option<&'static str> {
+            match self {
+                Self::OverCurrentAtControllerOutput
+                | Self::ShortCircuitOrGroundFaultMotorSide
+                | Self::OverVoltageInTheDcLinkPmc
+                | Self::SoftwareTrapFirmwareError
+                | Self::VelocityControllerMaximumSpeedFrequencyExceeded => {
+                    Some("The motor is switched off.")
+                }
+                Self::UnderVoltageInTheDcLink => Some("PMC: the motor is switched off."),
+                Self::UnitTemperatureHeatSinkTooHigh => {
+                    Some("PMC: a warning of 30 s, then the motor is switched off.")
+                }
+                Self::MotorTemperatureTooHigh => {
+                    Some("A warning of 30 s, then the motor is switched off.")
+                }
+                Self::WatchdogReset => {
+                    Some(
+                        "PMC: the motor is switched off, as a consequence of the reset.",
+                    )
+                }
+                Self::WrongParameter | Self::NoPowerStageIdentifier => {
+                    Some("The axis takes no command.")
+                }
+                _ => None,
+            }
+        }
+
+        /// The entry whose value chooses the reaction, where there is one.
+        pub const fn option_code(self) -> Option<super::Entry> {
+            match self {
+                Self::EncoderErrorMotorSineCosine
+                | Self::EncoderErrorMotorDataChannel
+                | Self::N2ndEncoderErrorBladeEncoder
+                | Self::FollowingErrorTooLarge => {
+                    Some(super::Entry::FaultReactionOptionCode)
+                }
+                _ => None,
+            }
+        }
+    }
+
+    impl super::firmware::error_register::DeviceError for ErrorCode {
+        fn code(self) -> u16 {
+            self.code()
+        }
+
+        fn register(self) -> super::firmware::error_register::ErrorRegister {
+            self.register()
+        }
+    }
+    super::firmware::defmt_text!(ErrorCode);
+
+    /// How urgent an error is, in the classes of the specification. It does not say which is more urgent.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub enum Priority {
+        /// Priority A.
+        A,
+        /// Priority B.
+        B,
+    }
+
+    impl Priority {
+        /// The name in the specification.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::A => "A",
+                Self::B => "B",
+            }
+        }
+    }
+    super::firmware::defmt_text!(Priority);
 }
 
 /// Physical units: newtypes around raw values.

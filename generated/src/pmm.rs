@@ -6460,7 +6460,7 @@ pub mod errors {
     /// Over voltage in the DC link, PMM, booster. The DC link is above dc-link voltage.maximal value (30FAh.2).
     pub const OVER_VOLTAGE_IN_THE_DC_LINK_PMM_BOOSTER: u16 = 0x3211;
 
-    /// Under voltage in the DC link. PMC as in Table 6; the PMM too when the link falls below dc-link voltage.minimal value (30FAh.3). The priority is that of the PMC. PMC: the motor is switched off. Priority B.
+    /// Under voltage in the DC link. PMC as in Table 6; the PMM too when the link falls below dc-link voltage.minimal value (30FAh.3). The priority is that of the PMC.
     pub const UNDER_VOLTAGE_IN_THE_DC_LINK: u16 = 0x3220;
 
     /// DC link PMM-PMC interrupted.
@@ -6505,7 +6505,7 @@ pub mod errors {
     /// Temperature Sensor 2 too low. Below the lower limit of 3113h.
     pub const TEMPERATURE_SENSOR_2_TOO_LOW: u16 = 0x4121;
 
-    /// Unit temperature (heat sink) too high. On the PMM: warning or error limit of 3111h reached. The priority is that of the PMC. PMC: a warning of 30 s, then the motor is switched off. Priority B.
+    /// Unit temperature (heat sink) too high. On the PMM: warning or error limit of 3111h reached. The priority is that of the PMC.
     pub const UNIT_TEMPERATURE_HEAT_SINK_TOO_HIGH: u16 = 0x4210;
 
     /// Unit temperature (heat sink) too low. Below the lower limit of 3111h.
@@ -6535,7 +6535,7 @@ pub mod errors {
     /// Error programming the EEPROM.
     pub const ERROR_PROGRAMMING_THE_EEPROM: u16 = 0x5530;
 
-    /// Watchdog-Reset. The priority is that of the PMC. PMC: the motor is switched off, as a consequence of the reset. Priority A.
+    /// Watchdog-Reset. The priority is that of the PMC.
     pub const WATCHDOG_RESET: u16 = 0x6010;
 
     /// Analogue-Digital-Converter error.
@@ -6588,6 +6588,372 @@ pub mod errors {
 
     /// Fault input 8 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
     pub const FAULT_INPUT_8_ACTIVATED: u16 = 0xFFF8;
+
+    /// An error that the device reports.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum ErrorCode {
+        /// Over current 24V feed-in.
+        OverCurrent24vFeedIn,
+        /// Short circuit charger (fault output of the power stage).
+        ShortCircuitChargerFaultOutputOfThePowerStage,
+        /// Short circuit booster (fault output of the power stage).
+        ShortCircuitBoosterFaultOutputOfThePowerStage,
+        /// Grid over voltage.
+        GridOverVoltage,
+        /// Grid under voltage.
+        GridUnderVoltage,
+        /// Phase error.
+        PhaseError,
+        /// Over voltage in the DC link, PMM, booster. The DC link is above dc-link voltage.maximal value (30FAh.2).
+        OverVoltageInTheDcLinkPmmBooster,
+        /// Under voltage in the DC link. PMC as in Table 6; the PMM too when the link falls below dc-link voltage.minimal value (30FAh.3). The priority is that of the PMC.
+        UnderVoltageInTheDcLink,
+        /// DC link PMM-PMC interrupted.
+        DcLinkPmmPmcInterrupted,
+        /// Battery voltage too low.
+        BatteryVoltageTooLow,
+        /// Voltage at battery bloc 1 too low.
+        VoltageAtBatteryBloc1TooLow,
+        /// Voltage at battery bloc 2 too low.
+        VoltageAtBatteryBloc2TooLow,
+        /// Voltage at battery bloc 3 too low.
+        VoltageAtBatteryBloc3TooLow,
+        /// Voltage at battery bloc 4 too low.
+        VoltageAtBatteryBloc4TooLow,
+        /// Voltage at battery bloc 5 too low.
+        VoltageAtBatteryBloc5TooLow,
+        /// Voltage at battery bloc 6 too low.
+        VoltageAtBatteryBloc6TooLow,
+        /// Voltage at battery bloc 7 too low.
+        VoltageAtBatteryBloc7TooLow,
+        /// Voltage at battery bloc 8 too low.
+        VoltageAtBatteryBloc8TooLow,
+        /// Temperature Sensor 1 too high. Warning or error limit of 3112h reached.
+        TemperatureSensor1TooHigh,
+        /// Temperature Sensor 2 too high. Warning or error limit of 3113h reached.
+        TemperatureSensor2TooHigh,
+        /// Temperature Sensor 1 too low. Below the lower limit of 3112h.
+        TemperatureSensor1TooLow,
+        /// Temperature Sensor 2 too low. Below the lower limit of 3113h.
+        TemperatureSensor2TooLow,
+        /// Unit temperature (heat sink) too high. On the PMM: warning or error limit of 3111h reached. The priority is that of the PMC.
+        UnitTemperatureHeatSinkTooHigh,
+        /// Unit temperature (heat sink) too low. Below the lower limit of 3111h.
+        UnitTemperatureHeatSinkTooLow,
+        /// Battery temperature too high. Warning or error limit of 3110h reached.
+        BatteryTemperatureTooHigh,
+        /// Battery temperature too low. Below the lower limit of 3110h.
+        BatteryTemperatureTooLow,
+        /// Over voltage 24V feed-in.
+        OverVoltage24vFeedIn,
+        /// Under voltage 24V feed-in.
+        UnderVoltage24vFeedIn,
+        /// Error in power stage of supply controller.
+        ErrorInPowerStageOfSupplyController,
+        /// Chopper error (fault output power stage).
+        ChopperErrorFaultOutputPowerStage,
+        /// Hardware error RAM.
+        HardwareErrorRam,
+        /// Error programming the EEPROM.
+        ErrorProgrammingTheEeprom,
+        /// Watchdog-Reset. The priority is that of the PMC.
+        WatchdogReset,
+        /// Analogue-Digital-Converter error.
+        AnalogueDigitalConverterError,
+        /// Communication error RS485 interface.
+        CommunicationErrorRs485Interface,
+        /// Communication error battery interface.
+        CommunicationErrorBatteryInterface,
+        /// CAN communication, general.
+        CanCommunicationGeneral,
+        /// CAN overflow, telegrams lost.
+        CanOverflowTelegramsLost,
+        /// CAN in error passive.
+        CanInErrorPassive,
+        /// Heartbeat or Node guarding failed.
+        HeartbeatOrNodeGuardingFailed,
+        /// CAN was bus off.
+        CanWasBusOff,
+        /// MPDO target object not found.
+        MpdoTargetObjectNotFound,
+        /// Fault input 1 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput1Activated,
+        /// Fault input 2 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput2Activated,
+        /// Fault input 3 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput3Activated,
+        /// Fault input 4 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput4Activated,
+        /// Fault input 5 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput5Activated,
+        /// Fault input 6 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput6Activated,
+        /// Fault input 7 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput7Activated,
+        /// Fault input 8 activated. Raised by the input that alarm inputs (3300h) assigns to the code, as a fault or as a warning.
+        FaultInput8Activated,
+    }
+
+    impl ErrorCode {
+        /// All errors, by code.
+        pub const ALL: [Self; 50] = [
+            Self::OverCurrent24vFeedIn,
+            Self::ShortCircuitChargerFaultOutputOfThePowerStage,
+            Self::ShortCircuitBoosterFaultOutputOfThePowerStage,
+            Self::GridOverVoltage,
+            Self::GridUnderVoltage,
+            Self::PhaseError,
+            Self::OverVoltageInTheDcLinkPmmBooster,
+            Self::UnderVoltageInTheDcLink,
+            Self::DcLinkPmmPmcInterrupted,
+            Self::BatteryVoltageTooLow,
+            Self::VoltageAtBatteryBloc1TooLow,
+            Self::VoltageAtBatteryBloc2TooLow,
+            Self::VoltageAtBatteryBloc3TooLow,
+            Self::VoltageAtBatteryBloc4TooLow,
+            Self::VoltageAtBatteryBloc5TooLow,
+            Self::VoltageAtBatteryBloc6TooLow,
+            Self::VoltageAtBatteryBloc7TooLow,
+            Self::VoltageAtBatteryBloc8TooLow,
+            Self::TemperatureSensor1TooHigh,
+            Self::TemperatureSensor2TooHigh,
+            Self::TemperatureSensor1TooLow,
+            Self::TemperatureSensor2TooLow,
+            Self::UnitTemperatureHeatSinkTooHigh,
+            Self::UnitTemperatureHeatSinkTooLow,
+            Self::BatteryTemperatureTooHigh,
+            Self::BatteryTemperatureTooLow,
+            Self::OverVoltage24vFeedIn,
+            Self::UnderVoltage24vFeedIn,
+            Self::ErrorInPowerStageOfSupplyController,
+            Self::ChopperErrorFaultOutputPowerStage,
+            Self::HardwareErrorRam,
+            Self::ErrorProgrammingTheEeprom,
+            Self::WatchdogReset,
+            Self::AnalogueDigitalConverterError,
+            Self::CommunicationErrorRs485Interface,
+            Self::CommunicationErrorBatteryInterface,
+            Self::CanCommunicationGeneral,
+            Self::CanOverflowTelegramsLost,
+            Self::CanInErrorPassive,
+            Self::HeartbeatOrNodeGuardingFailed,
+            Self::CanWasBusOff,
+            Self::MpdoTargetObjectNotFound,
+            Self::FaultInput1Activated,
+            Self::FaultInput2Activated,
+            Self::FaultInput3Activated,
+            Self::FaultInput4Activated,
+            Self::FaultInput5Activated,
+            Self::FaultInput6Activated,
+            Self::FaultInput7Activated,
+            Self::FaultInput8Activated,
+        ];
+
+        /// The code.
+        pub const fn code(self) -> u16 {
+            match self {
+                Self::OverCurrent24vFeedIn => 0x2210,
+                Self::ShortCircuitChargerFaultOutputOfThePowerStage => 0x2250,
+                Self::ShortCircuitBoosterFaultOutputOfThePowerStage => 0x2260,
+                Self::GridOverVoltage => 0x3110,
+                Self::GridUnderVoltage => 0x3120,
+                Self::PhaseError => 0x3130,
+                Self::OverVoltageInTheDcLinkPmmBooster => 0x3211,
+                Self::UnderVoltageInTheDcLink => 0x3220,
+                Self::DcLinkPmmPmcInterrupted => 0x3221,
+                Self::BatteryVoltageTooLow => 0x3280,
+                Self::VoltageAtBatteryBloc1TooLow => 0x3281,
+                Self::VoltageAtBatteryBloc2TooLow => 0x3282,
+                Self::VoltageAtBatteryBloc3TooLow => 0x3283,
+                Self::VoltageAtBatteryBloc4TooLow => 0x3284,
+                Self::VoltageAtBatteryBloc5TooLow => 0x3285,
+                Self::VoltageAtBatteryBloc6TooLow => 0x3286,
+                Self::VoltageAtBatteryBloc7TooLow => 0x3287,
+                Self::VoltageAtBatteryBloc8TooLow => 0x3288,
+                Self::TemperatureSensor1TooHigh => 0x4110,
+                Self::TemperatureSensor2TooHigh => 0x4111,
+                Self::TemperatureSensor1TooLow => 0x4120,
+                Self::TemperatureSensor2TooLow => 0x4121,
+                Self::UnitTemperatureHeatSinkTooHigh => 0x4210,
+                Self::UnitTemperatureHeatSinkTooLow => 0x4220,
+                Self::BatteryTemperatureTooHigh => 0x4410,
+                Self::BatteryTemperatureTooLow => 0x4420,
+                Self::OverVoltage24vFeedIn => 0x5100,
+                Self::UnderVoltage24vFeedIn => 0x5112,
+                Self::ErrorInPowerStageOfSupplyController => 0x5120,
+                Self::ChopperErrorFaultOutputPowerStage => 0x5420,
+                Self::HardwareErrorRam => 0x5510,
+                Self::ErrorProgrammingTheEeprom => 0x5530,
+                Self::WatchdogReset => 0x6010,
+                Self::AnalogueDigitalConverterError => 0x6181,
+                Self::CommunicationErrorRs485Interface => 0x7510,
+                Self::CommunicationErrorBatteryInterface => 0x7520,
+                Self::CanCommunicationGeneral => 0x8100,
+                Self::CanOverflowTelegramsLost => 0x8110,
+                Self::CanInErrorPassive => 0x8120,
+                Self::HeartbeatOrNodeGuardingFailed => 0x8130,
+                Self::CanWasBusOff => 0x8140,
+                Self::MpdoTargetObjectNotFound => 0x8230,
+                Self::FaultInput1Activated => 0xFFF1,
+                Self::FaultInput2Activated => 0xFFF2,
+                Self::FaultInput3Activated => 0xFFF3,
+                Self::FaultInput4Activated => 0xFFF4,
+                Self::FaultInput5Activated => 0xFFF5,
+                Self::FaultInput6Activated => 0xFFF6,
+                Self::FaultInput7Activated => 0xFFF7,
+                Self::FaultInput8Activated => 0xFFF8,
+            }
+        }
+
+        /// The error of a code, if the device has it.
+        pub const fn of(code: u16) -> Option<Self> {
+            match code {
+                0x2210 => Some(Self::OverCurrent24vFeedIn),
+                0x2250 => Some(Self::ShortCircuitChargerFaultOutputOfThePowerStage),
+                0x2260 => Some(Self::ShortCircuitBoosterFaultOutputOfThePowerStage),
+                0x3110 => Some(Self::GridOverVoltage),
+                0x3120 => Some(Self::GridUnderVoltage),
+                0x3130 => Some(Self::PhaseError),
+                0x3211 => Some(Self::OverVoltageInTheDcLinkPmmBooster),
+                0x3220 => Some(Self::UnderVoltageInTheDcLink),
+                0x3221 => Some(Self::DcLinkPmmPmcInterrupted),
+                0x3280 => Some(Self::BatteryVoltageTooLow),
+                0x3281 => Some(Self::VoltageAtBatteryBloc1TooLow),
+                0x3282 => Some(Self::VoltageAtBatteryBloc2TooLow),
+                0x3283 => Some(Self::VoltageAtBatteryBloc3TooLow),
+                0x3284 => Some(Self::VoltageAtBatteryBloc4TooLow),
+                0x3285 => Some(Self::VoltageAtBatteryBloc5TooLow),
+                0x3286 => Some(Self::VoltageAtBatteryBloc6TooLow),
+                0x3287 => Some(Self::VoltageAtBatteryBloc7TooLow),
+                0x3288 => Some(Self::VoltageAtBatteryBloc8TooLow),
+                0x4110 => Some(Self::TemperatureSensor1TooHigh),
+                0x4111 => Some(Self::TemperatureSensor2TooHigh),
+                0x4120 => Some(Self::TemperatureSensor1TooLow),
+                0x4121 => Some(Self::TemperatureSensor2TooLow),
+                0x4210 => Some(Self::UnitTemperatureHeatSinkTooHigh),
+                0x4220 => Some(Self::UnitTemperatureHeatSinkTooLow),
+                0x4410 => Some(Self::BatteryTemperatureTooHigh),
+                0x4420 => Some(Self::BatteryTemperatureTooLow),
+                0x5100 => Some(Self::OverVoltage24vFeedIn),
+                0x5112 => Some(Self::UnderVoltage24vFeedIn),
+                0x5120 => Some(Self::ErrorInPowerStageOfSupplyController),
+                0x5420 => Some(Self::ChopperErrorFaultOutputPowerStage),
+                0x5510 => Some(Self::HardwareErrorRam),
+                0x5530 => Some(Self::ErrorProgrammingTheEeprom),
+                0x6010 => Some(Self::WatchdogReset),
+                0x6181 => Some(Self::AnalogueDigitalConverterError),
+                0x7510 => Some(Self::CommunicationErrorRs485Interface),
+                0x7520 => Some(Self::CommunicationErrorBatteryInterface),
+                0x8100 => Some(Self::CanCommunicationGeneral),
+                0x8110 => Some(Self::CanOverflowTelegramsLost),
+                0x8120 => Some(Self::CanInErrorPassive),
+                0x8130 => Some(Self::HeartbeatOrNodeGuardingFailed),
+                0x8140 => Some(Self::CanWasBusOff),
+                0x8230 => Some(Self::MpdoTargetObjectNotFound),
+                0xFFF1 => Some(Self::FaultInput1Activated),
+                0xFFF2 => Some(Self::FaultInput2Activated),
+                0xFFF3 => Some(Self::FaultInput3Activated),
+                0xFFF4 => Some(Self::FaultInput4Activated),
+                0xFFF5 => Some(Self::FaultInput5Activated),
+                0xFFF6 => Some(Self::FaultInput6Activated),
+                0xFFF7 => Some(Self::FaultInput7Activated),
+                0xFFF8 => Some(Self::FaultInput8Activated),
+                _ => None,
+            }
+        }
+
+        /// The name in the specification.
+        pub const fn name(self) -> &'static str {
+            match self {
+                Self::OverCurrent24vFeedIn => "Over current 24V feed-in",
+                Self::ShortCircuitChargerFaultOutputOfThePowerStage => {
+                    "Short circuit charger (fault output of the power stage)"
+                }
+                Self::ShortCircuitBoosterFaultOutputOfThePowerStage => {
+                    "Short circuit booster (fault output of the power stage)"
+                }
+                Self::GridOverVoltage => "Grid over voltage",
+                Self::GridUnderVoltage => "Grid under voltage",
+                Self::PhaseError => "Phase error",
+                Self::OverVoltageInTheDcLinkPmmBooster => {
+                    "Over voltage in the DC link, PMM, booster"
+                }
+                Self::UnderVoltageInTheDcLink => "Under voltage in the DC link",
+                Self::DcLinkPmmPmcInterrupted => "DC link PMM-PMC interrupted",
+                Self::BatteryVoltageTooLow => "Battery voltage too low",
+                Self::VoltageAtBatteryBloc1TooLow => "Voltage at battery bloc 1 too low",
+                Self::VoltageAtBatteryBloc2TooLow => "Voltage at battery bloc 2 too low",
+                Self::VoltageAtBatteryBloc3TooLow => "Voltage at battery bloc 3 too low",
+                Self::VoltageAtBatteryBloc4TooLow => "Voltage at battery bloc 4 too low",
+                Self::VoltageAtBatteryBloc5TooLow => "Voltage at battery bloc 5 too low",
+                Self::VoltageAtBatteryBloc6TooLow => "Voltage at battery bloc 6 too low",
+                Self::VoltageAtBatteryBloc7TooLow => "Voltage at battery bloc 7 too low",
+                Self::VoltageAtBatteryBloc8TooLow => "Voltage at battery bloc 8 too low",
+                Self::TemperatureSensor1TooHigh => "Temperature Sensor 1 too high",
+                Self::TemperatureSensor2TooHigh => "Temperature Sensor 2 too high",
+                Self::TemperatureSensor1TooLow => "Temperature Sensor 1 too low",
+                Self::TemperatureSensor2TooLow => "Temperature Sensor 2 too low",
+                Self::UnitTemperatureHeatSinkTooHigh => {
+                    "Unit temperature (heat sink) too high"
+                }
+                Self::UnitTemperatureHeatSinkTooLow => {
+                    "Unit temperature (heat sink) too low"
+                }
+                Self::BatteryTemperatureTooHigh => "Battery temperature too high",
+                Self::BatteryTemperatureTooLow => "Battery temperature too low",
+                Self::OverVoltage24vFeedIn => "Over voltage 24V feed-in",
+                Self::UnderVoltage24vFeedIn => "Under voltage 24V feed-in",
+                Self::ErrorInPowerStageOfSupplyController => {
+                    "Error in power stage of supply controller"
+                }
+                Self::ChopperErrorFaultOutputPowerStage => {
+                    "Chopper error (fault output power stage)"
+                }
+                Self::HardwareErrorRam => "Hardware error RAM",
+                Self::ErrorProgrammingTheEeprom => "Error programming the EEPROM",
+                Self::WatchdogReset => "Watchdog-Reset",
+                Self::AnalogueDigitalConverterError => "Analogue-Digital-Converter error",
+                Self::CommunicationErrorRs485Interface => {
+                    "Communication error RS485 interface"
+                }
+                Self::CommunicationErrorBatteryInterface => {
+                    "Communication error battery interface"
+                }
+                Self::CanCommunicationGeneral => "CAN communication, general",
+                Self::CanOverflowTelegramsLost => "CAN overflow, telegrams lost",
+                Self::CanInErrorPassive => "CAN in error passive",
+                Self::HeartbeatOrNodeGuardingFailed => {
+                    "Heartbeat or Node guarding failed"
+                }
+                Self::CanWasBusOff => "CAN was bus off",
+                Self::MpdoTargetObjectNotFound => "MPDO target object not found",
+                Self::FaultInput1Activated => "Fault input 1 activated",
+                Self::FaultInput2Activated => "Fault input 2 activated",
+                Self::FaultInput3Activated => "Fault input 3 activated",
+                Self::FaultInput4Activated => "Fault input 4 activated",
+                Self::FaultInput5Activated => "Fault input 5 activated",
+                Self::FaultInput6Activated => "Fault input 6 activated",
+                Self::FaultInput7Activated => "Fault input 7 activated",
+                Self::FaultInput8Activated => "Fault input 8 activated",
+            }
+        }
+
+        /// The bits of 1001h that it sets: those that the specification states, or else that of its class.
+        pub const fn register(self) -> super::firmware::error_register::ErrorRegister {
+            super::firmware::error_register::ErrorRegister::of_code(self.code())
+        }
+    }
+
+    impl super::firmware::error_register::DeviceError for ErrorCode {
+        fn code(self) -> u16 {
+            self.code()
+        }
+
+        fn register(self) -> super::firmware::error_register::ErrorRegister {
+            self.register()
+        }
+    }
+    super::firmware::defmt_text!(ErrorCode);
 }
 
 /// Physical units: newtypes around raw values.

@@ -47,8 +47,10 @@ impl Source<'_> {
                 columns = columns.with("device", device.key.to_uppercase(), Align::Center);
             }
         }
-        let columns =
-            columns.center(self, "priority", Word::Priority).left(self, "description", Word::Description);
+        let columns = columns
+            .center(self, "priority", Word::Priority)
+            .left(self, "register", Word::ErrorRegister)
+            .left(self, "description", Word::Description);
         let rows = self
             .wanted(codes)
             .map(|error| {
@@ -59,6 +61,7 @@ impl Source<'_> {
                     }));
                 }
                 cells.push(error.priority.as_ref().map_or_else(Cell::default, Cell::plain));
+                cells.push(self.register(error));
                 cells.push(self.text(&error.about));
                 Row::of(cells)
             })
@@ -98,6 +101,7 @@ impl Source<'_> {
                         error.priority.as_ref().map_or_else(Cell::default, Cell::plain),
                         self.reaction(error),
                         self.reported_by(error.code),
+                        self.register(error),
                         self.reset(error, &devices),
                         self.text(&error.about),
                     ])
@@ -111,6 +115,7 @@ impl Source<'_> {
             .center(self, "priority", Word::Priority)
             .left(self, "reaction", Word::Reaction)
             .left(self, "reported_by", Word::ReportedBy)
+            .left(self, "register", Word::ErrorRegister)
             .left(self, "reset", Word::ResetBy)
             .left(self, "description", Word::Description)
             .grid(rows, &["code", "name"])
@@ -148,6 +153,12 @@ impl Source<'_> {
         let is_missing = |key: &str| list.columns.iter().all(|column| column.key != key);
         let missing = columns.into_iter().filter(|(key, _)| is_missing(key));
         missing.map(|(_, word)| self.word(word)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The kinds of error that somebody says; what follows from the class of the code is no news.
+    fn register(&self, error: &ErrorCode) -> Cell {
+        let kinds = error.kinds.iter().map(|kind| self.wording.error_kind(*kind));
+        Cell::plain(kinds.collect::<Vec<_>>().join(", "))
     }
 
     /// What resets an error on these devices; where they differ, each is named.

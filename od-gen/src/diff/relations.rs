@@ -84,7 +84,15 @@ impl Systems<'_> {
         let reset = self.reset(before, after);
         let about = texts(&place, Fact::About, &before.about, &after.about, language);
         let found = name.into_iter().chain(priority).chain(reaction).chain(option_code);
-        let found = found.chain(reset).chain(about);
+        let kinds = |error: &ErrorCode| format!("0x{:02X}", error.register());
+        let register = Change::text(place.clone(), Fact::Register, &kinds(before), &kinds(after))
+            .map(|change| change.so(Class::Plc, "1001h and emergency messages tell another kind of error"));
+        let treats = |error: &ErrorCode, key: &str| error.treated_by.includes(key);
+        let treated = (treats(before, &self.devices.old.key), treats(after, &self.devices.new.key));
+        let yes_no = |is_it: bool| if is_it { "as stated" } else { "otherwise" };
+        let treated = Change::text(place.clone(), Fact::Reaction, yes_no(treated.0), yes_no(treated.1))
+            .map(|change| behaves(change, DOES_SOMETHING_ELSE).part("treated-by"));
+        let found = found.chain(register).chain(treated).chain(reset).chain(about);
         found.map(|change| change.named(&after.name)).collect()
     }
 

@@ -46,6 +46,7 @@
 //! | revision | any | addition | it says that something changed, and is raised for that |
 //! | error code | gone, added | plc, addition | a program waits for a code that never comes |
 //! | reaction, option code, priority and reset of an error, what shows it | any | behaviour | |
+//! | error register of an error | any | plc | |
 //! | state, command | gone or another pattern | plc | |
 //! | | added | behaviour, addition | a program meets a state that it does not know |
 //! | transition | gone or between other states, added | plc, behaviour | |

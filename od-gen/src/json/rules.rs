@@ -18,6 +18,10 @@ pub(super) struct ErrorView<'a> {
     reaction: Words<'a>,
     option_code: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    treated_by: Option<&'a [String]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    register: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     reset: Option<Words<'a>>,
     about: Words<'a>,
 }
@@ -30,6 +34,8 @@ pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
         priority: error.priority.as_deref(),
         reaction: words(&error.reaction),
         option_code: error.option_code.map(entry_id),
+        treated_by: (error.treated_by != error.devices).then(|| error.treated_by.keys()),
+        register: error.kinds.iter().map(|kind| kind.word()).collect(),
         reset: (!error.reset.is_empty()).then(|| words(&error.reset)),
         about: words(&error.about),
     }

@@ -67,6 +67,8 @@ pub(crate) struct Plan<'a> {
     pub conditions: Vec<Condition>,
     pub constraints: Vec<PlannedConstraint<'a>>,
     pub machines: Vec<PlannedMachine<'a>>,
+    /// Priorities of errors: name, and as they are written.
+    pub priorities: Vec<(String, String)>,
     /// Error codes of the device.
     pub errors: Vec<PlannedError<'a>>,
     rows: BTreeMap<EntryId, u16>,
@@ -315,6 +317,8 @@ pub(crate) struct PlannedMachine<'a> {
 /// An error code with a constant.
 pub(crate) struct PlannedError<'a> {
     pub name: String,
+    /// Its name as one of several.
+    pub variant: String,
     pub error: &'a ErrorCode,
 }
 
@@ -367,6 +371,7 @@ pub(crate) fn plan<'a>(
         conditions: Vec::new(),
         constraints: Vec::new(),
         machines: Vec::new(),
+        priorities: Vec::new(),
         errors: Vec::new(),
         rows,
         language,

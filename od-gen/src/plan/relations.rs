@@ -1,5 +1,7 @@
 //! What entries are together: PDOs, state machines, error codes and constraints.
 
+use std::collections::BTreeSet;
+
 use od_spec::diag::Diagnostics;
 use od_spec::expr::Expr;
 use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex, SystemSource};
@@ -115,14 +117,27 @@ impl Plan<'_> {
 
     pub(super) fn errors(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let mut scope = self.scope(ScopeKind::Errors);
+        let (mut scope, mut variants) = (self.scope(ScopeKind::Errors), self.scope(ScopeKind::Errors));
         for error in &system.errors {
             if error.devices.includes(&device.key) {
                 let name = self.identifier(Role::Constant, &error.name);
-                scope.claim(&name, &format!("error {:04X}h", error.code), device.span, diagnostics);
-                self.errors.push(PlannedError { name, error });
+                let what = format!("error {:04X}h", error.code);
+                scope.claim(&name, &what, device.span, diagnostics);
+                let variant = self.identifier(Role::Variant, &error.name);
+                variants.claim(&variant, &what, device.span, diagnostics);
+                self.errors.push(PlannedError { name, variant, error });
             }
         }
+        let treated = self.errors.iter().filter(|planned| planned.error.treated_by.includes(&device.key));
+        let priorities: BTreeSet<&String> =
+            treated.filter_map(|planned| planned.error.priority.as_ref()).collect();
+        let mut scope = self.scope(ScopeKind::Errors);
+        let priorities = priorities.into_iter().map(|priority| {
+            let variant = self.identifier(Role::Variant, priority);
+            scope.claim(&variant, &format!("priority `{priority}`"), device.span, diagnostics);
+            (variant, priority.clone())
+        });
+        self.priorities = priorities.collect();
     }
 
     pub(super) fn plan_constraints(&mut self, diagnostics: &mut Diagnostics) {

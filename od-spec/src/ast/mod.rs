@@ -15,8 +15,8 @@ use crate::keys::{
     vendor_keys,
 };
 use crate::model::{
-    Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, ErratumKind, Index, Outside,
-    ProseKind, Ratio, Rounding, Series, SubIndex, Text,
+    Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, ErratumKind, ErrorKind, Index,
+    Outside, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 

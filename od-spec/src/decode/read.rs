@@ -5,8 +5,8 @@ use crate::diag::Diagnostics;
 use crate::expr::Expr;
 use crate::keys::Keys;
 use crate::model::{
-    Access, AccessRight, BitPattern, ByDevice, Category, Date, DateTime, ErratumKind, Index, PdoMapping,
-    Ratio, Storage, Text,
+    Access, AccessRight, BitPattern, ByDevice, Category, Date, DateTime, ErratumKind, ErrorKind, Index,
+    PdoMapping, Ratio, Storage, Text,
 };
 use crate::name_pattern::NamePattern;
 use crate::scalar;
@@ -164,6 +164,7 @@ scalars! {
     Storage = Storage::from_word,
     Category = Category::from_word,
     ErratumKind = ErratumKind::from_word,
+    ErrorKind = ErrorKind::from_word,
     ByDevice = ByDevice::from_word,
     MappingKind = MappingKind::from_word,
     Ratio = lexical::positive_ratio,

@@ -152,6 +152,8 @@ codes! {
         "One value of the status entry would show two states at once."
     WRONG_TRANSITION Error "OD0612" "a transition whose cause cannot be":
         "`by-device:` says how the device makes a transition that nobody commands. The start has no other cause; a transition that is made by itself and leaves the state that it enters would never end; and one that the device never makes needs a command."
+    REGISTER_OF_NO_ERROR Error "OD0613" "bits of the error register without an error":
+        "Codes 00xxh say that an error is gone, or that there is none. The error register (1001h) has the bits of the errors that are present."
     CONSTRAINT_DEVICES Error "OD0607" "a constraint across devices":
         "No single device has all the entries that the condition names without a device. Write `device:` before them."
     UNITS_DIFFER Error "OD0610" "a comparison of different units":
@@ -236,6 +238,8 @@ codes! {
         "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
     FORMER_NAME Warning "OD0842" "a key under its former name":
         "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value; `tables:` of a section became `content:`, as texts stand there, too."
+    REGISTER_AGAINST_CLASS Warning "OD0845" "an error register against the class of the error":
+        "The first digits of an error code are its class (CiA 301 table 21): current, voltage, temperature, communication, or the manufacturer's own. Whoever reads the error register (1001h) expects the bit of that class. `register:` names other bits and not this one: add it, or give the error a code of the class that is meant."
     MACHINE_BESIDE_RUNS Warning "OD0850" "a machine beside the runs":
         "The site counts its machines in runs, and this number is in none of them: it makes one more machine. If one of the others was meant, correct the number; if there is such a machine, make a run longer, or write it as a run of its own, `17..17`."
         [Example::plant(

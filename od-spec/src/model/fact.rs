@@ -113,6 +113,8 @@ facts! {
     Reset = "reset",
     /// What entry chooses the reaction to an error.
     OptionCode = "option-code",
+    /// The bits of the error register that an error sets.
+    Register = "register",
     /// How urgent an error is.
     Priority = "priority",
     /// The languages of the texts.
@@ -158,6 +160,7 @@ impl Fact {
             | Self::PdoCount
             | Self::Node => true,
             Self::Meaning
+            | Self::Register
             | Self::Unit
             | Self::Special
             | Self::Storage

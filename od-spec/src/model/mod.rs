@@ -10,6 +10,7 @@ mod device;
 mod document;
 mod download;
 mod dynamic_channel;
+mod error_kind;
 mod fact;
 mod flow;
 mod held;
@@ -44,6 +45,7 @@ pub use document::{
 };
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;
+pub use error_kind::ErrorKind;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use flow::{Block, Flow, Inflow};
 pub(crate) use held::Held;
@@ -174,6 +176,10 @@ pub struct ErrorCode {
     pub option_code: Option<EntryId>,
     /// What resets it, where that is not what resets every error of a device; see [`ErrorCode::reset_on`].
     pub reset: Text,
+    /// The kinds of error that it is told as in 1001h, as far as somebody says it, ascending; see [`ErrorCode::register`].
+    pub kinds: Vec<ErrorKind>,
+    /// Devices that treat it as priority, reaction and option code say.
+    pub treated_by: Devices,
     /// More about it.
     pub about: Text,
 }
@@ -181,6 +187,21 @@ pub struct ErrorCode {
 impl ErrorCode {
     /// The code for "no error".
     pub const NONE: u16 = 0x0000;
+
+    /// Whether a code is of the class 00xxh, which says that an error is gone or that there is none (CiA 301 table 21).
+    pub const fn is_no_error(code: u16) -> bool {
+        code >> 8 == 0
+    }
+
+    /// The bits of 1001h that it sets: those that somebody says, or else that of its class; with any, the generic one.
+    pub fn register(&self) -> u8 {
+        if Self::is_no_error(self.code) {
+            return 0;
+        }
+        let of_class = ErrorKind::of_code(self.code);
+        let kinds = self.kinds.iter().copied().chain(of_class.filter(|_| self.kinds.is_empty()));
+        kinds.chain([ErrorKind::Generic]).fold(0, |bits, kind| bits | 1 << kind.bit())
+    }
 
     /// What resets the error on a device: what it says itself, or else what the device says of every error. Empty where nobody
     /// says it, and for the code that means that there is no error.

@@ -155,6 +155,7 @@ fn check_device_keys(root: &Spec, diagnostics: &mut Diagnostics) {
     let lists = [
         root.objects.iter().filter_map(|decl| decl.devices.as_ref()).collect::<Vec<_>>(),
         root.errors.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
+        root.errors.iter().filter_map(|decl| decl.treated_by.as_ref()).collect(),
         root.machines.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
         root.constraints.iter().filter_map(|decl| decl.devices.as_ref()).collect(),
         root.errata.iter().filter_map(|decl| decl.devices.as_ref()).collect(),

@@ -8,7 +8,7 @@ use super::types::words;
 use super::varied::Varied;
 use crate::ast::{CodeRange, ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Devices, EntryId, ErrorCode, Text};
+use crate::model::{Devices, EntryId, ErrorCode, ErrorKind, Text};
 use crate::source::Span;
 
 pub(super) fn resolve(
@@ -117,7 +117,54 @@ fn error(
         reaction: text(words(&decl.reaction), below.map(|below| words(&below.reaction))),
         // Entries are known when the devices are: `option_codes`.
         option_code: None,
+        kinds: kinds(decl, code, below, diagnostics),
+        treated_by: Devices::listed(
+            decl.treated_by
+                .as_ref()
+                .or(decl.devices.as_ref())
+                .into_iter()
+                .flatten()
+                .map(|key| key.value.as_str()),
+        ),
         reset: text(words(&decl.reset), below.map(|below| words(&below.reset))),
         about: text(words(&decl.about), below.map(|below| words(&below.about))),
     })
+}
+
+/// The kinds of error that are stated; those that cannot be are reported, once for a range.
+fn kinds(
+    decl: &ErrorDecl,
+    code: u16,
+    below: Option<&ErrorDecl>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<ErrorKind> {
+    let stated =
+        if decl.register.is_empty() { below.map(|below| &below.register) } else { Some(&decl.register) };
+    let mut kinds: Vec<ErrorKind> = stated.into_iter().flatten().map(|kind| kind.value).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let Some(first) = decl.register.first().filter(|_| code == decl.codes.value.first) else { return kinds };
+    if ErrorCode::is_no_error(code) {
+        diagnostics.push(
+            Diagnostic::new(
+                codes::REGISTER_OF_NO_ERROR,
+                first.span,
+                format!("{code:04X}h is no error, and sets no bit of the error register"),
+            )
+            .help("remove `register:`"),
+        );
+    }
+    if let Some(class) = ErrorKind::of_code(code).filter(|class| !kinds.contains(class)) {
+        let word = class.word();
+        diagnostics.push(
+            Diagnostic::new(
+                codes::REGISTER_AGAINST_CLASS,
+                first.span,
+                format!("{code:04X}h is an error of the class `{word}`, and its bits in 1001h are others"),
+            )
+            .with(decl.codes.span, "the class is in the code")
+            .help(format!("add `{word}`, or give the error a code of another class")),
+        );
+    }
+    kinds
 }

@@ -2,8 +2,8 @@
 
 use super::{Language, Notation, Word, Wording};
 use crate::model::{
-    Access, Alias, Category, Departure, Dictionary, Entry, EntryId, ErratumKind, Fact, Index, Outside, Part,
-    PdoMapping, Ratio, Rounding, Storage, SubIndex,
+    Access, Alias, Category, Departure, Dictionary, Entry, EntryId, ErratumKind, ErrorKind, Fact, Index,
+    Outside, Part, PdoMapping, Ratio, Rounding, Storage, SubIndex,
 };
 
 impl Wording {
@@ -163,6 +163,7 @@ impl Wording {
                 Fact::Shown => "angezeigt durch",
                 Fact::Reset => "Rücksetzen",
                 Fact::OptionCode => "wählt die Reaktion",
+                Fact::Register => "Fehlerregister",
                 Fact::Priority => "Priorität",
                 Fact::Languages => "Sprachen",
                 Fact::Document => "Dokument",
@@ -188,6 +189,20 @@ impl Wording {
             (Language::German, Part::Entries { first, last }) => {
                 format!("Subindizes {first} bis {last}: {fact}")
             }
+        }
+    }
+
+    /// A kind of error, as a bit of the error register.
+    pub const fn error_kind(self, kind: ErrorKind) -> &'static str {
+        match (self.language, kind) {
+            (Language::English, kind) => kind.word(),
+            (Language::German, ErrorKind::Generic) => "allgemein",
+            (Language::German, ErrorKind::Current) => "Strom",
+            (Language::German, ErrorKind::Voltage) => "Spannung",
+            (Language::German, ErrorKind::Temperature) => "Temperatur",
+            (Language::German, ErrorKind::Communication) => "Kommunikation",
+            (Language::German, ErrorKind::Profile) => "Geräteprofil",
+            (Language::German, ErrorKind::Manufacturer) => "Hersteller",
         }
     }
 

@@ -125,9 +125,12 @@ impl Plan<'_> {
             parts.push(quote!(Self::#variant => (#mask, #value),));
             names.push(quote!(Self::#variant => #text,));
         }
-        if edges.len() < parts.len() {
-            edges.push(quote!(_ => (0, 0),));
-        }
+        let edges = if edges.is_empty() {
+            quote!((0, 0))
+        } else {
+            let rest = (edges.len() < parts.len()).then(|| quote!(_ => (0, 0),));
+            quote!(match self { #(#edges)* #rest })
+        };
         let methods = self.command_methods(command, &parts, &edges);
         let count = Literal::usize_unsuffixed(all.len());
         let caused = (!machine.transitions.is_empty()).then(|| {
@@ -172,7 +175,7 @@ impl Plan<'_> {
         &self,
         command: &PlannedEntry<'_>,
         parts: &[TokenStream],
-        edges: &[TokenStream],
+        edges: &TokenStream,
     ) -> TokenStream {
         let (word_type, word) = self.word(command);
         let kind = word_kind(command);
@@ -209,9 +212,7 @@ impl Plan<'_> {
 
             /// The bits of the word that have to rise for the command, and those that have to fall.
             pub const fn edges(self) -> (#raw, #raw) {
-                match self {
-                    #(#edges)*
-                }
+                #edges
             }
 
             /// Whether the word gives the command after the word before, from which edges are seen.
@@ -264,7 +265,7 @@ impl Plan<'_> {
         if self.errors.is_empty() {
             return quote!();
         }
-        let constants = self.errors.iter().map(|PlannedError { name, error }| {
+        let constants = self.errors.iter().map(|PlannedError { name, error, .. }| {
             let (about, name) = (doc(&self.error_doc(error)), format_ident!("{name}"));
             let code = hex(error.code.into(), 4);
             quote!(#about pub const #name: u16 = #code;)
@@ -286,31 +287,37 @@ impl Plan<'_> {
             about.insert(3, String::new());
         }
         let about = about.iter().map(|line| doc(line));
+        let error_type = self.error_type();
         quote! {
             #(#about)*
             #[allow(dead_code, unreachable_pub)]
             pub mod errors {
                 #(#constants)*
+
+                #error_type
             }
         }
     }
 
-    fn error_doc(&self, error: &ErrorCode) -> String {
+    pub(super) fn error_doc(&self, error: &ErrorCode) -> String {
+        let is_treated = self.treats(error);
         let mut rest = String::new();
-        for text in [self.words(&error.about), self.words(&error.reaction)] {
+        let reaction = Some(&error.reaction).filter(|_| is_treated);
+        for text in [Some(&error.about), reaction].into_iter().flatten().map(|text| self.words(text)) {
             if !text.is_empty() {
                 rest.push(' ');
                 rest.push_str(&text);
             }
         }
-        if let Some(id) = error.option_code {
+        if let Some(id) = error.option_code.filter(|_| is_treated) {
             let _ = write!(rest, " {id} chooses the reaction.");
         }
         let reset = self.words(&error.reset);
         if !reset.is_empty() {
             let _ = write!(rest, " Reset by: {reset}");
         }
-        let priority = error.priority.as_ref().map(|priority| format!(" Priority {}.", escape(priority)));
+        let priority = error.priority.as_ref().filter(|_| is_treated);
+        let priority = priority.map(|priority| format!(" Priority {}.", escape(priority)));
         format!("{}.{rest}{}", escape(error.name.trim_end_matches('.')), priority.unwrap_or_default())
     }
 }

@@ -3,6 +3,7 @@
 mod accessors;
 mod attributes;
 mod docs;
+mod errors;
 mod glue;
 mod literal;
 mod machines;

@@ -142,6 +142,29 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "an error is told as another kind, too",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage,",
+        replace: "  0x3120: {register: [voltage, manufacturer], name: Grid under voltage,",
+        expected: &["pmm: ~ error 3120h Grid under voltage: register: 0x05 -> 0x85 [plc]"],
+    },
+    Case {
+        name: "an error is told as the kind of its class",
+        at: "errors:",
+        find: "  0x3120: {name: Grid under voltage,",
+        replace: "  0x3120: {register: voltage, name: Grid under voltage,",
+        expected: &[],
+    },
+    Case {
+        name: "another device treats an error",
+        at: "errors:",
+        find: "    treated-by: pmc\n    priority: A",
+        replace: "    priority: A",
+        expected: &[
+            "pmm: ~ error 6010h Watchdog-Reset, treated-by: reaction: otherwise -> as stated [behaviour]",
+        ],
+    },
+    Case {
         name: "a priority comes",
         at: "errors:",
         find: "  0x3120: {name: Grid under voltage,",
