@@ -54,9 +54,9 @@ pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> P
 }
 
 /// The same with all values, also those that are the defaults: what a node has is written down whole. In which state it accepted them is not
-/// asked: who gives them back finds most of them there. A bit rate of 0 is not known, and not said.
+/// asked, as who gives them back finds most of them there, nor whether a line of a DCF could hold them. A bit rate of 0 is not known, and not said.
 pub fn write_all(about: About<'_>, node: Commissioning, left_out: Vec<String>) -> ParameterText {
-    written(about, node, left_out, &[rule_codes::NOT_NOW])
+    written(about, node, left_out, &[rule_codes::NOT_NOW, rule_codes::NOT_FOR_EDS])
 }
 
 /// The parameter file of all values of a node; what is found about them by the rules with these codes is not said.

@@ -38,11 +38,22 @@ pub enum AccessError {
 }
 
 impl AccessError {
-    /// Whether the next access to the node is worth a try.
+    /// Whether it is about the entry: the next access to the node is worth a try. A node that refuses a transfer because of its frames says
+    /// nothing about the entry; some of them were lost, or came twice.
     pub const fn is_of_entry(&self) -> bool {
         match self {
+            Self::Refused(
+                AbortCode::TOGGLE_BIT
+                | AbortCode::TIMEOUT
+                | AbortCode::COMMAND
+                | AbortCode::BLOCK_SIZE
+                | AbortCode::SEQUENCE
+                | AbortCode::CRC,
+            )
+            | Self::Silent
+            | Self::Wrong(_)
+            | Self::Bus(_) => false,
             Self::Refused(_) => true,
-            Self::Silent | Self::Wrong(_) | Self::Bus(_) => false,
         }
     }
 }

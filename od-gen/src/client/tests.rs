@@ -105,6 +105,10 @@ fn refusals_and_silence_are_told_apart() {
         let silent = client.read(7, id(0x2000)).unwrap_err();
         assert!(matches!(silent, AccessError::Silent), "{silent}");
         assert!(!silent.is_of_entry());
+        // A frame that came twice is no word about the entry.
+        let confused = [AbortCode::TOGGLE_BIT, AbortCode::COMMAND, AbortCode::SEQUENCE, AbortCode::CRC];
+        assert!(confused.into_iter().all(|code| !AccessError::Refused(code).is_of_entry()));
+        assert!(AccessError::Refused(AbortCode::OUT_OF_MEMORY).is_of_entry());
     });
 }
 

@@ -34,6 +34,10 @@ pub(super) struct Host {
     checks: Checks,
     /// In kbit/s, as LSS can switch between them.
     bit_rates: Vec<u16>,
+    /// DOMAINs that were written to.
+    domains: BTreeMap<EntryId, Vec<u8>>,
+    /// The DOMAIN that is being written, which takes the place of the old one when it is whole.
+    coming: Option<(EntryId, Vec<u8>)>,
 }
 
 /// Values of a storage group.
@@ -43,6 +47,9 @@ struct Stored {
     node: Option<NodeId>,
     bytes: Vec<u8>,
 }
+
+/// No DOMAIN is longer: what clients send is kept in memory.
+const LONGEST_DOMAIN: usize = 16 << 20;
 
 impl Host {
     pub(super) fn new(dictionary: &LiveDictionary<'_>) -> Self {
@@ -55,6 +62,8 @@ impl Host {
             has_restarted: false,
             checks,
             bit_rates,
+            domains: BTreeMap::new(),
+            coming: None,
         }
     }
 
@@ -104,6 +113,50 @@ impl Application<LiveDictionary<'_>> for Host {
 
     fn changed(&mut self, _: &mut LiveDictionary<'_>, entry: EntryId) {
         self.changed.push(entry);
+    }
+
+    /// A DOMAIN has what was written to it last, and nothing before.
+    fn read_domain(
+        &mut self,
+        _: &mut LiveDictionary<'_>,
+        entry: EntryId,
+        offset: u32,
+        buffer: &mut [u8],
+    ) -> Result<usize, AbortCode> {
+        let whole = self.domains.get(&entry).ok_or(AbortCode::NO_DATA)?;
+        let rest = usize::try_from(offset).ok().and_then(|offset| whole.get(offset..)).unwrap_or_default();
+        let count = rest.len().min(buffer.len());
+        if let (Some(to), Some(from)) = (buffer.get_mut(..count), rest.get(..count)) {
+            to.copy_from_slice(from);
+        }
+        Ok(count)
+    }
+
+    fn write_domain(
+        &mut self,
+        _: &mut LiveDictionary<'_>,
+        entry: EntryId,
+        offset: u32,
+        data: &[u8],
+        last: bool,
+    ) -> Result<(), AbortCode> {
+        let (of, mut whole) = match self.coming.take() {
+            Some(coming) if offset > 0 => coming,
+            _ => (entry, Vec::new()),
+        };
+        if of != entry || usize::try_from(offset) != Ok(whole.len()) {
+            return Err(AbortCode::NOT_STORED);
+        }
+        if whole.len() + data.len() > LONGEST_DOMAIN {
+            return Err(AbortCode::OUT_OF_MEMORY);
+        }
+        whole.extend(data);
+        if last {
+            self.domains.insert(entry, whole);
+        } else {
+            self.coming = Some((entry, whole));
+        }
+        Ok(())
     }
 }
 

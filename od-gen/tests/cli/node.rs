@@ -293,3 +293,19 @@ fn what_a_node_has_already_is_no_warning() {
     ];
     assert_snapshot!("node-not-now", said.concat());
 }
+
+/// What a line of a DCF cannot hold, a bus carries.
+#[test]
+fn a_text_that_no_dcf_holds_is_kept_and_given_back() {
+    let wide = HEATER.replace("capacity: 20", "capacity: 400");
+    let bus = Bus::of("node-texts", "heater.od.yaml", &wide);
+    let long = format!("place=a; b = c # {}", "d".repeat(300));
+    let said = [
+        bus.node("write", &[&long]),
+        bus.node("backup", &["--out", "heater.yaml"]),
+        bus.node("write", &["place=roof"]),
+        bus.node("restore", &["heater.yaml"]),
+        bus.node("compare", &["heater.yaml"]),
+    ];
+    assert_snapshot!("node-texts", said.concat());
+}

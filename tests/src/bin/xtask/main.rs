@@ -14,6 +14,7 @@ mod readers;
 mod runner;
 mod summary;
 mod tools;
+mod virtual_nodes;
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;

@@ -12,6 +12,7 @@ use od_tests::{Failure, compile_clean, compile_with_sources, root};
 
 use crate::configured::{CONFIGURED, write_configured};
 use crate::runner::Runner;
+use crate::virtual_nodes;
 
 /// Where the readers are installed.
 const VENV: &str = "target/readers/venv";
@@ -171,7 +172,7 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
     let specs = SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"));
     let virtual_pdo = ["tests/readers/virtual_pdo.py", "tests/readers/everything.od.yaml"];
     runner.run(Command::new(&python).args(virtual_pdo).args(specs).arg("--odgen").arg(&odgen))?;
-    runner.run(Command::new(&python).args(["tests/readers/readme_turbine.py", "--odgen"]).arg(&odgen))?;
+    virtual_nodes::prove(runner, &python, &odgen)?;
     let client = std::env::current_exe()?.with_file_name("sdo-client");
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
     runner.run(Command::new(&python).args(arguments).arg(&client))?;

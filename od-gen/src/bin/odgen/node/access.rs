@@ -11,7 +11,7 @@ use od_spec::{Commissioning, Layer, SettingNames, assign_layers, nearest, rule_c
 use super::super::args::{NodeReadArgs, NodeWriteArgs};
 use super::super::report::{Report, print};
 use super::super::{ERRORS, SUCCESS};
-use super::{Described, Target, reach};
+use super::{Described, Target, on_the_bus, reach};
 
 /// Reads entries. What cannot be read is told, and the others are read all the same.
 pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
@@ -136,12 +136,7 @@ pub(super) fn has_default(target: Target<'_>, id: EntryId, why: &str) -> String 
 /// Shows what the check says, except what is about files that are loaded at boot: commands are given here by intention, and in the order
 /// that is given, to a node that need not have its defaults.
 fn checked(found: &Diagnostics, sources: &SourceMap, is_forced: bool, report: &Report) -> Result<(), u8> {
-    let mut counting = Diagnostics::new();
-    let of_boot = [rule_codes::IS_COMMAND, rule_codes::NO_ORDER];
-    for one in found.iter().filter(|one| !of_boot.contains(&one.code)) {
-        counting.push(one.clone());
-    }
-    counting.sort();
+    let counting = on_the_bus(found, &[rule_codes::IS_COMMAND]);
     report.show(&counting, sources);
     match (counting.has_errors(), is_forced) {
         (false, _) => Ok(()),

@@ -21,7 +21,7 @@ use super::super::settings::{ParameterFiles, parameter_files};
 use super::super::{DIFFERS, ERRORS, SUCCESS};
 use super::access::{has_default, not_written};
 use super::reach::AnyBus;
-use super::{Described, Target, reach};
+use super::{Described, Target, on_the_bus, reach};
 
 /// What a node has, and what it does not tell, with the reason.
 struct Had {
@@ -166,19 +166,15 @@ pub(super) fn beside<'a>(
     files.check_device(system, target.device, &mut diagnostics);
     let layers = files.into_layers();
     let meant = assign_layers(system, target.device, target.id, &layers, &mut diagnostics).values;
-    if diagnostics.has_errors() {
+    if on_the_bus(&diagnostics, &[]).has_errors() {
         shown_errors(&diagnostics, &sources, report)?;
     }
     Ok(Beside { target, file, sources, layers, meant })
 }
 
-/// Shows what a check says; its errors end the command. The order is worked out from what the node has.
+/// Shows what a check says; its errors end the command.
 fn shown_errors(found: &Diagnostics, sources: &SourceMap, report: &Report) -> Result<(), u8> {
-    let mut counting = Diagnostics::new();
-    for one in found.iter().filter(|one| one.code != rule_codes::NO_ORDER) {
-        counting.push(one.clone());
-    }
-    counting.sort();
+    let counting = on_the_bus(found, &[]);
     report.show(&counting, sources);
     if counting.has_errors() { Err(ERRORS) } else { Ok(()) }
 }
@@ -279,10 +275,8 @@ fn restored<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report
     let mut diagnostics = Diagnostics::new();
     let of_node = now.configured(target.device);
     let assigned = assign_layers(target.system, &of_node, target.id, layers, &mut diagnostics);
-    if diagnostics.has_errors() {
+    if on_the_bus(&diagnostics, &[]).has_errors() {
         report.note("nothing was written; with what the node has beside the values of the file:");
-    }
-    if diagnostics.has_errors() {
         shown_errors(&diagnostics, sources, report)?;
     }
     let writes =

@@ -11,8 +11,9 @@ use std::path::Path;
 
 use od_gen::client::AccessError;
 use od_gen::trace;
-use od_spec::diag::{Diagnostic, codes};
+use od_spec::diag::{Code, Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, EntryId, System};
+use od_spec::rule_codes;
 use od_spec::source::SourceMap;
 
 use super::ERRORS;
@@ -138,4 +139,16 @@ fn helped(diagnostic: Diagnostic, error: &AccessError) -> Diagnostic {
             .help("check node-ID, bit rate and power; a node that is stopped does not answer; `--timeout MS` waits longer"),
         _ => diagnostic,
     }
+}
+
+/// What a check says of values that go over a bus, sorted: nothing about the files that tools load at boot, whose lines hold no text with
+/// a `;` and whose order is fixed, nor what `besides` names.
+fn on_the_bus(found: &Diagnostics, besides: &[&Code]) -> Diagnostics {
+    let of_files = [rule_codes::NO_ORDER, rule_codes::NOT_FOR_EDS];
+    let mut about = Diagnostics::new();
+    for one in found.iter().filter(|one| !of_files.contains(&one.code) && !besides.contains(&one.code)) {
+        about.push(one.clone());
+    }
+    about.sort();
+    about
 }

@@ -1,0 +1,34 @@
+//! Virtual nodes, under masters that others wrote: a whole turbine, every access to every entry, a bus that loses frames.
+
+use std::path::Path;
+use std::process::Command;
+
+use od_gen::files::write_all;
+use od_gen::{Selection, artifacts};
+use od_tests::generate::SPECS;
+use od_tests::{Failure, compile_clean, root};
+
+use crate::runner::Runner;
+
+/// Where the files of `limits.od.yaml` go.
+const LIMITS: &str = "target/limits";
+
+pub(crate) fn prove(runner: &mut Runner, python: &Path, odgen: &Path) -> Result<(), Failure> {
+    let mut run = |script: &str, arguments: &[&str]| {
+        runner.run(Command::new(python).arg(script).args(arguments).arg("--odgen").arg(odgen))
+    };
+    run("tests/readers/readme_turbine.py", &[])?;
+    for stem in SPECS {
+        let (dump, spec) = (format!("generated/{stem}.json"), format!("od-spec/devices/{stem}.od.yaml"));
+        let arguments = ["--dump", &dump, "--eds-dir", "generated/eds", "--spec", &spec];
+        run("tests/readers/access_table.py", &arguments)?;
+    }
+    // What the shipped devices do not have.
+    let spec = "tests/readers/limits.od.yaml";
+    let set = artifacts(&compile_clean(spec)?, "limits", &Selection::default());
+    write_all(&root().join(LIMITS), &set)?;
+    let (dump, eds) = (format!("{LIMITS}/limits.json"), format!("{LIMITS}/eds"));
+    let arguments = ["--dump", &dump, "--eds-dir", &eds, "--spec", spec, "--least", "1500"];
+    run("tests/readers/access_table.py", &arguments)?;
+    run("tests/readers/lossy_bus.py", &[])
+}
