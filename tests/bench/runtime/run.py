@@ -34,6 +34,8 @@ OPERATIONS = (
     "PDO pack",
     "PDO pack, default mapping",
     "PDO unpack",
+    "SDO read",
+    "SDO write",
 )
 FLOOR = "floor"
 
@@ -106,6 +108,8 @@ def report(models: list[str], contenders: list[str], times: dict[Place, float]) 
                 others = (times.get(Place(operation, model, name)) for name in peers)
                 row += [f"{other / own:.1f}" if own and other else "" for other in others]
             lines.append("| " + " | ".join(row) + " |")
+    if block := times.get(Place("SDO block download of 100 kB", "domain", "ours")):
+        lines += ["", f"100 kB into a DOMAIN in blocks take {block / 1e6:.2f} ms: {100 / block * 1e6:.0f} MB/s."]
     if floor := times.get(Place("empty loop", "0", FLOOR)):
         lines += ["", f"The loop itself takes {floor:.1f} ns of each figure."]
     return "\n".join(lines)

@@ -17,16 +17,10 @@ mod ours;
 #[cfg(feature = "zencan")]
 mod zencan;
 
-/// What the bench has to know of a model; `scaled.py` writes it down.
-struct Model {
-    name: &'static str,
-    /// Indices of all setpoints, the only scalars of type u16.
-    setpoints: &'static [u16],
-    /// Index of a position, which is read-only.
-    position: u16,
-    /// Indices of the setpoint and position that TPDO 1 maps, and of the speed that RPDO 1 maps beside the setpoint.
-    mapped: [u16; 3],
-}
+#[path = "../shared/model.rs"]
+mod keys;
+
+use keys::{KEYS, Model, keys};
 
 /// The same in all models.
 mod model {
@@ -63,20 +57,6 @@ trait Dictionary {
 
     /// Scatters a frame into the mapped entries of RPDO 1.
     fn unpack(&mut self, frame: &[u8]) -> Option<()>;
-}
-
-const KEYS: usize = 1024;
-
-/// Indices of existing u16 scalars in a random order that is always the same.
-fn keys(setpoints: &[u16]) -> Vec<u16> {
-    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        usize::try_from(state >> 33).expect("31 bits are left") % setpoints.len()
-    };
-    (0..KEYS).map(|_| setpoints[next()]).collect()
 }
 
 /// Fails unless a contender does what is going to be measured.
