@@ -182,12 +182,12 @@ fn nodes_are_named_or_are_those_of_dcfs() {
 fn lines_of_an_adapter_are_told_as_they_come() {
     let scratch = Scratch::new("decode-returns");
     scratch.file("lamp.od.yaml", LAMP);
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_odgen"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
         .args(["decode", "lamp.od.yaml", "--node", "5", "--format", "short"])
         .current_dir(&scratch.0)
-        .stdin(std::process::Stdio::piped())
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     let mut input = child.stdin.take().unwrap();

@@ -3,6 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use od_gen::monitor::{Monitor, Shows};
+use od_gen::trace::{Decoder, Node, What};
+use od_spec::source::SourceMap;
+
 use crate::{FAN, Scratch, odgen, stderr, stdout};
 
 /// The README.
@@ -64,6 +68,24 @@ fn the_trace_is_told_as_shown() {
     let arguments = "decode valve.od.yaml --node 5 --trace bus.log";
     let told = stdout(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
     shows("decode", [format!("$ odgen {arguments}").as_str()].into_iter().chain(told.lines()));
+}
+
+#[test]
+fn the_bus_is_watched_as_shown() {
+    let mut sources = SourceMap::new();
+    let root = sources.add("valve.od.yaml", include_str!("../../../tests/readme/valve.od.yaml"));
+    let system = od_spec::compile(&mut sources, root, &mut od_spec::NoFiles).system.unwrap();
+    let decoder = Decoder::new(vec![Node::new(5, &system, &system.devices[0])]);
+    let mut monitor = Monitor::new(decoder, Shows::default(), 0);
+    let mut told = vec!["$ odgen node monitor valve.od.yaml --node 5 --ask".to_owned()];
+    for (at, line) in
+        [(412, "t70517F"), (1412, "t70517F"), (2020, "t00020105"), (2412, "t705105"), (2600, "t20523C00")]
+    {
+        let (frame, _) = od_gen::slcan::frame(line).unwrap();
+        told.extend(monitor.take(&What::Frame(frame), at * 1000));
+    }
+    told.extend(monitor.poll(monitor.next_deadline().unwrap()));
+    shows("monitor", told.iter().map(String::as_str));
 }
 
 #[test]

@@ -184,6 +184,13 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
             ["tests/readers/node_master.py", "--spec", spec, "--device", device, "--eds", &eds, "--odgen"];
         runner.run(Command::new(&python).args(arguments).arg(&odgen))?;
     }
+    // Pseudo-terminals are those of Linux.
+    if cfg!(target_os = "linux") {
+        let spec = "od-spec/devices/pitch-control-system.od.yaml";
+        let arguments = ["tests/readers/serial_node.py", "--spec", spec, "--device", "pmc"];
+        let arguments = [&arguments[..], &["--eds", "generated/eds/pmc.eds", "--odgen"]].concat();
+        runner.run(Command::new(&python).args(arguments).arg(&odgen))?;
+    }
     Ok(())
 }
 

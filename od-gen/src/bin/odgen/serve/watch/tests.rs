@@ -92,8 +92,8 @@ fn the_view_shows_what_nodes_have_and_follows_keys() {
     press(&mut view, &[KeyCode::PageUp, KeyCode::Up, KeyCode::Down, KeyCode::Down]);
     shown.push(("narrow", screen(&mut view, 30, 8)));
     shown.push(("tiny", screen(&mut view, 3, 2)));
-    let text: String = shown.iter().map(|(what, screen)| format!("{what}\n{screen}\n")).collect();
-    insta::assert_snapshot!(text);
+    let text: Vec<String> = shown.iter().map(|(what, screen)| format!("{what}\n{screen}")).collect();
+    insta::assert_snapshot!(text.join("\n"));
     assert_eq!(press(&mut view, &[KeyCode::Char('x')]), Wish::Stay);
     assert_eq!(press(&mut view, &[KeyCode::Char('q')]), Wish::End);
     let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
