@@ -8,12 +8,13 @@ use firmware_glue::emcy::Emergency;
 use firmware_glue::lss::{BitRate, LssHandler};
 use firmware_glue::node::{NodeHandler, Reset};
 use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::state_machine::{Cause, StateHandler, StateMachine};
 use firmware_glue::storage::{ALL, Command, ParameterStore};
 use firmware_glue::{AbortCode, Application, Dictionary, NodeId, Storage};
 
 use crate::flash::RamFlash;
-use crate::pmc::machines::{PowerDriveCommand, PowerDriveState};
-use crate::pmc::types::{Controlword, ModesOfOperation, Statusword, StoreCapability};
+use crate::pmc::machines::{PowerDriveCommand, PowerDriveState, PowerDriveTransition as Transition};
+use crate::pmc::types::{Controlword, ModesOfOperation, StoreCapability};
 use crate::pmc::{Entry, Pmc, errors, units};
 
 /// Where parameters are kept.
@@ -42,7 +43,7 @@ pub enum Report {
 #[derive(Debug)]
 pub struct Drive<'m> {
     store: Store<'m>,
-    state: PowerDriveState,
+    machine: StateMachine<PowerDriveState>,
     /// As it was before the last write, for bits that act on a change.
     controlword: Controlword,
     target: i32,
@@ -60,7 +61,7 @@ impl<'m> Drive<'m> {
     pub fn new(store: Store<'m>) -> Self {
         Self {
             store,
-            state: PowerDriveState::SwitchOnDisabled,
+            machine: StateMachine::new(),
             controlword: Controlword(0),
             target: 0,
             rest: 0,
@@ -78,9 +79,23 @@ impl<'m> Drive<'m> {
             let velocity = self.travel(od);
             od.set_actual_velocity(units::PositionUnitPerSecond(velocity));
         }
+        // What the drive does by itself: it initialises, ends a quick stop, is done with the reaction to a fault.
+        self.machine.step(od, &mut Guards);
         let is_at_target = od.position_actual_value().0 == self.target;
+        let has_voltage = match self.machine.state() {
+            PowerDriveState::SwitchedOn
+            | PowerDriveState::OperationEnabled
+            | PowerDriveState::QuickStopActive
+            | PowerDriveState::FaultReactionActive => true,
+            PowerDriveState::NotReadyToSwitchOn
+            | PowerDriveState::SwitchOnDisabled
+            | PowerDriveState::ReadyToSwitchOn
+            | PowerDriveState::Fault => false,
+        };
+        // The bits of the state are the machine's.
         od.set_statusword(
-            statusword(self.state)
+            od.statusword()
+                .with_voltage_enabled(has_voltage)
                 .with_remote(true)
                 .with_target_reached(is_at_target)
                 .with_manufacturer_specific(od.controlword().manufacturer_specific()),
@@ -91,7 +106,7 @@ impl<'m> Drive<'m> {
     fn travel(&mut self, od: &mut Pmc) -> i32 {
         let position = od.position_actual_value().0;
         let distance = self.target.saturating_sub(position);
-        let may_move = self.state == PowerDriveState::OperationEnabled && !od.controlword().halt();
+        let may_move = self.machine.state() == PowerDriveState::OperationEnabled && !od.controlword().halt();
         if !may_move || distance == 0 {
             self.rest = 0;
             return 0;
@@ -112,7 +127,8 @@ impl<'m> Drive<'m> {
     pub fn supervise(&mut self, od: &mut Pmc, now: Instant) -> Option<Report> {
         match self.told {
             None if is_under_voltage(od) => {
-                self.state = PowerDriveState::Fault;
+                // From any state; one that is a fault already stays.
+                let _ = self.machine.event(od, &mut Guards, Transition::T13);
                 let code = errors::UNDER_VOLTAGE_IN_THE_DC_LINK;
                 self.told = Some(code);
                 od.set_error_code(code);
@@ -121,7 +137,7 @@ impl<'m> Drive<'m> {
                 let _ = od.set_error_field_time_stamp(1, u32::from_le_bytes([a, b, c, d]));
                 Some(Report::Raised(Emergency::new(code)))
             }
-            Some(code) if self.state != PowerDriveState::Fault => {
+            Some(code) if !self.is_in_fault() => {
                 self.told = None;
                 od.set_error_code(errors::NO_ERROR);
                 Some(Report::Cleared(code))
@@ -130,20 +146,38 @@ impl<'m> Drive<'m> {
         }
     }
 
+    fn is_in_fault(&self) -> bool {
+        matches!(self.machine.state(), PowerDriveState::FaultReactionActive | PowerDriveState::Fault)
+    }
+
     /// Does what the controlword says.
-    fn obey(&mut self, od: &Pmc) {
+    fn obey(&mut self, od: &mut Pmc) {
+        self.machine.step(od, &mut Guards);
         let (word, before) = (od.controlword(), self.controlword);
         self.controlword = word;
-        let is_reset = word.fault_reset() && !before.fault_reset();
-        self.state = match self.state {
-            PowerDriveState::Fault if is_reset && !is_under_voltage(od) => PowerDriveState::SwitchOnDisabled,
-            state => next(state, word),
-        };
-        let is_new = word.new_set_point() && !before.new_set_point();
-        if is_new && od.modes_of_operation_display() == ModesOfOperation::PROFILE_POSITION_MODE {
+        if PowerDriveCommand::StartNewPosition.is_given(before, word)
+            && od.modes_of_operation_display() == ModesOfOperation::PROFILE_POSITION_MODE
+        {
             let limits = od.software_position_limit();
             let lowest = limits.min_position_limit().0;
             self.target = od.target_position().0.max(lowest).min(limits.max_position_limit().0);
+        }
+    }
+}
+
+/// Which transitions may be made now. The enable input of this drive is always on, and nobody gives the EFC signal.
+struct Guards;
+
+impl StateHandler<PowerDriveState> for Guards {
+    fn may(&mut self, od: &Pmc, transition: Transition, cause: Cause) -> bool {
+        match transition {
+            // By itself, when the quick stop is over.
+            Transition::T12 => cause == Cause::Command || od.actual_velocity().0 == 0,
+            // No error is pending.
+            Transition::T15 => !is_under_voltage(od),
+            // The EFC signal alone.
+            Transition::T16 => false,
+            _ => true,
         }
     }
 }
@@ -190,7 +224,8 @@ impl NodeHandler<Pmc> for Drive<'_> {
         // A real one reads it from its factory data.
         od.identity_object_mut().set_serial_number(4711);
         if reset == Reset::Node {
-            self.state = PowerDriveState::SwitchOnDisabled;
+            self.machine = StateMachine::new();
+            self.machine.start(od);
             self.controlword = Controlword(0);
             self.target = 0;
             self.rest = 0;
@@ -202,48 +237,4 @@ impl NodeHandler<Pmc> for Drive<'_> {
 
 fn is_under_voltage(od: &Pmc) -> bool {
     DC_LINK_VOLTS < od.drive_data().min_dc_link_voltage().0
-}
-
-/// The state behind a controlword: the transitions of the drive that a command makes.
-fn next(state: PowerDriveState, word: Controlword) -> PowerDriveState {
-    use PowerDriveCommand as Do;
-    use PowerDriveState as State;
-    match state {
-        State::SwitchOnDisabled if Do::Shutdown.is_in(word) => State::ReadyToSwitchOn,
-        State::ReadyToSwitchOn | State::SwitchedOn | State::OperationEnabled | State::QuickStopActive
-            if Do::DisableVoltage.is_in(word) =>
-        {
-            State::SwitchOnDisabled
-        }
-        State::ReadyToSwitchOn | State::SwitchedOn if Do::Quickstop.is_in(word) => State::SwitchOnDisabled,
-        State::OperationEnabled if Do::Quickstop.is_in(word) => State::QuickStopActive,
-        State::SwitchedOn | State::OperationEnabled if Do::Shutdown.is_in(word) => State::ReadyToSwitchOn,
-        State::ReadyToSwitchOn if Do::SwitchOn.is_in(word) => State::SwitchedOn,
-        State::ReadyToSwitchOn | State::SwitchedOn | State::QuickStopActive
-            if Do::EnableOperation.is_in(word) =>
-        {
-            State::OperationEnabled
-        }
-        State::OperationEnabled if Do::DisableOperation.is_in(word) => State::SwitchedOn,
-        state => state,
-    }
-}
-
-/// The bits that show a state.
-const fn statusword(state: PowerDriveState) -> Statusword {
-    let word = Statusword(0);
-    match state {
-        PowerDriveState::NotReadyToSwitchOn => word,
-        PowerDriveState::SwitchOnDisabled => word.with_switch_on_disabled(true),
-        PowerDriveState::ReadyToSwitchOn => word.with_ready_to_switch_on(true).with_quickstop(true),
-        PowerDriveState::SwitchedOn => powered(word).with_quickstop(true),
-        PowerDriveState::OperationEnabled => powered(word).with_operation_enabled(true).with_quickstop(true),
-        PowerDriveState::QuickStopActive => powered(word).with_operation_enabled(true),
-        PowerDriveState::FaultReactionActive => powered(word).with_operation_enabled(true).with_fault(true),
-        PowerDriveState::Fault => word.with_fault(true),
-    }
-}
-
-const fn powered(word: Statusword) -> Statusword {
-    word.with_ready_to_switch_on(true).with_switched_on(true).with_voltage_enabled(true)
 }
