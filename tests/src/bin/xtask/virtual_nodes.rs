@@ -22,6 +22,8 @@ pub(crate) fn prove(runner: &mut Runner, python: &Path, odgen: &Path) -> Result<
         let (dump, spec) = (format!("generated/{stem}.json"), format!("od-spec/devices/{stem}.od.yaml"));
         let arguments = ["--dump", &dump, "--eds-dir", "generated/eds", "--spec", &spec];
         run("tests/readers/access_table.py", &arguments)?;
+        let modules = ["--modules", "target/readers/npm/node_modules"];
+        run("tests/readers/node_reads.py", &[&arguments[..], &modules].concat())?;
     }
     // What the shipped devices do not have.
     let spec = "tests/readers/limits.od.yaml";
