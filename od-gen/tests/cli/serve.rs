@@ -357,7 +357,7 @@ mod terminal {
         // The next one finds an adapter that was just switched on: nothing to read, and the channel closed.
         let mut next =
             std::fs::OpenOptions::new().read(true).write(true).open(scratch.0.join("bus")).unwrap();
-        next.write_all(b"t60540\rV\r").unwrap();
+        next.write_all(b"t6050\rV\r").unwrap();
         let mut said = [0; 7];
         next.read_exact(&mut said).unwrap();
         assert_eq!(&said, b"\x07V1010\r");
