@@ -87,7 +87,7 @@ def main() -> int:
             time.sleep(0.3)
             # A plain host: what the adapter says to each command, and nothing that was for others.
             with serial.Serial(port, 115_200, timeout=2) as plain:
-                plain.write(b"V\rt60540\rO\rO\r")
+                plain.write(b"V\rt6050\rO\rO\r")
                 said = plain.read(9)
                 if said != b"V1010\r\x07\r\x07":
                     failures.append(f"a plain host is told {said!r}")

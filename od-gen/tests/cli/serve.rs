@@ -354,6 +354,15 @@ mod terminal {
         std::thread::sleep(Duration::from_millis(200));
         drop(host);
         std::thread::sleep(Duration::from_millis(200));
+        // The next one finds an adapter that was just switched on: nothing to read, and the channel closed.
+        let mut next =
+            std::fs::OpenOptions::new().read(true).write(true).open(scratch.0.join("bus")).unwrap();
+        next.write_all(b"t6050\rV\r").unwrap();
+        let mut said = [0; 7];
+        next.read_exact(&mut said).unwrap();
+        assert_eq!(&said, b"\x07V1010\r");
+        drop(next);
+        std::thread::sleep(Duration::from_millis(200));
         assert_eq!(node(&["read", "lamp.od.yaml", "--node", "5", "2000"]), "2000h brightness = 80 %  [50]\n");
         // An end that is asked for takes the link away.
         let id = served.child.id().to_string();

@@ -9,7 +9,7 @@ use od_spec::diag::{Diagnostic, codes};
 
 use super::super::args::{LinkArgs, OneNodeArgs};
 use super::super::link::{Link, Side};
-use super::super::report::{Report, shown};
+use super::super::report::Report;
 use super::{Target, helped};
 
 /// A bus, however it is reached.
@@ -119,7 +119,7 @@ impl Adapter<'_> {
 #[cfg(feature = "links")]
 fn serial(path: &Path, baud: u32, args: &LinkArgs, report: &Report) -> Result<AnyBus, u8> {
     let no_one = "check the name of the port, and that you may use it: on Linux, members of the group of the port may (`ls -l`), often `dialout`";
-    let place = shown(path);
+    let place = super::super::report::shown(path);
     let adapter = Adapter { place: &place, no_one, args, report };
     let port = od_gen::client::Serial::open(path, baud).map_err(|error| adapter.refuse(&error, no_one))?;
     adapter.opened(port)

@@ -32,10 +32,6 @@ enum Way {
     /// By a connection, which ends.
     Connection(TcpStream),
     /// By a terminal, which others may open again.
-    #[cfg_attr(
-        not(all(feature = "links", target_os = "linux")),
-        expect(dead_code, reason = "there are none")
-    )]
     Terminal,
 }
 
@@ -79,6 +75,7 @@ impl Hosts {
     }
 
     /// How many hosts have their channel open.
+    #[cfg(feature = "watch")]
     pub(super) fn listening(&self) -> usize {
         self.list.iter().filter(|host| host.adapter.is_open()).count()
     }

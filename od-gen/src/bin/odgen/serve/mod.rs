@@ -155,7 +155,7 @@ fn serve(args: &ServeArgs, directory: &Path, report: &Report) -> Result<u8, u8> 
         #[cfg(feature = "watch")]
         watch,
     };
-    running.run(&incoming, &events)
+    Ok(running.run(&incoming, &events))
 }
 
 /// Whether the terminal can show what happens.
@@ -353,7 +353,7 @@ impl Loop<'_, '_> {
         u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 
-    fn run(mut self, incoming: &Receiver<Event>, events: &SyncSender<Event>) -> Result<u8, u8> {
+    fn run(mut self, incoming: &Receiver<Event>, events: &SyncSender<Event>) -> u8 {
         while !self.interrupt.is_wanted() {
             self.act();
             self.go();
@@ -392,10 +392,10 @@ impl Loop<'_, '_> {
                     let message = format!("{} does not work any more: {error}", self.place.text);
                     #[cfg(feature = "watch")]
                     drop(self.watch.take());
-                    return Err(self.report.refuse(
+                    return self.report.refuse(
                         Diagnostic::without_place(codes::NO_CONNECTION, message)
                             .help("`ip link` tells its state"),
-                    ));
+                    );
                 }
                 #[cfg(feature = "watch")]
                 Ok(Event::Key(key)) => {
@@ -407,7 +407,7 @@ impl Loop<'_, '_> {
                 Err(RecvTimeoutError::Disconnected) => break,
             }
         }
-        Ok(super::SUCCESS)
+        super::SUCCESS
     }
 
     /// Lets the nodes say what they have to say. Whether that was all.
@@ -530,7 +530,9 @@ impl Loop<'_, '_> {
             let sender = if at == 0 { sender } else { Sender::Node };
             let host = match sender {
                 Sender::Host(number) => Some(number),
-                _ => None,
+                Sender::Node => None,
+                #[cfg(all(feature = "links", target_os = "linux"))]
+                Sender::Interface => None,
             };
             self.hosts.show(frame, host, milliseconds);
             self.place.put(frame, sender);
