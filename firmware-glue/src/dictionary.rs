@@ -332,7 +332,10 @@ fn find_domain<'t>(
 }
 
 /// The service lock; an alias of a locked entry is locked, too.
-fn check_lock<D: Entries, A: Application<D>>(shared: &Attributes, application: &A) -> Result<(), AbortCode> {
+pub(crate) fn check_lock<D: Entries, A: Application<D>>(
+    shared: &Attributes,
+    application: &A,
+) -> Result<(), AbortCode> {
     let locked = shared.flags.has(Flags::LOCKED) && !application.is_unlocked();
     if locked { Err(AbortCode::DEVICE_STATE) } else { Ok(()) }
 }

@@ -172,8 +172,7 @@ def expected_of_writing(entry: Entry, data: bytes, read: Read) -> int | None:
     if entry.facts["access"] in ("ro", "const"):
         return READ_ONLY
     if entry.facts["locked"]:
-        # More than a frame is announced, and refused before there is a value that a lock could be asked for.
-        return TOO_LONG if len(data) > max(entry.size, 4) and not entry.is_text else STATE
+        return STATE
     if entry.is_domain:
         return None
     if entry.is_text:

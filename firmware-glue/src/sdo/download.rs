@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use crate::abort::AbortCode;
 use crate::application::Application;
-use crate::dictionary::{Dictionary, writable, write_row};
+use crate::dictionary::{Dictionary, check_lock, writable, write_row};
 use crate::id::EntryId;
 use crate::table::{Attributes, Place};
 
@@ -30,14 +30,16 @@ enum Into {
 }
 
 impl Download {
-    /// Begins, if the entry can be written and takes so many bytes.
-    pub(super) fn begin<'t, D: Dictionary<'t>>(
+    /// Begins, if the entry can be written, is not locked and takes so many bytes.
+    pub(super) fn begin<'t, D: Dictionary<'t>, A: Application<D>>(
         id: EntryId,
         announced: Option<u32>,
         buffer: &[u8],
         dictionary: &D,
+        application: &A,
     ) -> Result<Self, AbortCode> {
         let shared = writable(dictionary.table(), id.index, id.sub)?.shared;
+        check_lock::<D, A>(shared, application)?;
         let into = if shared.place == Place::Application {
             Into::Application
         } else {

@@ -340,7 +340,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         let outcome = match request {
             Some(Request::Download { id: begun, size }) => {
                 id = begun;
-                self.begin_download(id, size, dictionary)
+                self.begin_download(id, size, dictionary, application)
             }
             Some(Request::UploadSegment { toggle }) => self.upload_segment(toggle, dictionary, application),
             Some(Request::DownloadSegment(segment)) => {
@@ -412,13 +412,14 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         Ok(Answer::UploadSegment(Segment { toggle: asked, piece }))
     }
 
-    fn begin_download<'t, D: Dictionary<'t>>(
+    fn begin_download<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         id: EntryId,
         size: Option<u32>,
         dictionary: &D,
+        application: &A,
     ) -> Result<Answer, AbortCode> {
-        let download = Download::begin(id, size, self.buffer.as_ref(), dictionary)?;
+        let download = Download::begin(id, size, self.buffer.as_ref(), dictionary, application)?;
         self.transfer = Transfer::Download { download, toggle: false };
         Ok(Answer::Download { id })
     }

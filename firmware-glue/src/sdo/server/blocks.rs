@@ -69,7 +69,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         match request {
             Request::BlockDownload { id: begun, crc, size } => {
                 *id = begun;
-                let download = Download::begin(begun, size, self.buffer.as_ref(), dictionary)?;
+                let download = Download::begin(begun, size, self.buffer.as_ref(), dictionary, application)?;
                 let receiver = Receiver::new(self.block_size);
                 self.transfer = Transfer::BlockDownload { download, receiver, crc };
                 Ok(Some(Answer::BlockDownload { id: begun, crc: true, block_size: self.block_size }.encode()))

@@ -18,25 +18,28 @@ const fn attributes(data_type: DataType, flags: Flags, place: Place, size: u16) 
     Attributes { data_type, flags, place, storage, page: 0, size, limits, values, condition }
 }
 
-/// 2000h: UNSIGNED16; 2001h: OCTET_STRING of up to 20; 2002h: DOMAIN; 2003h: UNSIGNED8, read-only; 2004h: UNSIGNED64.
-const ATTRIBUTES: [Attributes; 5] = [
+/// 2000h: UNSIGNED16; 2001h: OCTET_STRING of up to 20; 2002h: DOMAIN; 2003h: UNSIGNED8, read-only; 2004h: UNSIGNED64;
+/// 2006h: UNSIGNED64, locked.
+const ATTRIBUTES: [Attributes; 6] = [
     attributes(DataType::Unsigned16, RW, Place::Image, 2),
     attributes(DataType::OctetString, RW, Place::Image, 20),
     attributes(DataType::Domain, RW, Place::Application, 0),
     attributes(DataType::Unsigned8, Flags::READ, Place::Image, 1),
     attributes(DataType::Unsigned64, RW, Place::Image, 8),
+    attributes(DataType::Unsigned64, RW.with(Flags::LOCKED), Place::Image, 8),
 ];
-const FACTORY: [u8; 33] = {
-    let mut bytes = [0; 33];
+const FACTORY: [u8; 41] = {
+    let mut bytes = [0; 41];
     bytes[0] = 0x19;
     bytes
 };
-const ENTRIES: [EntryRow; 5] = [
+const ENTRIES: [EntryRow; 6] = [
     EntryRow { attributes: 0, place: 0 },
     EntryRow { attributes: 1, place: 2 },
     EntryRow { attributes: 2, place: 0 },
     EntryRow { attributes: 3, place: 24 },
     EntryRow { attributes: 4, place: 25 },
+    EntryRow { attributes: 5, place: 33 },
 ];
 
 /// What an application has of the DOMAIN.
@@ -80,25 +83,25 @@ impl<D: Entries> Application<D> for Program {
 
 /// Runs with a dictionary, an application and a server.
 fn with_server(test: impl FnOnce(&mut Bench<'_, '_>)) {
-    let (mut blocks, mut seeds, mut order) = ([Block::FREE; 5], [0; 5], [0; 5]);
-    let indices = [0x2000, 0x2001, 0x2002, 0x2003, 0x2004];
+    let (mut blocks, mut seeds, mut order) = ([Block::FREE; 6], [0; 6], [0; 6]);
+    let indices = [0x2000, 0x2001, 0x2002, 0x2003, 0x2004, 0x2006];
     let directory = Directory::arrange(&indices, &mut blocks, &mut seeds, &mut order).expect("room");
     let parts = Parts {
         directory,
-        objects: &[0, 1, 2, 3, 4, 5],
+        objects: &[0, 1, 2, 3, 4, 5, 6],
         entries: &ENTRIES,
         attributes: &ATTRIBUTES,
         factory: &FACTORY,
         ..Parts::EMPTY
     };
     let table = Table::checked(parts).expect("right");
-    let dictionary = TableDictionary::new(&table, [0; 33], 1).expect("as many bytes");
+    let dictionary = TableDictionary::new(&table, [0; 41], 1).expect("as many bytes");
     let server = SdoServer::new(Channel::predefined(NodeId::new(5).expect("a node")), [0; 20]);
     test(&mut Bench { dictionary, program: Program::default(), server: &mut server.clone() });
 }
 
 struct Bench<'s, 't> {
-    dictionary: TableDictionary<'t, [u8; 33]>,
+    dictionary: TableDictionary<'t, [u8; 41]>,
     program: Program,
     server: &'s mut SdoServer<[u8; 20]>,
 }
@@ -165,6 +168,17 @@ fn what_the_dictionary_refuses_is_refused() {
         assert_eq!(bench.refused([0xE0, 0, 0x20, 0, 0, 0, 0, 0]), AbortCode::COMMAND);
         assert_eq!(bench.refused([0x60, 0, 0, 0, 0, 0, 0, 0]), AbortCode::COMMAND);
         assert_eq!(bench.refused([0x00, 0, 0, 0, 0, 0, 0, 0]), AbortCode::COMMAND);
+    });
+}
+
+#[test]
+fn a_lock_is_asked_before_anything_comes() {
+    with_server(|bench| {
+        assert_eq!(bench.refused([0x21, 6, 0x20, 0, 8, 0, 0, 0]), AbortCode::DEVICE_STATE);
+        assert_eq!(bench.refused([0x21, 6, 0x20, 0, 9, 0, 0, 0]), AbortCode::DEVICE_STATE, "however long");
+        assert_eq!(bench.refused([0x20, 6, 0x20, 0, 0, 0, 0, 0]), AbortCode::DEVICE_STATE);
+        #[cfg(feature = "sdo-block")]
+        assert_eq!(bench.refused([0xC6, 6, 0x20, 0, 8, 0, 0, 0]), AbortCode::DEVICE_STATE);
     });
 }
 
