@@ -27,7 +27,7 @@ def check_everything(address: str, eds: Path) -> Check:
     with client(address, eds) as (check, network, node):
         check_data(check, node)
         check_domain(check, node)
-        check_access(check, network, node)
+        check_access(check, node)
         check_sync(check, network, node)
         check_event_timer(check, network, node)
         check_watched(check, network, node)
@@ -72,7 +72,7 @@ def check_domain(check: Check, node: canopen.RemoteNode) -> None:
     check.that("a DOMAIN after that", code_of(node.sdo.upload, *DOMAIN), NO_DATA)
 
 
-def check_access(check: Check, network: canopen.Network, node: canopen.RemoteNode) -> None:
+def check_access(check: Check, node: canopen.RemoteNode) -> None:
     check.that("write-only", code_of(node.sdo.upload, 0x200A, 0), WRITE_ONLY)
     check.that("read-only DOMAIN", code_of(node.sdo.download, 0x1021, 0, bytes(20)), READ_ONLY)
     check.that("locked number", code_of(node.sdo.download, 0x201D, 5, bytes(4)), LOCKED)

@@ -153,5 +153,5 @@ fn texts_do_not_end_early() {
     let bus = system(&text);
     let (_, text) = written(&[(3, &bus, "sensor")]);
     assert!(text.contains("VAL_ 416 temperature 65535 \"it 'is' br\u{f6}ken/ Ohm\" ;"), "{text}");
-    assert!(text.contains("one\r\ntwo 'three' four\";"), "{text}");
+    assert!(text.contains("one\r\ntwo 'three' four\r\n"), "{text}");
 }
