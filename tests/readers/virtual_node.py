@@ -35,6 +35,10 @@ class Reached:
     def __init__(self, address: str) -> None:
         self.address = address
 
+    @property
+    def port(self) -> int:
+        return int(self.address.rsplit(":", 1)[1])
+
     def bus(self) -> can.BusABC:
         channel = f"socket://{self.address}"
         return can.Bus(interface="slcan", channel=channel, bitrate=500_000, sleep_after_open=0)

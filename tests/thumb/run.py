@@ -71,7 +71,7 @@ DEVICE = "pmc"  # a real device
 MODEL = ROOT / "tests" / "bench" / "runtime" / "scaled.py"
 FLASH_PER_ENTRY = 8  # target
 # Bytes of .text and .rodata, a little above what is measured: a change that costs more has to say so here.
-BUDGETS = {"services150": 23_000, "node150": 32_000, "node-pmc": 44_000, "sdo": 18_500}
+BUDGETS = {"services150": 23_000, "node150": 32_000, "node-pmc": 45_500, "sdo": 18_500}
 ENTRY_ROW = 4  # bytes of an item of ENTRIES
 PEER = "the best of the peers at 150 objects, in an earlier study", 69, 26  # flash per object, per entry
 

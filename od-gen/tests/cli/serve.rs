@@ -131,6 +131,23 @@ fn a_script_is_carried_out() {
 }
 
 #[test]
+fn a_fault_sets_the_bits_that_are_stated_for_it() {
+    let scratch = Scratch::new("serve-register");
+    // Its class, 50xxh, says nothing of the kind.
+    let stated = lamp_that_tells() + "errors:\n  0x5000: {name: supply, register: voltage}\n";
+    scratch.file("lamp.od.yaml", stated);
+    let mut served = WithClient::lamps(&scratch, &["--script", "-"]);
+    served.ask("O\r", "\r");
+    let mut input = served.served.child.stdin.take().unwrap();
+    writeln!(input, "5 fault 0x5000").unwrap();
+    served.ask("", "t08580050050000000000\r");
+    writeln!(input, "5 fault 0x5001").unwrap();
+    served.ask("", "t08580150050000000000\r");
+    writeln!(input, "5 clear 0x5000").unwrap();
+    served.ask("", "t08580000010000000000\r");
+}
+
+#[test]
 fn a_script_with_mistakes_is_refused_as_a_whole() {
     let scratch = Scratch::new("serve-mistakes");
     scratch.file("lamp.od.yaml", LAMP);

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use firmware_glue::EntryId;
-use firmware_glue::emcy::Emergency;
+use firmware_glue::emcy::{Emergency, ErrorRegister};
 use od_gen::source::open;
 use od_spec::diag::{Diagnostic, Diagnostics, codes, nearest};
 use od_spec::model::{self, ErrorCode, Value};
@@ -157,7 +157,7 @@ impl<'a> Script<'a> {
             return Err(refusal(codes::BAD_NOTATION, first, message, COMMANDS));
         };
         let mut nodes = self.nodes.iter().enumerate();
-        let Some((at, (_, _, device))) = nodes.find(|(_, (node, ..))| *node == id) else {
+        let Some((at, (_, system, device))) = nodes.find(|(_, (node, ..))| *node == id) else {
             let ids: Vec<String> = self.nodes.iter().map(|(id, ..)| id.to_string()).collect();
             let help = format!("the node-IDs are {}", ids.join(", "));
             return Err(refusal(codes::BAD_NODE_ID, first, format!("no node {id} is served"), help));
@@ -165,7 +165,7 @@ impl<'a> Script<'a> {
         let (verb, rest) = word(rest);
         let rest = trimmed(rest);
         let act = match verb.text {
-            "fault" => Some(Act::Fault(Emergency::new(error_code(rest)?))),
+            "fault" => Some(Act::Fault(emergency(system, device, error_code(rest)?))),
             "clear" => Some(Act::Clear(error_code(rest)?)),
             "set" => set(device, id, rest, diagnostics),
             "stop" => Some(Act::Stop(entry(device, rest)?)),
@@ -183,6 +183,16 @@ impl<'a> Script<'a> {
             }
         };
         Ok(act.map(|act| Step::Act { at, act }))
+    }
+}
+
+/// An error of a device, with the bits of the error register that are stated for it, or else those of its class.
+fn emergency(system: &model::System, device: &model::Dictionary, code: u16) -> Emergency {
+    let emergency = Emergency::new(code);
+    let stated = |error: &&model::ErrorCode| error.code == code && error.devices.includes(&device.key);
+    match system.errors.iter().find(stated) {
+        Some(error) => emergency.with_register(ErrorRegister::from_bits(error.register())),
+        None => emergency,
     }
 }
 
