@@ -189,7 +189,7 @@ impl<'a> Script<'a> {
 /// An error of a device, with the bits of the error register that are stated for it, or else those of its class.
 fn emergency(system: &model::System, device: &model::Dictionary, code: u16) -> Emergency {
     let emergency = Emergency::new(code);
-    let stated = |error: &&model::ErrorCode| error.code == code && error.devices.includes(&device.key);
+    let stated = |error: &&ErrorCode| error.code == code && error.devices.includes(&device.key);
     match system.errors.iter().find(stated) {
         Some(error) => emergency.with_register(ErrorRegister::from_bits(error.register())),
         None => emergency,
