@@ -138,6 +138,14 @@ for (const [name, { questions, links }] of Object.entries(table)) {
     // Until nothing more is folded.
     await page.waitForFunction((delay) => performance.now() > Math.max(document.folded ?? 0, performance.getEntriesByType("navigation")[0].loadEventEnd) + 2 * delay, LATE);
     await lands(page, id, `${name}, laid out late`);
+    // Wherever the reader goes, what the link leads into stays laid out: else the rows behind the estimated end of a part cannot be reached.
+    const isHeld = await page.evaluate(async (name) => {
+      const frame = () => new Promise((done) => requestAnimationFrame(done)), { scrollHeight } = document.documentElement;
+      scrollTo(0, scrollY > scrollHeight / 2 ? 0 : scrollHeight);
+      for (let frames = 0; frames < 6; frames++) await frame();
+      return document.getElementById(name).checkVisibility({ contentVisibilityAuto: true });
+    }, id);
+    check(isHeld, `${name}: the part with #${id} is not laid out any more`);
   }
   await page.close();
 

@@ -627,8 +627,24 @@
   let landed = null;
   const offOf = (target) => target.getBoundingClientRect().top - below() - GAP;
   const staying = () => (landed?.begun === landing && Math.abs(offOf(landed.target)) <= 1 ? landed.target : null);
+  // What a link leads into stays laid out until the next one: as long as the browser has only an estimate of a part, it may end before its own rows do, and no
+  // scrolling reaches them.
+  const LAZY = ".chunk, .object, .part";
+  let held = [];
+  const hold = (target) => {
+    const around = [];
+    for (let part = target.closest(LAZY); part; part = part.parentElement.closest(LAZY)) around.push(part);
+    const more = around.filter((part) => !held.includes(part));
+    for (const part of held) if (!around.includes(part)) part.style.contentVisibility = "";
+    for (const part of more) part.style.contentVisibility = "visible";
+    held = around;
+    // The browser tells of no layout that it has not put off.
+    fit(more.filter((part) => itemOf.has(part)));
+  };
   const settle = (target) => {
     const begun = landing += 1;
+    landed = null;
+    hold(target);
     landed = { target, begun };
     let still = 0, frames = 0;
     const step = () => {
