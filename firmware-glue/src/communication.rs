@@ -1,6 +1,7 @@
 //! Rules of single communication objects (CiA 301 9.6.3), beyond type and limits.
 
 use crate::abort::AbortCode;
+use crate::before::Before;
 use crate::cob_id::{NOT_VALID, PRODUCER, check_client_cob_id, check_cob_id, check_produced};
 use crate::effect::Effect;
 use crate::id::EntryId;
@@ -13,15 +14,6 @@ use crate::table::{Row, Table};
 const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// "load", the signature of 1011h.
 const LOAD: u32 = u32::from_le_bytes(*b"load");
-
-/// What a value replaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Before {
-    /// The one of now: a client writes it, and some values change only while a message does not exist.
-    Present,
-    /// None: it comes from a memory.
-    Nothing,
-}
 
 /// Checks a value of the right type and within its limits for the row of a communication object.
 #[inline(never)]

@@ -2,8 +2,9 @@
 
 use core::ops::Range;
 
+use crate::before::Before;
 use crate::check::check_value;
-use crate::communication::{self, Before};
+use crate::communication;
 use crate::mapping::{MAPPING, RECEIVE, TRANSMIT};
 use crate::stored::{is_reset, reset, value_of};
 use crate::table::{Found, Row, Table};

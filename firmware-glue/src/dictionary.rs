@@ -2,8 +2,9 @@
 
 use crate::abort::AbortCode;
 use crate::application::Application;
+use crate::before::Before;
 use crate::check::check_value;
-use crate::communication::{self, Before};
+use crate::communication;
 use crate::corrected::correct;
 use crate::effect::Effect;
 use crate::entries::Entries;

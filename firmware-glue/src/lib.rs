@@ -30,6 +30,7 @@
 mod abort;
 mod alias;
 mod application;
+mod before;
 mod check;
 mod checked;
 pub mod clock;

@@ -1,8 +1,8 @@
 //! Rules of changing the parameters of a PDO (CiA 301 9.6.3, 1400h to 1BFFh).
 
 use crate::abort::AbortCode;
+use crate::before::Before;
 use crate::cob_id::{NO_REMOTE_FRAMES, NOT_VALID, check_cob_id};
-use crate::communication::Before;
 use crate::mapping::{FRAME_BITS, MAPPING, Mapped, TRANSMIT, width};
 use crate::stored::current;
 use crate::table::{Flags, Found, Table};

@@ -5,6 +5,7 @@
 //! node has (NMT, SYNC, TIME, EMCY, heartbeat) are messages, too. Signals have the names of entries, in the characters and the
 //! 32 of them that the format allows; where one is longer, the whole name is an attribute that tools know.
 
+mod message;
 mod messages;
 mod names;
 mod number;

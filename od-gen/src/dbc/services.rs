@@ -3,7 +3,7 @@
 use od_spec::model::{EntryId, ErrorCode, Index, SubIndex};
 
 use super::Node;
-use super::messages::{Identifier, Message, Owner};
+use super::message::{Identifier, Message, Owner};
 use super::names::{SignalName, node_name, signal_names};
 use super::signals::{Signal, of_entry_at};
 use crate::nmt;

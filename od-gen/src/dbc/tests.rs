@@ -3,7 +3,7 @@ use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 
-use super::messages::Identifier;
+use super::message::Identifier;
 use super::{Node, Written, write};
 
 fn system(text: &str) -> System {

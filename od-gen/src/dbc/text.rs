@@ -8,7 +8,7 @@ use od_spec::eds::GENERATED;
 use od_spec::encoding::{Encoding, encode};
 
 use super::Node;
-use super::messages::Message;
+use super::message::Message;
 use super::names::{node_name, whole_node_name};
 use super::signals::{Coding, Signal};
 

@@ -8,14 +8,9 @@ use quote::{format_ident, quote};
 
 use super::docs::{doc, escape};
 use super::literal::hex;
-use super::transitions;
+use super::machine_names::{is_signed, stem, transition_variant, word_kind};
 use super::value::Values;
-use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine, ValueKind};
-
-/// The name of a machine as the beginning of another: what sets it apart from a keyword is not needed there.
-pub(super) fn stem(name: &str) -> &str {
-    name.trim_end_matches('_')
-}
+use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine};
 
 impl Plan<'_> {
     /// `mod machines`.
@@ -115,7 +110,7 @@ impl Plan<'_> {
             let digits = one.pattern.0.len().div_ceil(4);
             let (rising, falling) = (hex(rising, digits), hex(falling, digits));
             let text = &one.name;
-            let caused = one.transitions.iter().map(|number| transitions::variant(*number));
+            let caused = one.transitions.iter().map(|number| transition_variant(*number));
             all.push(quote!(Self::#variant));
             if one.pattern.edges() != (0, 0) {
                 edges.push(quote!(Self::#variant => (#rising, #falling),));
@@ -327,16 +322,6 @@ fn pattern(pattern: &BitPattern) -> (Literal, Literal) {
     let (mask, value) = pattern.mask_and_value();
     let digits = pattern.0.len().div_ceil(4);
     (hex(mask, digits), hex(value, digits))
-}
-
-/// Whether a word is a plain signed number, whose bits have to be taken as unsigned ones.
-pub(super) fn is_signed(kind: &ValueKind) -> bool {
-    kind.named.is_none() && kind.data_type.is_signed()
-}
-
-/// What a word is in code: a bit field or a plain number; a unit or special values say nothing about its bits.
-pub(super) fn word_kind(entry: &PlannedEntry<'_>) -> ValueKind {
-    ValueKind { unit: None, special: None, ..entry.kind.clone() }
 }
 
 /// What makes a number of the word, if it is none yet.

@@ -6,6 +6,7 @@ mod docs;
 mod errors;
 mod glue;
 mod literal;
+mod machine_names;
 mod machines;
 mod pdos;
 mod runs;

@@ -5,14 +5,9 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::docs::{doc, escape};
-use super::machines::{is_signed, stem, word_kind};
+use super::machine_names::{is_signed, stem, transition_variant, word_kind};
 use super::value::{At, Store, Values};
 use crate::plan::{Place, Plan, PlannedEntry, PlannedMachine, ValueKind};
-
-/// The variant of a transition: its number behind a letter.
-pub(super) fn variant(number: u8) -> proc_macro2::Ident {
-    format_ident!("T{number}")
-}
 
 /// The variant of a state.
 fn state(planned: &PlannedMachine<'_>, name: &str) -> TokenStream {
@@ -61,7 +56,7 @@ impl Plan<'_> {
             (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let (mut leaves, mut enters, mut causes) = (Vec::new(), Vec::new(), Vec::new());
         for one in &machine.transitions {
-            let variant = variant(one.number);
+            let variant = transition_variant(one.number);
             let about = doc(&self.transition_doc(one, machine));
             let number = Literal::u8_unsuffixed(one.number);
             let text = format!("transition {}", one.number);
