@@ -10,6 +10,8 @@ mod artifacts;
 pub mod boot;
 #[cfg(feature = "format")]
 mod builder;
+#[cfg(feature = "c")]
+pub mod c;
 #[cfg(feature = "runtime")]
 pub mod client;
 #[cfg(feature = "eds")]
@@ -23,6 +25,7 @@ pub mod docs;
 #[cfg(feature = "eds")]
 pub mod eds;
 mod expand;
+mod facts;
 pub mod files;
 mod foreign;
 #[cfg(any(feature = "eds", feature = "json"))]
@@ -40,6 +43,7 @@ pub mod parameters;
 mod plan;
 #[cfg(feature = "eds")]
 pub mod plant;
+mod provenance;
 #[cfg(feature = "runtime")]
 pub mod runtime;
 pub mod rust;
@@ -64,6 +68,7 @@ pub use artifacts::{Selection, artifacts};
 pub use builder::{BuildError, Builder};
 pub use expand::{Expansion, expand};
 pub use foreign::{condense, condensed};
+pub use provenance::Provenance;
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

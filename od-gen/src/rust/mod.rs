@@ -7,16 +7,14 @@ pub(crate) mod language;
 mod print;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, EntryId, System};
-use od_spec::source::SourceMap;
-use od_spec::visible::visible;
 use proc_macro2::TokenStream;
 
 pub(crate) use self::language::Rust;
 use crate::plan::{Plan, PlannedEntry, Shape, decided, plan};
+pub use crate::provenance::Provenance;
 
 /// The items of a device's module. What cannot be code (two names that give one identifier, a string without capacity) is
 /// reported, and nothing comes out. An EDS cannot say what code needs of it, and its objects often share names: there, what would
@@ -49,23 +47,6 @@ pub(crate) fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> 
         Shape::Indexed { .. } => format!("{}({})", object.name, entry.id.sub),
         Shape::Group { .. } => format!("{}().{}()", object.name, entry.member),
     })
-}
-
-/// Which specification code was made from, for the head of a file. Nothing about its text: a comment, another layout or other
-/// files for the same facts make the same code.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Provenance {
-    /// Name of the specification's file, as it can stand in a comment of one line.
-    name: String,
-}
-
-impl Provenance {
-    /// Of what was read for a specification; its own file is the first.
-    pub fn of(sources: &SourceMap) -> Self {
-        let first = sources.files().next().map_or("", |(_, file)| file.name());
-        let name = Path::new(first).file_name().unwrap_or_default().to_string_lossy();
-        Self { name: visible(&name).into_owned() }
-    }
 }
 
 #[cfg(feature = "format")]

@@ -72,7 +72,7 @@ pub enum Notation {
     Eds,
     /// The reference documents: read at commissioning, beside the printed manual.
     Manual,
-    /// Documentation of generated Rust: read by who writes the firmware.
+    /// Documentation of generated code, Rust or C: read by who writes the firmware.
     Rust,
     /// `text` in the JSON dump, beside the raw value.
     Json,

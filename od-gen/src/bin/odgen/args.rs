@@ -247,6 +247,10 @@ pub(crate) struct BuildArgs {
     #[arg(long)]
     pub rust: bool,
 
+    /// Also the dictionary of each device in C, for this kind of firmware, `c/KEY/`
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub c: Vec<CKind>,
+
     /// Also the reference documentation in this format, `docs/`
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub docs: Vec<DocsFormat>,
@@ -261,6 +265,21 @@ pub(crate) struct BuildArgs {
 
     #[command(flatten)]
     pub messages: Messages,
+}
+
+/// Firmware that a dictionary in C is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CKind {
+    /// Any: a dictionary by itself, C99 without a stack
+    Plain,
+}
+
+impl From<CKind> for od_gen::c::Kind {
+    fn from(kind: CKind) -> Self {
+        match kind {
+            CKind::Plain => Self::Plain,
+        }
+    }
 }
 
 /// Readers of which it is foretold what they refuse.

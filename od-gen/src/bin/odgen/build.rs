@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use od_gen::files::{Existing, WriteError, left_over, remove};
-use od_gen::rust::{self, Provenance};
-use od_gen::{Artifact, Selection, artifacts};
+use od_gen::{Artifact, Provenance, Selection, artifacts, c, rust};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
 use od_spec::rule_codes;
@@ -45,7 +44,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    for Built { path, used: Used { system, node: configured, stated_node_id, .. }, rust } in &mut systems {
+    for Built { path, used: Used { system, node: configured, stated_node_id, .. }, code } in &mut systems {
         let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
             continue;
@@ -62,7 +61,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         let configured = configured.as_ref().filter(|_| node.is_some());
         let selection = Selection { devices: &args.device, node, configured, xdd: args.xdd };
         set.extend(artifacts(system, stem, &selection));
-        set.append(rust);
+        set.append(code);
         if !templates.is_empty() {
             let options = od_gen::docs::options(system, &args.device, None);
             match od_gen::docs::artifacts(system, "docs/", stem, &options, &templates) {
@@ -132,27 +131,40 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
 struct Built {
     path: PathBuf,
     used: Used,
-    /// Its Rust modules, if they are wanted.
-    rust: Vec<Artifact>,
+    /// Its Rust modules and its C, as far as they are wanted.
+    code: Vec<Artifact>,
 }
 
 /// Compiles everything, so that all messages are shown; `None` if any has errors.
 fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<Vec<Built>> {
     let built = specs.iter().map(|path| {
         let (used, sources) = report.compile_with_sources(path)?;
-        let rust = if args.rust { modules(args, &used.system, &sources, report)? } else { Vec::new() };
-        Some(Built { path: path.clone(), used, rust })
+        let code = code(args, &used.system, &sources, report)?;
+        Some(Built { path: path.clone(), used, code })
     });
     built.collect::<Vec<_>>().into_iter().collect()
 }
 
-/// The Rust modules of the wanted devices; `None` if any cannot be made.
-fn modules(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Report) -> Option<Vec<Artifact>> {
-    let mut diagnostics = Diagnostics::new();
-    let devices = system.devices.iter().filter(|device| wanted(args, device));
-    let modules = rust::artifacts(system, devices, &Provenance::of(sources), &mut diagnostics);
-    report.show(&diagnostics, sources);
-    (!diagnostics.has_errors()).then_some(modules)
+/// The Rust modules and the C of the wanted devices; `None` if any cannot be made.
+fn code(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Report) -> Option<Vec<Artifact>> {
+    let devices = || system.devices.iter().filter(|device| wanted(args, device));
+    let provenance = Provenance::of(sources);
+    let mut set = Vec::new();
+    let mut is_whole = true;
+    let mut make = |of: &dyn Fn(&mut Diagnostics) -> Vec<Artifact>| {
+        let mut diagnostics = Diagnostics::new();
+        set.extend(of(&mut diagnostics));
+        report.show(&diagnostics, sources);
+        is_whole &= !diagnostics.has_errors();
+    };
+    if args.rust {
+        make(&|diagnostics| rust::artifacts(system, devices(), &provenance, diagnostics));
+    }
+    let mut kinds: Vec<c::Kind> = args.c.iter().copied().map(c::Kind::from).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    make(&|diagnostics| c::artifacts(system, devices(), &provenance, &kinds, diagnostics));
+    is_whole.then_some(set)
 }
 
 fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {

@@ -7,7 +7,7 @@ use od_spec::wording::{Notation, Wording};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use crate::plan::{Place, Plan, PlannedEntry, PlannedObject, Shape};
+use crate::plan::{Plan, PlannedEntry, PlannedObject, Shape};
 
 /// How the documentation words facts.
 pub(super) const WORDING: Wording = Wording::english(Notation::Rust);
@@ -241,6 +241,11 @@ fn errors(entry: &Entry) -> Option<String> {
     (!bits.is_empty()).then(|| format!("Errors: {}.", bits.join(", ")))
 }
 
+/// The facts of an entry, in text that is not markup.
+fn facts(planned: &PlannedEntry<'_>) -> Vec<String> {
+    crate::facts::facts(planned, WORDING, escape)
+}
+
 /// The facts that are the same for all of some entries, in the order of the first.
 fn common<'p>(entries: impl Iterator<Item = &'p PlannedEntry<'p>>) -> Vec<String> {
     let common = entries.map(facts).reduce(|mut common, its| {
@@ -263,24 +268,4 @@ fn sentences(facts: &[String], more: &[String]) -> String {
         text.push_str(sentence);
     }
     text
-}
-
-/// Type, access, mapping, unit, range, special values, default, storage.
-fn facts(planned: &PlannedEntry<'_>) -> Vec<String> {
-    let (index, entry) = (planned.id.index, planned.entry);
-    let mut facts = vec![entry.data_type.to_string(), WORDING.access(entry)];
-    facts.extend(stated(WORDING.mapping(entry.pdo)));
-    facts.extend(entry.unit.as_ref().map(|unit| format!("in {}", escape(&WORDING.step(unit)))));
-    facts.extend(WORDING.range(index, entry).map(|range| escape(&range)));
-    facts.extend(entry.special.iter().map(|special| escape(&WORDING.special(entry, special))));
-    if planned.place != Place::Alias {
-        let default = |value| format!("default {}", escape(&WORDING.value(Some(index), entry, value)));
-        facts.extend(entry.default.as_ref().map(default));
-    }
-    facts.extend(stated(WORDING.storage(entry.stored)));
-    facts
-}
-
-fn stated(words: &str) -> Option<String> {
-    (!words.is_empty()).then(|| words.to_owned())
 }

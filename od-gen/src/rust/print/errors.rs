@@ -9,11 +9,6 @@ use super::literal::hex;
 use crate::plan::{Plan, PlannedError};
 
 impl Plan<'_> {
-    /// Whether the device treats the error as priority, reaction and option code say.
-    pub(super) fn treats(&self, error: &ErrorCode) -> bool {
-        error.treated_by.includes(&self.device.key)
-    }
-
     /// The enum of errors, and of their priorities. "No error" is none.
     pub(super) fn error_type(&self) -> TokenStream {
         let errors: Vec<&PlannedError<'_>> =

@@ -1,7 +1,5 @@
 //! State machines and error codes.
 
-use std::fmt::Write as _;
-
 use od_spec::model::{BitPattern, Command, ErrorCode};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -10,6 +8,7 @@ use super::docs::{doc, escape};
 use super::literal::hex;
 use super::machine_names::{is_signed, stem, transition_variant, word_kind};
 use super::value::Values;
+use crate::facts;
 use crate::plan::{Plan, PlannedEntry, PlannedError, PlannedMachine};
 
 impl Plan<'_> {
@@ -295,25 +294,7 @@ impl Plan<'_> {
     }
 
     pub(super) fn error_doc(&self, error: &ErrorCode) -> String {
-        let is_treated = self.treats(error);
-        let mut rest = String::new();
-        let reaction = Some(&error.reaction).filter(|_| is_treated);
-        for text in [Some(&error.about), reaction].into_iter().flatten().map(|text| self.words(text)) {
-            if !text.is_empty() {
-                rest.push(' ');
-                rest.push_str(&text);
-            }
-        }
-        if let Some(id) = error.option_code.filter(|_| is_treated) {
-            let _ = write!(rest, " {id} chooses the reaction.");
-        }
-        let reset = self.words(&error.reset);
-        if !reset.is_empty() {
-            let _ = write!(rest, " Reset by: {reset}");
-        }
-        let priority = error.priority.as_ref().filter(|_| is_treated);
-        let priority = priority.map(|priority| format!(" Priority {}.", escape(priority)));
-        format!("{}.{rest}{}", escape(error.name.trim_end_matches('.')), priority.unwrap_or_default())
+        facts::error(self, error, escape)
     }
 }
 

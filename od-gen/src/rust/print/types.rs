@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use od_spec::model::Edge;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, TokenStreamExt as _, format_ident, quote};
 
 use super::super::language;
 use super::docs::{WORDING, doc, escape};
 use super::literal::{decimal, hex};
+use crate::facts;
 use crate::plan::{
     Members, Plan, PlannedBits, PlannedOffset, PlannedSpecial, PlannedSpecialValue, PlannedType, PlannedUnit,
     PlannedValue, SignedFraction,
@@ -182,33 +182,7 @@ impl Plan<'_> {
     }
 
     fn bits_doc(&self, bits: &PlannedBits<'_>) -> TokenStream {
-        let place = if bits.first == bits.last {
-            format!("Bit {}", bits.first)
-        } else {
-            format!("Bits {} to {}", bits.first, bits.last)
-        };
-        let about = self.words(bits.about);
-        let mut text =
-            format!("{place}, {}{}{about}", escape(&bits.label), if about.is_empty() { "." } else { ": " });
-        let field = bits.field;
-        if field.active == 0 {
-            text.push_str(" Active at 0.");
-        }
-        if let Some(edge) = field.edge {
-            text.push_str(match edge {
-                Edge::Rising => " Acts on a change to 1.",
-                Edge::Falling => " Acts on a change to 0.",
-                Edge::Both => " Acts on every change.",
-            });
-        }
-        if let Some(clamp) = &field.clamp {
-            let _ = write!(text, " Clamp {}.", escape(clamp));
-        }
-        if !field.errors.is_empty() {
-            let codes: Vec<String> = field.error_codes().map(|code| format!("{code:04X}h")).collect();
-            let _ = write!(text, " Error {}.", codes.join(", "));
-        }
-        doc(&text)
+        doc(&facts::bits(self, bits, escape))
     }
 
     /// `mod specials`.

@@ -1,0 +1,95 @@
+//! Names in a whole program: C has one scope for all of them, and all macros.
+
+use std::collections::BTreeMap;
+
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::model::Dictionary;
+
+use super::language::C;
+use crate::plan::{Language, Role, Words};
+
+/// The folder of a device, and what begins its names: `pmc`.
+pub(super) fn prefix(key: &str) -> String {
+    C.identifier(Role::Type, &Words::of(key)).trim_end_matches('_').to_owned()
+}
+
+/// The names of one device: what kind of thing they are stands behind the device.
+pub(super) struct Names {
+    lower: String,
+    upper: String,
+}
+
+impl Names {
+    pub(super) fn of(device: &Dictionary) -> Self {
+        let lower = prefix(&device.key);
+        Self { upper: lower.to_ascii_uppercase(), lower }
+    }
+
+    /// `pmc`, as folders and files are called.
+    pub(super) fn device(&self) -> &str {
+        &self.lower
+    }
+
+    /// A macro: `PMC_LOW_SET_PRESSURE`, of `LOW` and `set_pressure`.
+    pub(super) fn macro_of(&self, parts: &[&str]) -> String {
+        let parts = parts.iter().map(|part| part.trim_matches('_').to_ascii_uppercase());
+        [self.upper.clone()].into_iter().chain(parts).collect::<Vec<_>>().join("_")
+    }
+
+    /// A function: `pmc_get_set_pressure`, of `get` and `set_pressure`.
+    pub(super) fn function(&self, parts: &[&str]) -> String {
+        let parts = parts.iter().map(|part| part.trim_matches('_'));
+        [self.lower.as_str()].into_iter().chain(parts).collect::<Vec<_>>().join("_")
+    }
+
+    /// A type: `pmc_drive_state_t`.
+    pub(super) fn type_of(&self, name: &str) -> String {
+        format!("{}_t", self.function(&[name]))
+    }
+}
+
+/// All names that files of one set define, each once. What different files of a device say in the same way, an include guard for one, is told
+/// apart by its kind.
+#[derive(Default)]
+pub(super) struct Register(BTreeMap<String, String>);
+
+impl Register {
+    /// Enters a name that the files define for `what`; a name that is there already is an error.
+    pub(super) fn enter(
+        &mut self,
+        name: &str,
+        what: &str,
+        device: &Dictionary,
+        diagnostics: &mut Diagnostics,
+    ) {
+        if let Some(other) = self.0.get(name) {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::IDENTIFIER_CLASH,
+                    device.span,
+                    format!("`{name}` would name {what} and {other} in the C of `{}`", device.key),
+                )
+                .help(
+                    "in C, all names of a program differ: change one of the names, give one of the entries `identifier:`, or \
+                     rename a device whose key begins as that of another one",
+                ),
+            );
+            return;
+        }
+        self.0.insert(name.to_owned(), what.to_owned());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_and_a_kind_stand_before_every_name() {
+        let names = Names { lower: "pmc".to_owned(), upper: "PMC".to_owned() };
+        assert_eq!(names.macro_of(&["LOW", "register_"]), "PMC_LOW_REGISTER");
+        assert_eq!(names.function(&["get", "register_"]), "pmc_get_register");
+        assert_eq!(names.type_of("drive_state"), "pmc_drive_state_t");
+        assert_eq!((prefix("int").as_str(), prefix("pitch drive 2").as_str()), ("int", "pitch_drive_2"));
+    }
+}
