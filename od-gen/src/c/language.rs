@@ -131,6 +131,11 @@ const RESERVED: &[&str] = &[
     "xor_eq",
 ];
 
+/// Whether nothing may be called so.
+pub(super) fn is_reserved(name: &str) -> bool {
+    RESERVED.contains(&name)
+}
+
 /// C99, which C++ reads, too. What has a name in the whole program gets the device's name before it ([`super::names`]); the plan's identifiers are
 /// without it.
 pub(crate) struct C;

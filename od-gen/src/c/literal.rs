@@ -73,7 +73,6 @@ pub(super) fn factor(value: i128) -> String {
 
 /// A string literal of bytes. Everything but printable ASCII is an octal escape, which has at most three digits, where a hexadecimal one would
 /// swallow what follows.
-#[cfg_attr(not(test), expect(dead_code, reason = "for the dictionaries"))]
 pub(super) fn string(bytes: &[u8]) -> String {
     let mut out = String::from("\"");
     for byte in bytes {

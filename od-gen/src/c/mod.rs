@@ -2,6 +2,7 @@
 //!
 //! Each device has a folder, `c/KEY/`, with `OD_types.h`, what its numbers mean, and the dictionary of each [`Kind`] that is wanted.
 
+mod canopennode;
 mod language;
 mod literal;
 mod names;
@@ -26,6 +27,8 @@ use crate::provenance::Provenance;
 pub enum Kind {
     /// By itself: tables, and the small reader and writer that comes with them.
     Plain,
+    /// For the stack CANopenNode, version 4.
+    CanopenNode,
 }
 
 /// The C of some devices, of each kind; of none when anything is wrong. What cannot be code is reported, as for Rust.
@@ -56,7 +59,7 @@ pub fn artifacts<'a>(
 fn of_device(
     plan: &Plan<'_>,
     provenance: &Provenance,
-    _: &[Kind],
+    kinds: &[Kind],
     register: &mut Register,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Artifact> {
@@ -66,9 +69,17 @@ fn of_device(
     let mut page = Page { plan, names: &names, text: text::Text::default(), register, diagnostics };
     types::print(&mut page);
     let types = header(&about("What the numbers mean"), &names.macro_of(&["OD", "TYPES", "H"]), &page.text);
-    vec![Artifact {
-        path: format!("c/{}/{}", names.device(), types::FILE),
+    let folder = format!("c/{}", names.device());
+    let mut set = vec![Artifact {
+        path: format!("{folder}/{}", types::FILE),
         bytes: types.into_bytes(),
         purpose: "enums, bits, scales and error codes for C".to_owned(),
-    }]
+    }];
+    for kind in kinds {
+        match kind {
+            Kind::Plain => {}
+            Kind::CanopenNode => set.extend(canopennode::files(plan, &folder, &about, diagnostics)),
+        }
+    }
+    set
 }

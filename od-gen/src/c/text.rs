@@ -41,7 +41,6 @@ impl Text {
     }
 
     /// What stands between two lines, one level further in.
-    #[cfg_attr(not(test), expect(dead_code, reason = "for the dictionaries"))]
     pub(super) fn block(&mut self, open: &str, close: &str, inside: impl FnOnce(&mut Self)) {
         self.line(open);
         self.level += 1;
@@ -81,8 +80,20 @@ impl Text {
         self.line(&format!("#define {name} {value}"));
     }
 
+    /// A member of an initialiser: `.name = value,`. The items of a list that is too long for one line fill several.
+    pub(super) fn value(&mut self, name: &str, value: &str) {
+        let line = format!("{name} = {value},");
+        match value.strip_prefix('{').and_then(|value| value.strip_suffix('}')) {
+            Some(items) if self.level * INDENT + line.len() > WIDTH => {
+                self.block(&format!("{name} = {{"), "},", |text| {
+                    text.items(items.split(", ").map(str::to_owned));
+                });
+            }
+            _ => self.line(&line),
+        }
+    }
+
     /// Items of a list, as many in a line as it takes.
-    #[cfg_attr(not(test), expect(dead_code, reason = "for the dictionaries"))]
     pub(super) fn items(&mut self, items: impl Iterator<Item = String>) {
         let room = WIDTH - self.level * INDENT;
         let mut line = String::new();

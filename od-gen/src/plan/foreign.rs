@@ -4,6 +4,7 @@
 //! the same way.
 
 mod names;
+mod units;
 
 use std::borrow::Cow;
 
@@ -31,6 +32,7 @@ pub(crate) fn decided<'a>(
 pub(crate) fn decided_anyhow(device: &Dictionary, language: &dyn Language) -> Dictionary {
     let mut device = device.clone();
     names::tell_apart(&mut device, language);
+    units::tell_apart(&mut device, language);
     for entry in device.objects.values_mut().flat_map(|object| &mut object.entries) {
         if let Some(capacity) = capacity(entry).filter(|_| entry.capacity.is_none()) {
             entry.capacity = Some(capacity);
@@ -178,6 +180,21 @@ mod tests {
             plan.entries[0].size
         };
         assert_eq!((text(""), text("short"), text(&"x".repeat(40))), (32, 32, 40));
+    }
+
+    #[test]
+    fn units_have_names_that_differ() {
+        let object =
+            |index: &str, unit: &str| format!("; unit {unit}\n{}", var(index, &format!("v{index}"), ""));
+        let text =
+            [object("2000", "%"), object("2001", "m/s"), object("2002", "m s"), object("2003", "V")].concat();
+        let system = system(&text);
+        let device = decided(&system, &system.devices[0], &Rust);
+        let mut diagnostics = Diagnostics::new();
+        let plan = plan(&system, &device, &Rust, &mut diagnostics);
+        assert!(!diagnostics.has_errors(), "{diagnostics:?}");
+        let names: Vec<&str> = plan.units.iter().map(|unit| unit.name.as_str()).collect();
+        assert_eq!(names, ["V", "MS1", "MS2", "Percent"]);
     }
 
     #[test]

@@ -153,7 +153,7 @@ static NOT_VALID: Value = Value::Integer(1 << 31);
 
 /// The value after a factory reset, where there is one. A PDO for whose COB-ID nobody states a value does not exist: 0 would be the
 /// identifier that stops nodes.
-fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
+pub(crate) fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
     let is_cob_id = Role::of(id.index) == Role::PdoCommunication && id.sub == SubIndex(1);
     entry.default.as_ref().or_else(|| is_cob_id.then_some(&NOT_VALID))
 }

@@ -35,6 +35,8 @@ pub(crate) use self::groups::Groups;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
 #[cfg(feature = "runtime")]
 pub(crate) use self::layout::Region;
+#[cfg(feature = "c")]
+pub(crate) use self::layout::factory;
 pub(crate) use self::layout::{Layout, Place, lay_out};
 use self::names::Scope;
 pub(crate) use self::names::Words;

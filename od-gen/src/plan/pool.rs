@@ -19,7 +19,7 @@ impl<T> Default for Pool<T> {
 
 impl<T: Ord + Clone> Pool<T> {
     /// The position of an item, which is added if it is not there.
-    pub(super) fn position(&mut self, item: T) -> u16 {
+    pub(crate) fn position(&mut self, item: T) -> u16 {
         if let Some(at) = self.positions.get(&item) {
             return *at;
         }

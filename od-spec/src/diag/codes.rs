@@ -246,6 +246,8 @@ codes! {
             "sites:\n  Hall: {type: P1, machines: {1..10: {}, 11: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..11: {}}}"
         )]
+    STACK_DIFFERS Warning "OD0855" "something that the stack wants set up":
+        "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":
@@ -254,6 +256,8 @@ codes! {
         "Generated firmware sets aside memory for every string that can change. Write `capacity:`, the most bytes that the device can hold."
     NOT_IN_FIRMWARE Error "OD0904" "something that generated code cannot do":
         "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message tells which part of the specification needs more."
+    STACK_REFUSES Error "OD0905" "a device that the stack does not take":
+        "CANopenNode does not compile, or does not do what the dictionary says, without certain objects: 1000h, 1001h and 1017h, and a mapping parameter object for each communication parameter object of a PDO, beginning with PDO 1. A dictionary without them would fail somewhere in the stack's own files; so none is made. Add the object, for example with `features:` of the library `cia301`."
     XDD_SYNTAX Error "XDD101" "a file is not well-formed XML":
         "The XML reader stopped at the marked place; nothing of the file was read. Frequent causes: an element that is not closed, `&` or `<` in a text where `&amp;` or `&lt;` belongs, a file that is cut off."
         [Example::xdd(

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use od_gen::c;
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::{Code, Diagnostics, Example, Language, Severity, codes as known};
 use od_spec::source::SourceMap;
@@ -32,6 +33,8 @@ const PROVOKED: &[Provocation] = &[
     Provocation { code: known::NO_IDENTIFIER, diagnostics: names_clash },
     Provocation { code: known::NO_CAPACITY, diagnostics: names_clash },
     Provocation { code: known::NOT_IN_FIRMWARE, diagnostics: names_clash },
+    Provocation { code: known::STACK_REFUSES, diagnostics: without_heartbeat },
+    Provocation { code: known::STACK_DIFFERS, diagnostics: without_heartbeat },
 ];
 
 fn unread(bytes: Vec<u8>) -> Diagnostics {
@@ -54,6 +57,17 @@ fn names_clash() -> Diagnostics {
     let system = compiled.system.unwrap();
     let mut diagnostics = Diagnostics::new();
     rust::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &mut diagnostics);
+    diagnostics
+}
+
+/// A device that lacks what a stack needs.
+fn without_heartbeat() -> Diagnostics {
+    let text = "od-spec: 1\ntitle: T\nuses: [cia301]\ndevices: {d: {name: D, bit-rates: [125]}}\n";
+    let (sources, _, compiled) = run("without_heartbeat.od.yaml", text);
+    let system = compiled.system.unwrap();
+    let mut diagnostics = Diagnostics::new();
+    let kinds = [c::Kind::CanopenNode];
+    c::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &kinds, &mut diagnostics);
     diagnostics
 }
 

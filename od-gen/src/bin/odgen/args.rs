@@ -272,12 +272,16 @@ pub(crate) struct BuildArgs {
 pub(crate) enum CKind {
     /// Any: a dictionary by itself, C99 without a stack
     Plain,
+    /// Firmware with the stack CANopenNode, version 4: `OD.h`, `OD.c`, and an extension that keeps limits, locks and conditions
+    #[value(name = "canopennode")]
+    CanopenNode,
 }
 
 impl From<CKind> for od_gen::c::Kind {
     fn from(kind: CKind) -> Self {
         match kind {
             CKind::Plain => Self::Plain,
+            CKind::CanopenNode => Self::CanopenNode,
         }
     }
 }

@@ -1,0 +1,62 @@
+//! Attributes of an entry, as the stack's SDO server and PDOs ask for them.
+
+use od_spec::model::{Direction, Entry, Family};
+
+use super::cell::Cell;
+
+/// The bits, in the order of the stack's names.
+const READ: u8 = 0x01;
+const WRITE: u8 = 0x02;
+const TPDO: u8 = 0x04;
+const RPDO: u8 = 0x08;
+const MULTI_BYTE: u8 = 0x40;
+const STRING: u8 = 0x80;
+
+/// Attributes of an entry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Attributes(u8);
+
+impl Attributes {
+    /// Of an entry. A locked entry can be written: the lock is kept where values are checked.
+    pub(super) fn of(entry: &Entry) -> Self {
+        let mut bits = 0;
+        let mut set = |bit: u8, is_set: bool| bits |= if is_set { bit } else { 0 };
+        set(READ, entry.access.is_readable());
+        set(WRITE, entry.access.is_writable());
+        set(TPDO, entry.pdo.allows(Direction::Transmit));
+        set(RPDO, entry.pdo.allows(Direction::Receive));
+        set(MULTI_BYTE, is_multi_byte(entry));
+        set(STRING, matches!(entry.data_type.family(), Family::VisibleString | Family::UnicodeString));
+        Self(bits)
+    }
+
+    /// The stack's expression: `ODA_SDO_RW | ODA_TPDO | ODA_MB`.
+    pub(super) fn expression(self) -> String {
+        let has = |bits: u8| self.0 & bits == bits;
+        let access = match (has(READ), has(WRITE)) {
+            (true, true) => Some("ODA_SDO_RW"),
+            (true, false) => Some("ODA_SDO_R"),
+            (false, true) => Some("ODA_SDO_W"),
+            (false, false) => None,
+        };
+        let mapping = match (has(TPDO), has(RPDO)) {
+            (true, true) => Some("ODA_TRPDO"),
+            (true, false) => Some("ODA_TPDO"),
+            (false, true) => Some("ODA_RPDO"),
+            (false, false) => None,
+        };
+        let multi_byte = has(MULTI_BYTE).then_some("ODA_MB");
+        let string = has(STRING).then_some("ODA_STR");
+        let names: Vec<&str> = [access, mapping, multi_byte, string].into_iter().flatten().collect();
+        if names.is_empty() { "0U".to_owned() } else { names.join(" | ") }
+    }
+}
+
+/// Whether the value is a number whose bytes a processor may have in another order than the bus.
+fn is_multi_byte(entry: &Entry) -> bool {
+    match Cell::of(entry) {
+        Some(Cell::Integer(integer)) => integer.bits > 8,
+        Some(Cell::Real32 | Cell::Real64) => true,
+        Some(Cell::Boolean | Cell::Bytes(_) | Cell::Characters(_) | Cell::WideCharacters(_)) | None => false,
+    }
+}

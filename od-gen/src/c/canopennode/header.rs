@@ -1,0 +1,215 @@
+//! `OD.h`: how many objects there are, the variables of their values, and short names for the objects.
+
+use std::collections::BTreeMap;
+
+use od_spec::model::Dictionary;
+use od_spec::wording::{Notation, Wording};
+
+use super::super::text::Text;
+use super::cell::Cell;
+use super::counters::{COUNTERS, SETTINGS};
+use super::docs::Docs;
+use super::groups::{AUTOMATIC, COMMAND, Group, GroupStorage, RESTORE};
+use super::objects::{Shape, Slot, StackObject};
+
+/// What stands between the lines that keep the file from being read twice.
+pub(super) fn print(text: &mut Text, docs: Docs<'_, '_>, objects: &[StackObject<'_>]) {
+    text.comment("Include `301/CO_ODinterface.h` of the stack before this file: it defines the types.");
+    text.gap();
+    text.line("#ifdef __cplusplus");
+    text.line("extern \"C\" {");
+    text.line("#endif");
+    counters(text, objects);
+    elements(text, objects);
+    for group in Group::ALL {
+        variables(text, docs, group, objects);
+    }
+    dictionary(text);
+    storage(text, docs.plan.device, objects);
+    entries(text, objects);
+    configuration(text, objects);
+    text.gap();
+    text.line("#ifdef __cplusplus");
+    text.line("}");
+    text.line("#endif");
+}
+
+fn counters(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.comment("How many objects of each kind there are: the stack makes room by these numbers.");
+    for counter in &COUNTERS {
+        let count = counter.count(objects);
+        if count > 0 {
+            text.define(&format!("OD_CNT_{}", counter.name), &format!("{count}"));
+        }
+    }
+}
+
+fn elements(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.comment("Elements of each ARRAY, without sub-index 0.");
+    for object in objects {
+        if let Some(count) = object.elements() {
+            text.define(&format!("OD_CNT_ARR_{:04X}", object.object.index.0), &format!("{count}"));
+        }
+    }
+}
+
+/// Whether any value lies in a group.
+pub(super) fn is_used(group: Group, objects: &[StackObject<'_>]) -> bool {
+    objects.iter().flat_map(StackObject::slots).any(|slot| slot.variable().is_some_and(|(of, _)| of == group))
+}
+
+/// The values of a group, in the order of the objects.
+fn variables(text: &mut Text, docs: Docs<'_, '_>, group: Group, objects: &[StackObject<'_>]) {
+    if !is_used(group, objects) {
+        return;
+    }
+    let name = group.name();
+    let words = Wording::english(Notation::Rust);
+    let about = match words.storage(group.0) {
+        "" => "Values that are lost at power-off.".to_owned(),
+        kept => format!(
+            "Values that are {kept}. Another order of the members makes another layout: what was stored before does not fit it."
+        ),
+    };
+    text.gap();
+    text.doc(&about);
+    text.block("typedef struct {", &format!("}} OD_{name}_t;"), |text| {
+        for object in objects {
+            members(text, docs, group, object);
+        }
+    });
+    text.gap();
+    text.comment("Before the variable, for the linker: a section, for one.");
+    text.line(&format!("#ifndef OD_ATTR_{name}"));
+    text.line(&format!("#define OD_ATTR_{name}"));
+    text.line("#endif");
+    text.line(&format!("extern OD_ATTR_{name} OD_{name}_t OD_{name};"));
+}
+
+fn members(text: &mut Text, docs: Docs<'_, '_>, group: Group, object: &StackObject<'_>) {
+    let cell_in = |slot: &Slot<'_>| slot.variable().filter(|(of, _)| *of == group).map(|(_, cell)| cell);
+    let variable = object.variable();
+    match &object.shape {
+        Shape::Var(slot) => {
+            if let Some(cell) = cell_in(slot) {
+                text.doc(&docs.object(object));
+                text.line(&declaration(cell, &variable, ""));
+            }
+        }
+        Shape::Array { count, elements } => {
+            if let Some(cell) = cell_in(count) {
+                text.doc(&docs.member(count));
+                text.line(&declaration(cell, &format!("{variable}_sub0"), ""));
+            }
+            if let Some(cell) = elements.first().and_then(cell_in) {
+                text.doc(&docs.object(object));
+                text.line(&declaration(
+                    cell,
+                    &variable,
+                    &format!("[OD_CNT_ARR_{:04X}]", object.object.index.0),
+                ));
+            }
+        }
+        Shape::Record(slots) => {
+            if !slots.iter().any(|slot| cell_in(slot).is_some()) {
+                return;
+            }
+            text.doc(&docs.object(object));
+            text.block("struct {", &format!("}} {variable};"), |text| {
+                for slot in slots {
+                    if let Some((cell, member)) = cell_in(slot).zip(slot.member()) {
+                        text.doc(&docs.member(slot));
+                        text.line(&declaration(cell, member, ""));
+                    }
+                }
+            });
+        }
+    }
+}
+
+fn declaration(cell: Cell, name: &str, elements: &str) -> String {
+    format!("{} {name}{elements}{};", cell.type_name(), cell.dimension())
+}
+
+fn dictionary(text: &mut Text) {
+    text.gap();
+    text.comment("The dictionary.");
+    text.line("#ifndef OD_ATTR_OD");
+    text.line("#define OD_ATTR_OD");
+    text.line("#endif");
+    text.line("extern OD_ATTR_OD OD_t *OD;");
+}
+
+/// What the application's list of storage has for each group.
+fn storage(text: &mut Text, device: &Dictionary, objects: &[StackObject<'_>]) {
+    let stored = || {
+        Group::ALL
+            .into_iter()
+            .filter(|group| is_used(*group, objects))
+            .filter_map(|group| Some((group, group.storage(device)?)))
+    };
+    if stored().next().is_none() {
+        return;
+    }
+    text.gap();
+    text.comment(
+        "Storage: members of an entry of the application's `CO_storage_entry_t` list, which goes to the stack's storage. An entry takes what else a \
+         driver needs: `{OD_STORAGE_PERSIST_COMM, .filename = \"comm\"}`. All of them, for a driver that needs nothing else: `CO_storage_entry_t \
+         list[] = {OD_STORAGE_ENTRIES};`",
+    );
+    for (group, GroupStorage { sub, attributes }) in stored() {
+        let by =
+            [(COMMAND, "stored by 1010h"), (AUTOMATIC, "stored by itself"), (RESTORE, "restored by 1011h")];
+        let by: Vec<&str> =
+            by.into_iter().filter(|(flag, _)| attributes & flag != 0).map(|(_, word)| word).collect();
+        let by = if by.is_empty() {
+            "no command stores it: the device has no 1010h".to_owned()
+        } else {
+            by.join(", ")
+        };
+        text.doc(&format!("Sub-index {sub}; {by}."));
+        let name = group.name();
+        text.line(&format!("#define OD_STORAGE_{name} \\"));
+        text.line(&format!(
+            "    .addr = &OD_{name}, .len = sizeof(OD_{name}), .subIndexOD = {sub}U, .attr = 0x{attributes:02X}U"
+        ));
+    }
+    let all: Vec<String> = stored().map(|(group, _)| format!("{{OD_STORAGE_{}}}", group.name())).collect();
+    text.doc("All groups that are stored.");
+    text.define("OD_STORAGE_ENTRIES", &all.join(", "));
+}
+
+/// Short names of the objects, and the same with what they are called.
+fn entries(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.comment("Objects of the dictionary.");
+    for (at, object) in objects.iter().enumerate() {
+        text.define(&format!("OD_ENTRY_H{:04X}", object.object.index.0), &format!("(&OD->list[{at}])"));
+    }
+    text.gap();
+    text.comment("Objects of the dictionary, with their names.");
+    // No two are equal: the index stands in each.
+    let names: BTreeMap<usize, String> = objects
+        .iter()
+        .enumerate()
+        .map(|(at, object)| (at, format!("{:04X}_{}", object.object.index.0, object.name)))
+        .collect();
+    for (at, name) in names {
+        text.define(&format!("OD_ENTRY_H{name}"), &format!("(&OD->list[{at}])"));
+    }
+}
+
+fn configuration(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.comment("The configuration of the stack, where several dictionaries are compiled together.");
+    text.line("#ifdef CO_MULTIPLE_OD");
+    text.line("#define OD_INIT_CONFIG(config) { \\");
+    for setting in &SETTINGS {
+        let (member, value) = setting.assignment(objects);
+        text.line(&format!("    (config).{member} = {value}; \\"));
+    }
+    text.line("}");
+    text.line("#endif");
+}

@@ -1,0 +1,170 @@
+//! `OD.c`: the values, the objects, and the list of them that the stack searches.
+
+use super::super::text::Text;
+use super::cell::Cell;
+use super::groups::Group;
+use super::header::is_used;
+use super::initial::initialiser;
+use super::objects::{Memory, Shape, Slot, StackObject};
+
+/// Everything behind the head of the file.
+pub(super) fn print(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.comment("The stack shows the types of objects to who defines them.");
+    text.line("#define OD_DEFINITION");
+    text.line("#include \"301/CO_ODinterface.h\"");
+    text.line("#include \"OD.h\"");
+    for group in Group::ALL {
+        variables(text, group, objects);
+    }
+    object_types(text, objects);
+    object_values(text, objects);
+    list(text, objects);
+}
+
+/// A group with what it begins with.
+fn variables(text: &mut Text, group: Group, objects: &[StackObject<'_>]) {
+    if !is_used(group, objects) {
+        return;
+    }
+    let name = group.name();
+    text.gap();
+    text.block(&format!("OD_ATTR_{name} OD_{name}_t OD_{name} = {{"), "};", |text| {
+        for object in objects {
+            members(text, group, object);
+        }
+    });
+}
+
+fn members(text: &mut Text, group: Group, object: &StackObject<'_>) {
+    let value_in = |slot: &Slot<'_>| {
+        slot.variable().filter(|(of, _)| *of == group).map(|(_, cell)| initialiser(slot.id, slot.entry, cell))
+    };
+    let variable = object.variable();
+    match &object.shape {
+        Shape::Var(slot) => {
+            if let Some(value) = value_in(slot) {
+                text.value(&format!(".{variable}"), &value);
+            }
+        }
+        Shape::Array { count, elements } => {
+            if let Some(value) = value_in(count) {
+                text.value(&format!(".{variable}_sub0"), &value);
+            }
+            let values: Vec<String> = elements.iter().filter_map(value_in).collect();
+            if !values.is_empty() {
+                text.block(&format!(".{variable} = {{"), "},", |text| text.items(values.into_iter()));
+            }
+        }
+        Shape::Record(slots) => {
+            let values: Vec<(&str, String)> =
+                slots.iter().filter_map(|slot| slot.member().zip(value_in(slot))).collect();
+            if !values.is_empty() {
+                text.block(&format!(".{variable} = {{"), "},", |text| {
+                    for (member, value) in values {
+                        text.value(&format!(".{member}"), &value);
+                    }
+                });
+            }
+        }
+    }
+}
+
+/// The type of all objects together.
+fn object_types(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.block("typedef struct {", "} ODObjs_t;", |text| {
+        for object in objects {
+            let name = object.constant();
+            text.line(&match &object.shape {
+                Shape::Var(_) => format!("OD_obj_var_t {name};"),
+                Shape::Array { .. } => format!("OD_obj_array_t {name};"),
+                Shape::Record(slots) => format!("OD_obj_record_t {name}[{}];", slots.len()),
+            });
+        }
+    });
+}
+
+fn object_values(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.block("static CO_PROGMEM ODObjs_t ODObjs = {", "};", |text| {
+        for object in objects {
+            let open = format!(".{} = {{", object.constant());
+            text.block(&open, "},", |text| match &object.shape {
+                Shape::Var(slot) => {
+                    text.value(".dataOrig", &address(object, slot));
+                    text.value(".attribute", &slot.attributes.expression());
+                    text.value(".dataLength", &length(slot));
+                }
+                Shape::Array { count, elements } => array(text, object, count, elements),
+                Shape::Record(slots) => {
+                    for slot in slots {
+                        text.block("{", "},", |text| {
+                            text.value(".dataOrig", &address(object, slot));
+                            text.value(".subIndex", &format!("{}U", slot.id.sub));
+                            text.value(".attribute", &slot.attributes.expression());
+                            text.value(".dataLength", &length(slot));
+                        });
+                    }
+                }
+            });
+        }
+    });
+}
+
+fn array(text: &mut Text, object: &StackObject<'_>, count: &Slot<'_>, elements: &[Slot<'_>]) {
+    let Some(first) = elements.first() else { return };
+    text.value(".dataOrig0", &address(object, count));
+    text.value(".dataOrig", &address(object, first));
+    text.value(".attribute0", &count.attributes.expression());
+    text.value(".attribute", &first.attributes.expression());
+    text.value(".dataElementLength", &length(first));
+    // From one element to the next: of a string, with what ends it.
+    let stride = first.variable().map_or("0U".to_owned(), |(_, cell)| match cell.dimension() {
+        dimension if dimension.is_empty() => format!("sizeof({})", cell.type_name()),
+        dimension => format!("sizeof({}{dimension})", cell.type_name()),
+    });
+    text.value(".dataElementSizeof", &stride);
+}
+
+/// Where a value lies: the address of its first byte.
+fn address(object: &StackObject<'_>, slot: &Slot<'_>) -> String {
+    match (&slot.memory, object.path(slot)) {
+        (Memory::Variable { group, cell, .. }, Some(path)) => {
+            let first = match cell {
+                Cell::Boolean | Cell::Integer(_) | Cell::Real32 | Cell::Real64 => "",
+                Cell::Bytes(_) | Cell::Characters(_) | Cell::WideCharacters(_) => "[0]",
+            };
+            format!("&OD_{}.{path}{first}", group.name())
+        }
+        (Memory::Variable { .. } | Memory::Stack | Memory::View, _) => "NULL".to_owned(),
+    }
+}
+
+fn length(slot: &Slot<'_>) -> String {
+    format!("{}U", slot.length)
+}
+
+/// The list, in the order of the indices, and an entry that ends it.
+fn list(text: &mut Text, objects: &[StackObject<'_>]) {
+    text.gap();
+    text.comment("By ascending index, as the stack searches it by bisection.");
+    text.block("static OD_ATTR_OD OD_entry_t ODList[] = {", "};", |text| {
+        for object in objects {
+            let count = object.slots().len();
+            text.line(&format!(
+                "{{0x{:04X}U, {count}U, {}, &ODObjs.{}, NULL}},",
+                object.object.index.0,
+                object.kind(),
+                object.constant()
+            ));
+        }
+        text.line("{0x0000U, 0U, 0U, NULL, NULL}");
+    });
+    text.gap();
+    text.block("static OD_t ODDictionary = {", "};", |text| {
+        text.line(&format!("{}U,", objects.len()));
+        text.line("&ODList[0]");
+    });
+    text.gap();
+    text.line("OD_ATTR_OD OD_t *OD = &ODDictionary;");
+}

@@ -1,0 +1,172 @@
+//! A firmware project as small as can be: the files of a device, the interface of the stack, and a program of the tests.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use od_gen::Provenance;
+use od_gen::c::{self, Kind};
+use od_gen::json;
+use od_spec::diag::Diagnostics;
+use od_spec::diag::render::{Format, render};
+use od_spec::model::System;
+use od_spec::source::SourceMap;
+use od_spec::{Compiled, compile};
+use od_tests::{OfWorkspace, compile_with_sources, root};
+use serde_json::Value as Json;
+
+/// What every file has to pass without a word.
+const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"];
+
+/// The files of one device, in a directory of their own.
+pub(crate) struct Project {
+    folder: PathBuf,
+    /// The device in the dump.
+    pub(crate) device: Json,
+    /// The whole dump.
+    pub(crate) dump: Json,
+    /// What was told when the files were made.
+    pub(crate) told: String,
+}
+
+/// The compilers that are there, for C and for C++.
+fn compilers() -> Vec<(&'static str, &'static str)> {
+    let pairs = [("gcc", "g++"), ("clang", "clang++")];
+    let is_there = |program: &str| {
+        Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
+    };
+    let found: Vec<_> = pairs.into_iter().filter(|(c, cpp)| is_there(c) && is_there(cpp)).collect();
+    assert!(!found.is_empty(), "generated C is compiled: install gcc or clang");
+    found
+}
+
+/// The projects of all devices of a specification of the workspace.
+pub(crate) fn of_workspace(path: &str) -> Vec<Project> {
+    let (system, sources) = compile_with_sources(path).unwrap();
+    let stem = Path::new(path).file_name().unwrap().to_string_lossy().into_owned();
+    of_system(&system, &sources, &stem)
+}
+
+/// The project of a text, as a specification or, by its name, an EDS.
+pub(crate) fn of_text(name: &str, text: &str) -> Project {
+    let (system, sources) = compiled(name, text);
+    of_system(&system, &sources, name).remove(0)
+}
+
+/// What is told about a text that is refused, or of which C is made: the messages, and whether there are files.
+pub(crate) fn told(name: &str, text: &str) -> (String, bool) {
+    let (system, sources) = compiled(name, text);
+    let mut diagnostics = Diagnostics::new();
+    let set = c::artifacts(
+        &system,
+        system.devices.iter(),
+        &Provenance::of(&sources),
+        &[Kind::CanopenNode],
+        &mut diagnostics,
+    );
+    (render(&diagnostics, &sources, Format::Human, false), !set.is_empty())
+}
+
+fn compiled(name: &str, text: &str) -> (System, SourceMap) {
+    let mut sources = SourceMap::new();
+    let root = sources.add(name, text);
+    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut OfWorkspace);
+    (system.unwrap_or_else(|| panic!("{}", render(&diagnostics, &sources, Format::Human, false))), sources)
+}
+
+fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
+    let mut diagnostics = Diagnostics::new();
+    let set = c::artifacts(
+        system,
+        system.devices.iter(),
+        &Provenance::of(sources),
+        &[Kind::CanopenNode],
+        &mut diagnostics,
+    );
+    let told = render(&diagnostics, sources, Format::Human, false);
+    assert!(!diagnostics.has_errors(), "{told}");
+    let dump: Json = serde_json::from_slice(&json::dump(system, &[])).unwrap();
+    let folder = root().join("target/canopennode").join(name);
+    for file in &set {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, &file.bytes).unwrap();
+    }
+    let folders: BTreeSet<&str> =
+        set.iter().filter_map(|file| file.path.rsplit_once('/')).map(|(folder, _)| folder).collect();
+    let devices = dump["devices"].as_array().unwrap();
+    assert_eq!(folders.len(), devices.len());
+    let of_device = |device: &Json| {
+        let key = device["key"].as_str().unwrap().replace(['-', ' ', '.'], "_").to_lowercase();
+        let path = folders.iter().find(|path| path.ends_with(&format!("/{key}"))).unwrap();
+        Project { folder: folder.join(path), device: device.clone(), dump: dump.clone(), told: told.clone() }
+    };
+    devices.iter().map(of_device).collect()
+}
+
+impl Project {
+    /// A file of the device.
+    pub(crate) fn file(&self, name: &str) -> String {
+        std::fs::read_to_string(self.folder.join(name)).unwrap()
+    }
+
+    pub(crate) fn key(&self) -> &str {
+        self.device["key"].as_str().unwrap()
+    }
+
+    /// Compiles the files with a program of the tests, by every compiler that is there, and runs the last one.
+    pub(crate) fn run(&self, program: &str, arguments: &[&Path]) -> String {
+        let tests = root().join("tests/c/canopennode");
+        let mut output = None;
+        for (cc, cpp) in compilers() {
+            let made = self.folder.join(format!("{program}-{cc}"));
+            let generated = ["OD.c", "OD_extension.c", "OD_rules.c"].map(|file| self.folder.join(file));
+            let own = ["interface.c", program].map(|file| tests.join(file));
+            let mut command = Command::new(cc);
+            command
+                .args(["-std=c99", "-g"])
+                .args(WARNINGS)
+                .args(["-fsanitize=undefined", "-fno-sanitize-recover=undefined"]);
+            command
+                .arg("-I")
+                .arg(&tests)
+                .arg("-I")
+                .arg(&self.folder)
+                .args(generated)
+                .args(own)
+                .arg("-o")
+                .arg(&made);
+            succeeds(command.output().unwrap(), &format!("{cc}: {}", self.key()));
+            let mut command = Command::new(cpp);
+            command
+                .args(["-std=c++11", "-fsyntax-only"])
+                .args(WARNINGS)
+                .arg("-I")
+                .arg(&tests)
+                .arg("-I")
+                .arg(&self.folder);
+            succeeds(
+                command.arg(tests.join("includes.cpp")).output().unwrap(),
+                &format!("{cpp}: {}", self.key()),
+            );
+            output = Some(succeeds(
+                Command::new(&made).args(arguments).output().unwrap(),
+                &format!("{program}: {}", self.key()),
+            ));
+        }
+        output.unwrap()
+    }
+
+    /// Writes a file beside those of the device.
+    pub(crate) fn beside(&self, name: &str, bytes: &[u8]) -> PathBuf {
+        let path = self.folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    }
+}
+
+fn succeeds(output: Output, what: &str) -> String {
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.is_empty(), "{what}:\n{said}");
+    String::from_utf8(output.stdout).unwrap()
+}
