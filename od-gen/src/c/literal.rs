@@ -71,6 +71,18 @@ pub(super) fn factor(value: i128) -> String {
     Integer { signed, bits }.literal(value)
 }
 
+/// A `float` in brackets, with the fewest digits that make this number; `None` of what is no number or none that ends.
+pub(super) fn real32(number: f64) -> Option<String> {
+    #[expect(clippy::cast_possible_truncation, reason = "the nearest value that the type has")]
+    let single = number as f32;
+    single.is_finite().then(|| format!("({single:?}F)"))
+}
+
+/// A `double`, as [`real32`].
+pub(super) fn real64(number: f64) -> Option<String> {
+    number.is_finite().then(|| format!("({number:?})"))
+}
+
 /// A string literal of bytes. Everything but printable ASCII is an octal escape, which has at most three digits, where a hexadecimal one would
 /// swallow what follows.
 pub(super) fn string(bytes: &[u8]) -> String {
@@ -126,6 +138,13 @@ mod tests {
         assert_eq!((factor(10).as_str(), factor(-5).as_str()), ("(10L)", "(-5L)"));
         assert_eq!(factor(1 << 40), "(1099511627776LL)");
         assert_eq!(factor(u64::MAX.into()), "(18446744073709551615ULL)");
+    }
+
+    #[test]
+    fn reals_are_constants_of_their_type() {
+        assert_eq!(real32(0.1).as_deref(), Some("(0.1F)"));
+        assert_eq!((real32(-2.0).as_deref(), real64(1e300).as_deref()), (Some("(-2.0F)"), Some("(1e300)")));
+        assert_eq!((real32(1e300), real64(f64::NAN)), (None, None));
     }
 
     #[test]

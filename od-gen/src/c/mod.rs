@@ -7,6 +7,7 @@ mod language;
 mod literal;
 mod names;
 mod page;
+mod plain;
 mod text;
 mod types;
 
@@ -16,7 +17,7 @@ use od_spec::model::{Dictionary, System};
 pub(crate) use self::language::C;
 use self::names::{Names, Register};
 use self::page::Page;
-use self::text::header;
+use self::text::{Text, header};
 use crate::artifact::Artifact;
 use crate::plan::{Plan, decided, plan};
 use crate::provenance::Provenance;
@@ -31,7 +32,8 @@ pub enum Kind {
     CanopenNode,
 }
 
-/// The C of some devices, of each kind; of none when anything is wrong. What cannot be code is reported, as for Rust.
+/// The C of some devices, of each kind; of none when anything is wrong. What cannot be code is reported, as for Rust. The files include those that
+/// [`shared`] gives.
 pub fn artifacts<'a>(
     system: &System,
     devices: impl Iterator<Item = &'a Dictionary>,
@@ -56,6 +58,16 @@ pub fn artifacts<'a>(
     if diagnostics.count().0 == before { set } else { Vec::new() }
 }
 
+/// What the files of all devices include, each once however many there are.
+pub fn shared(kinds: &[Kind]) -> Vec<Artifact> {
+    let of_kind = |kind: &Kind| match kind {
+        Kind::Plain => plain::runtime().to_vec(),
+        // Each folder is whole by itself, as the stack includes `OD.h` by this name.
+        Kind::CanopenNode => Vec::new(),
+    };
+    kinds.iter().flat_map(of_kind).collect()
+}
+
 fn of_device(
     plan: &Plan<'_>,
     provenance: &Provenance,
@@ -64,21 +76,32 @@ fn of_device(
     diagnostics: &mut Diagnostics,
 ) -> Vec<Artifact> {
     let names = Names::of(plan.device);
-    let about =
-        |what: &str| format!("{what} of the object dictionary `{}` of {}.", plan.device.key, provenance.name);
-    let mut page = Page { plan, names: &names, text: text::Text::default(), register, diagnostics };
+    let about = |what: &str| format!("{what} of `{}`, from {}.", plan.device.key, provenance.name);
+    let file = |name: &str, text: Text, purpose: &str| Artifact {
+        path: format!("c/{}/{name}", names.device()),
+        bytes: text.into_bytes(),
+        purpose: purpose.to_owned(),
+    };
+    let mut page = Page { plan, names: &names, text: Text::default(), register, diagnostics };
+    let mut set = Vec::new();
     types::print(&mut page);
-    let types = header(&about("What the numbers mean"), &names.macro_of(&["OD", "TYPES", "H"]), &page.text);
-    let folder = format!("c/{}", names.device());
-    let mut set = vec![Artifact {
-        path: format!("{folder}/{}", types::FILE),
-        bytes: types.into_bytes(),
-        purpose: "enums, bits, scales and error codes for C".to_owned(),
-    }];
+    let guard = names.macro_of(&["OD", "TYPES", "H"]);
+    let text = header(&about("What the numbers in the object dictionary mean"), &guard, &page.finish());
+    set.push(file(types::FILE, text, "enums, bits, scales and error codes for C"));
     for kind in kinds {
         match kind {
-            Kind::Plain => {}
-            Kind::CanopenNode => set.extend(canopennode::files(plan, &folder, &about, diagnostics)),
+            Kind::Plain => {
+                plain::header(&mut page);
+                let guard = names.macro_of(&["OD", "H"]);
+                let text = header(&about("The object dictionary"), &guard, &page.finish());
+                set.push(file(&plain::file(&names, "h"), text, "the dictionary for C firmware"));
+                plain::source(&mut page, &about("The table of the object dictionary"));
+                set.push(file(&plain::file(&names, "c"), page.finish(), "its table"));
+            }
+            Kind::CanopenNode => {
+                let folder = format!("c/{}", names.device());
+                set.extend(canopennode::files(plan, &folder, &about, page.diagnostics));
+            }
         }
     }
     set

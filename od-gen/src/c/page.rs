@@ -21,6 +21,11 @@ pub(super) struct Page<'p, 'a> {
 }
 
 impl Page<'_, '_> {
+    /// The text so far; what is written next is another file.
+    pub(super) fn finish(&mut self) -> Text {
+        std::mem::take(&mut self.text)
+    }
+
     /// A macro; `what` names it in messages.
     pub(super) fn define(&mut self, parts: &[&str], value: &str, what: &str) {
         let name = self.names.macro_of(parts);

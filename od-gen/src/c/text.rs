@@ -93,6 +93,36 @@ impl Text {
         }
     }
 
+    /// The head of a function, its parameters in lines of their own where they are too many for one.
+    pub(super) fn signature(&mut self, function: &str, parameters: &[&str]) {
+        let line = format!("{function}({})", parameters.join(", "));
+        if line.len() <= WIDTH {
+            self.line(&line);
+            return;
+        }
+        self.line(&format!("{function}("));
+        self.level += 1;
+        for (at, parameter) in parameters.iter().enumerate() {
+            let end = if at + 1 == parameters.len() { ")" } else { "," };
+            self.line(&format!("{parameter}{end}"));
+        }
+        self.level -= 1;
+    }
+
+    /// A statement, broken where its conditions are joined.
+    pub(super) fn broken(&mut self, statement: &str) {
+        if statement.len() + self.level * INDENT <= WIDTH {
+            self.line(statement);
+            return;
+        }
+        let parts = statement.replace(" && ", "\n&& ").replace(" || ", "\n|| ");
+        for (at, part) in parts.split('\n').enumerate() {
+            self.level += usize::from(at > 0);
+            self.line(part);
+            self.level -= usize::from(at > 0);
+        }
+    }
+
     /// Items of a list, as many in a line as it takes.
     pub(super) fn items(&mut self, items: impl Iterator<Item = String>) {
         let room = WIDTH - self.level * INDENT;

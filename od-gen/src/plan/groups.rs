@@ -72,6 +72,14 @@ impl Plan<'_> {
         self.entries.get(rows).unwrap_or_default().iter()
     }
 
+    /// Whether an entry has values of the specification's own: no counts, no PDO parameters.
+    pub(crate) fn is_stated(&self, entry: &PlannedEntry<'_>) -> bool {
+        self.objects.get(entry.object).map(|planned| planned.object).is_some_and(|object| {
+            let is_count = object.is_structured() && entry.id.sub == SubIndex(0);
+            !object.role().is_pdo_parameter() && !is_count
+        })
+    }
+
     /// The entries of a group that have accessors.
     pub(crate) fn accessible(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
         self.entries_of(object).filter(|entry| is_accessible(entry))
@@ -79,7 +87,7 @@ impl Plan<'_> {
 }
 
 /// Whether an entry of a group has an accessor: a number of entries that never changes is a constant of the shape, not a value.
-pub(super) const fn is_accessible(entry: &PlannedEntry<'_>) -> bool {
+pub(crate) const fn is_accessible(entry: &PlannedEntry<'_>) -> bool {
     entry.id.sub.0 != 0 || !matches!(entry.place, Place::Constant(_))
 }
 

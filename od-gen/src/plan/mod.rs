@@ -32,6 +32,8 @@ pub(crate) use self::foreign::decided;
 #[cfg(feature = "runtime")]
 pub(crate) use self::foreign::decided_anyhow;
 pub(crate) use self::groups::Groups;
+#[cfg(feature = "c")]
+pub(crate) use self::groups::is_accessible;
 pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
 #[cfg(feature = "runtime")]
 pub(crate) use self::layout::Region;

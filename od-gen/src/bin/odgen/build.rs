@@ -70,6 +70,9 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             }
         }
     }
+    if !set.is_empty() {
+        set.extend(c::shared(&kinds(args)));
+    }
     if let Some(what) = clash(&set, "devices") {
         return report.refuse(Diagnostic::without_place(rule_codes::DUPLICATE_NAME, what).help(
             "give the devices or specifications other names, or build them into different directories, with `--device` and `--out`",
@@ -160,11 +163,16 @@ fn code(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Report)
     if args.rust {
         make(&|diagnostics| rust::artifacts(system, devices(), &provenance, diagnostics));
     }
+    make(&|diagnostics| c::artifacts(system, devices(), &provenance, &kinds(args), diagnostics));
+    is_whole.then_some(set)
+}
+
+/// The kinds of C that are wanted, each once.
+fn kinds(args: &BuildArgs) -> Vec<c::Kind> {
     let mut kinds: Vec<c::Kind> = args.c.iter().copied().map(c::Kind::from).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    make(&|diagnostics| c::artifacts(system, devices(), &provenance, &kinds, diagnostics));
-    is_whole.then_some(set)
+    kinds
 }
 
 fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {

@@ -3,7 +3,7 @@
 use od_spec::model::{Entry, EntryId};
 use od_spec::wording::Radix;
 
-use super::super::literal::{Integer, string};
+use super::super::literal::{Integer, real32, real64, string};
 use super::cell::Cell;
 use crate::plan::factory;
 
@@ -17,13 +17,14 @@ pub(super) fn initialiser(id: EntryId, entry: &Entry, cell: Cell) -> String {
     let literal = match cell {
         Cell::Boolean => Integer { signed: false, bits: 8 }.literal(number(1).into()),
         Cell::Integer(integer) => integer_literal(id, entry, integer, number(usize::from(integer.bits / 8))),
+        // A number that is none is no default.
         Cell::Real32 => {
-            let bytes = bytes.first_chunk().copied().unwrap_or_default();
-            format!("({:?}F)", f32::from_le_bytes(bytes))
+            let number = f32::from_le_bytes(bytes.first_chunk().copied().unwrap_or_default());
+            real32(number.into()).unwrap_or_else(|| "0.0F".to_owned())
         }
         Cell::Real64 => {
-            let bytes = bytes.first_chunk().copied().unwrap_or_default();
-            format!("({:?})", f64::from_le_bytes(bytes))
+            let number = f64::from_le_bytes(bytes.first_chunk().copied().unwrap_or_default());
+            real64(number).unwrap_or_else(|| "0.0".to_owned())
         }
         Cell::Bytes(length) => {
             let room = usize::try_from(length).unwrap_or(usize::MAX);

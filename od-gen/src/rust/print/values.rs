@@ -1,6 +1,6 @@
 //! Defaults and limits as constants.
 
-use od_spec::model::{SubIndex, Value};
+use od_spec::model::Value;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -85,15 +85,9 @@ impl Plan<'_> {
         }
     }
 
-    /// Entries with values of the specification's own: no counts, no PDO parameters.
+    /// Entries with values of the specification's own.
     fn stated(&self) -> impl Iterator<Item = &PlannedEntry<'_>> {
-        self.entries.iter().filter(|entry| {
-            let object = self.objects.get(entry.object).map(|planned| planned.object);
-            object.is_some_and(|object| {
-                let is_count = object.is_structured() && entry.id.sub == SubIndex(0);
-                !object.role().is_pdo_parameter() && !is_count
-            })
-        })
+        self.entries.iter().filter(|entry| self.is_stated(entry))
     }
 }
 
