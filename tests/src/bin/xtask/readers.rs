@@ -84,8 +84,9 @@ pub(crate) fn foretold(runner: &mut Runner) -> Result<(), Failure> {
 pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let dumps = SPECS.map(|stem| format!("generated/{stem}.json"));
-    let arguments = ["tests/readers/eds2c.py", "--eds-dir", "generated/eds", "--dump"];
-    runner.run(Command::new(&python).args(arguments).args(dumps))
+    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let arguments = ["tests/readers/eds2c.py", "--eds-dir", "generated/eds", "--odgen"];
+    runner.run(Command::new(&python).args(arguments).arg(odgen).arg("--dump").args(dumps))
 }
 
 /// What dcfgen makes of the same values, beside the concise DCF files of odgen.
