@@ -1,6 +1,7 @@
 //! What the project's tasks and its cross-crate tests share.
 
 pub mod access_cases;
+pub mod c_dictionary;
 pub mod compiler;
 pub mod foreign;
 pub mod fuzz;

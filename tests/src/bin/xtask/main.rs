@@ -10,6 +10,7 @@ mod hostile;
 mod manuals;
 mod package;
 mod parts;
+mod plain_c;
 mod readers;
 mod runner;
 mod summary;

@@ -6,7 +6,7 @@ use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, manuals, readers};
+use crate::{browser, manuals, plain_c, readers};
 
 /// A part of the tests, in the order in which they run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,6 +44,8 @@ pub(crate) enum Part {
     FirmwareTests,
     /// A client that others wrote, against the demo firmware in an emulator.
     DemoFirmware,
+    /// Dictionaries in plain C: every compiler and platform, and an emulator.
+    PlainC,
 }
 
 /// What parts have in common; what a tool is needed for.
@@ -78,7 +80,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 19] = [
+    pub(crate) const ALL: [Part; 20] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -98,6 +100,7 @@ impl Part {
         Part::FirmwareSizes,
         Part::FirmwareTests,
         Part::DemoFirmware,
+        Part::PlainC,
     ];
 
     pub(crate) const fn title(self) -> &'static str {
@@ -121,6 +124,7 @@ impl Part {
             Part::FirmwareSizes => "sizes of firmware",
             Part::FirmwareTests => "firmware in an emulator",
             Part::DemoFirmware => "demo firmware in an emulator",
+            Part::PlainC => "dictionaries in plain C",
         }
     }
 
@@ -140,7 +144,7 @@ impl Part {
             | Part::Dbc
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
-            Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware => Area::Firmware,
+            Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware | Part::PlainC => Area::Firmware,
         }
     }
 
@@ -160,7 +164,8 @@ impl Part {
             | Part::Plant
             | Part::Dbc
             | Part::Manuals
-            | Part::FirmwareSizes => Turn::Beside,
+            | Part::FirmwareSizes
+            | Part::PlainC => Turn::Beside,
             Part::SdoClient | Part::Browser | Part::FirmwareTests | Part::DemoFirmware => Turn::Alone,
         }
     }
@@ -187,6 +192,7 @@ impl Part {
             Part::FirmwareTests | Part::DemoFirmware => {
                 &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu]
             }
+            Part::PlainC => &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
         }
     }
 
@@ -211,7 +217,8 @@ impl Part {
             | Part::Manuals
             | Part::FirmwareSizes
             | Part::FirmwareTests
-            | Part::DemoFirmware => &[],
+            | Part::DemoFirmware
+            | Part::PlainC => &[],
         }
     }
 
@@ -256,6 +263,7 @@ impl Part {
             Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),
             Part::FirmwareTests => runner.python("tests/thumb/run.py", &["test"]),
             Part::DemoFirmware => readers::demo_firmware(runner),
+            Part::PlainC => plain_c::try_all(runner),
         }
     }
 }
@@ -288,8 +296,8 @@ mod tests {
 
     #[test]
     fn all_parts_are_listed_in_the_order_in_which_they_are_declared() {
-        assert!(Part::ALL.is_sorted() && Part::ALL.last() == Some(&Part::DemoFirmware));
-        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Qemu));
+        assert!(Part::ALL.is_sorted() && Part::ALL.last() == Some(&Part::PlainC));
+        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Clang));
     }
 
     #[test]

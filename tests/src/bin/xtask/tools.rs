@@ -28,10 +28,12 @@ pub(crate) enum Tool {
     ThumbTarget,
     ThumbLinker,
     Qemu,
+    /// A second compiler of C, which compiles for other platforms, too; the first is the one that Rust links with.
+    Clang,
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 8] = [
+    pub(crate) const ALL: [Tool; 9] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
@@ -40,6 +42,7 @@ impl Tool {
         Tool::ThumbTarget,
         Tool::ThumbLinker,
         Tool::Qemu,
+        Tool::Clang,
     ];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -52,6 +55,7 @@ impl Tool {
             Tool::ThumbTarget => "Rust's target thumbv7em-none-eabi",
             Tool::ThumbLinker => "a linker for it: rust-lld, which rustup's Rust has, or arm-none-eabi-ld",
             Tool::Qemu => "qemu-system-arm",
+            Tool::Clang => "clang",
         }
     }
 
@@ -71,6 +75,7 @@ impl Tool {
             ],
             Tool::ThumbLinker => &["apt-get install binutils-arm-none-eabi"],
             Tool::Qemu => &["apt-get install qemu-system-arm"],
+            Tool::Clang => &["apt-get install clang"],
         }
     }
 
@@ -93,6 +98,7 @@ impl Tool {
             Tool::ThumbTarget => has_target(),
             Tool::ThumbLinker => has_linker(),
             Tool::Qemu => is_in_path("qemu-system-arm"),
+            Tool::Clang => is_in_path("clang"),
         }
     }
 }
@@ -146,16 +152,23 @@ fn debian_sysroot() -> Option<PathBuf> {
 }
 
 fn has_linker() -> bool {
+    thumb_linker().is_some()
+}
+
+/// The linker for a Cortex-M, and what tells it that it is a GNU linker: rust-lld or that of Debian.
+pub(crate) fn thumb_linker() -> Option<Vec<String>> {
     let roots = [sysroot("rustc"), debian_sysroot()];
-    roots.into_iter().flatten().any(|root| has_lld(&root)) || is_in_path("arm-none-eabi-ld")
+    let lld = roots.into_iter().flatten().find_map(|root| lld(&root));
+    let lld = lld.map(|lld| vec![lld.display().to_string(), "-flavor".to_owned(), "gnu".to_owned()]);
+    lld.or_else(|| is_in_path("arm-none-eabi-ld").then(|| vec!["arm-none-eabi-ld".to_owned()]))
 }
 
 /// `lib/rustlib/HOST/bin/rust-lld` of a toolchain.
-fn has_lld(sysroot: &Path) -> bool {
+fn lld(sysroot: &Path) -> Option<PathBuf> {
     let hosts = std::fs::read_dir(sysroot.join("lib/rustlib")).into_iter().flatten().flatten();
-    hosts.into_iter().any(|host| {
+    hosts.into_iter().find_map(|host| {
         let programs = host.path().join("bin");
-        ["rust-lld", "rust-lld.exe"].iter().any(|name| programs.join(name).is_file())
+        ["rust-lld", "rust-lld.exe"].iter().map(|name| programs.join(name)).find(|path| path.is_file())
     })
 }
 

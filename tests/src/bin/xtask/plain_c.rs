@@ -1,0 +1,96 @@
+//! Dictionaries in plain C: two compilers, platforms of 32 and 64 bits, C++ for the headers, and an emulated Cortex-M.
+
+use std::path::PathBuf;
+
+use od_gen::runtime::{self, LiveDictionary};
+use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
+use od_spec::diag::Diagnostics;
+use od_tests::c_dictionary::{
+    Compiler, Exchange, Host, Reference, Trial, compare, compile_header, emulate, write,
+};
+use od_tests::{Failure, root};
+
+use crate::runner::Runner;
+use crate::tools::thumb_linker;
+
+/// Requests by chance, beside those that go through all entries.
+const RANDOM: usize = 20_000;
+
+const PITCH: &str = "od-spec/devices/pitch-control-system.od.yaml";
+const FULLMO: &str = "od-spec/devices/fullmo-drive.od.yaml";
+/// Specifications of the tests, of one device each.
+const TESTED: [&str; 4] = [
+    "tests/readers/everything.od.yaml",
+    "tests/readers/limits.od.yaml",
+    "tests/readers/scales.od.yaml",
+    "tests/c/conditions.od.yaml",
+];
+
+/// What Rust links with is tried by the Rust tests.
+fn compilers() -> [Compiler; 4] {
+    let thumb = ["--target=thumbv7em-none-eabi", "-ffreestanding"];
+    [
+        Compiler::new("clang", &[]),
+        Compiler::new("clang", &["-m32", "-ffreestanding"]),
+        Compiler::new("cc", &["-m32", "-ffreestanding"]),
+        Compiler::new("clang", &thumb),
+    ]
+}
+
+/// Compiles and asks them all.
+pub(crate) fn try_all(runner: &mut Runner) -> Result<(), Failure> {
+    let directory = root().join("target/plain-c");
+    let _ = std::fs::remove_dir_all(&directory);
+    let mut trial = PlainC { directory, runner };
+    trial
+        .device(PITCH, "pmc", |seed| Trial::new(Reference::generated(Pmc::new(5)), seed).exchange(RANDOM))?;
+    trial
+        .device(PITCH, "pmm", |seed| Trial::new(Reference::generated(Pmm::new(5)), seed).exchange(RANDOM))?;
+    trial.device(FULLMO, "fullmo", |seed| {
+        Trial::new(Reference::generated(Fullmo::new(5)), seed).exchange(RANDOM)
+    })?;
+    for path in TESTED {
+        let system = write(path, &trial.directory)?.system;
+        let [device] = system.devices.as_slice() else {
+            return Err(format!("{path} has several devices").into());
+        };
+        let live = runtime::device(&system, device, &mut Diagnostics::new()).ok_or("no table can be made")?;
+        let lists = live.lists();
+        let table = lists.table().map_err(|error| error.to_string())?;
+        let dictionary = LiveDictionary::new(&live, &table, 5)?;
+        trial.device(path, &device.key, |seed| {
+            Trial::new(Reference::plain(dictionary), seed).exchange(RANDOM)
+        })?;
+    }
+    Ok(())
+}
+
+struct PlainC<'r> {
+    directory: PathBuf,
+    runner: &'r mut Runner,
+}
+
+impl PlainC<'_> {
+    fn device(
+        &mut self,
+        path: &str,
+        key: &str,
+        exchange: impl FnOnce(u64) -> Vec<Exchange>,
+    ) -> Result<(), Failure> {
+        let directory = self.directory.join(key);
+        write(path, &directory)?;
+        let compilers = compilers();
+        for compiler in &compilers {
+            compiler.objects(&directory, key)?;
+        }
+        compile_header(&directory, key)?;
+        let [clang, _, _, thumb] = compilers;
+        let exchange = exchange(2);
+        compare(&exchange, &Host::build(&clang, &directory, key)?.ask(&exchange)?)?;
+        let linker = thumb_linker().ok_or("no linker for a Cortex-M")?;
+        let said = emulate(&thumb, &linker, &directory, key, &exchange)?;
+        self.runner
+            .tell(&format!("{key}: {} requests on the host, and on a Cortex-M {said}", exchange.len()));
+        Ok(())
+    }
+}
