@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
+use od_gen::c;
 use od_gen::dbc;
 use od_gen::diff::{Question, Scope, compare, human};
 use od_gen::docs::{self, Templates};
@@ -178,8 +179,31 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "drive", &format!("```yaml\n{drive}```"))?;
     let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
     let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
+    let text = block(&text, "canopennode", &format!("```c\n{}\n```", stack(&system, &sources)?))?;
     let text = block(&text, "dbc", &format!("```text\n{}\n```", frames(&system)))?;
     block(&text, "docs", &tables(&system)?)
+}
+
+/// What the files for CANopenNode say of an entry of the example.
+fn stack(system: &System, sources: &SourceMap) -> Result<String, Failure> {
+    let mut diagnostics = Diagnostics::new();
+    let provenance = Provenance::of(sources);
+    let set =
+        c::artifacts(system, system.devices.iter(), &provenance, &[c::Kind::CanopenNode], &mut diagnostics);
+    let lines = |name: &str, begin: &str, end: &str| -> Result<String, Failure> {
+        let file = set.iter().find(|file| file.path.ends_with(name)).ok_or_else(|| format!("no {name}"))?;
+        let text = std::str::from_utf8(&file.bytes)?;
+        let from = text.find(begin).ok_or_else(|| format!("{name} lacks `{begin}`"))?;
+        let to = text[from..].find(end).ok_or_else(|| format!("{name} lacks `{end}`"))? + from + end.len();
+        let start = text[..from].rfind('\n').map_or(0, |at| at + 1);
+        Ok(text[start..to].to_owned())
+    };
+    Ok([
+        lines("/OD.h", "/**\n     * 2000h", "x2000_setPressure;")?,
+        lines("/OD.c", ".o_2000_setPressure = {", "},")?,
+        lines("/OD_rules.c", "/* 2000h", "},")?,
+    ]
+    .join("\n"))
 }
 
 /// The PDOs of the example in its DBC.

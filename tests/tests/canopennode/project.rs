@@ -12,11 +12,9 @@ use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, compile};
+use od_tests::c_dictionary::{LANGUAGE, WARNINGS};
 use od_tests::{OfWorkspace, compile_with_sources, root};
 use serde_json::Value as Json;
-
-/// What every file has to pass without a word.
-const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"];
 
 /// The files of one device, in a directory of their own.
 pub(crate) struct Project {
@@ -29,15 +27,12 @@ pub(crate) struct Project {
     pub(crate) told: String,
 }
 
-/// The compilers that are there, for C and for C++.
-fn compilers() -> Vec<(&'static str, &'static str)> {
-    let pairs = [("gcc", "g++"), ("clang", "clang++")];
-    let is_there = |program: &str| {
+/// Of some programs, those that are there.
+fn found<const N: usize>(programs: [&'static str; N]) -> Vec<&'static str> {
+    let is_there = |program: &&str| {
         Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
     };
-    let found: Vec<_> = pairs.into_iter().filter(|(c, cpp)| is_there(c) && is_there(cpp)).collect();
-    assert!(!found.is_empty(), "generated C is compiled: install gcc or clang");
-    found
+    programs.into_iter().filter(is_there).collect()
 }
 
 /// The projects of all devices of a specification of the workspace.
@@ -118,42 +113,29 @@ impl Project {
     pub(crate) fn run(&self, program: &str, arguments: &[&Path]) -> String {
         let tests = root().join("tests/c/canopennode");
         let mut output = None;
-        for (cc, cpp) in compilers() {
-            let made = self.folder.join(format!("{program}-{cc}"));
+        let folders = ["-I".as_ref(), tests.as_os_str(), "-I".as_ref(), self.folder.as_os_str()];
+        for compiler in found(["gcc", "clang"]) {
+            let made = self.folder.join(format!("{program}-{compiler}"));
             let generated = ["OD.c", "OD_extension.c", "OD_rules.c"].map(|file| self.folder.join(file));
             let own = ["interface.c", program].map(|file| tests.join(file));
-            let mut command = Command::new(cc);
+            let mut command = Command::new(compiler);
             command
-                .args(["-std=c99", "-g"])
-                .args(WARNINGS)
-                .args(["-fsanitize=undefined", "-fno-sanitize-recover=undefined"]);
-            command
-                .arg("-I")
-                .arg(&tests)
-                .arg("-I")
-                .arg(&self.folder)
-                .args(generated)
-                .args(own)
-                .arg("-o")
-                .arg(&made);
-            succeeds(command.output().unwrap(), &format!("{cc}: {}", self.key()));
-            let mut command = Command::new(cpp);
-            command
-                .args(["-std=c++11", "-fsyntax-only"])
-                .args(WARNINGS)
-                .arg("-I")
-                .arg(&tests)
-                .arg("-I")
-                .arg(&self.folder);
-            succeeds(
-                command.arg(tests.join("includes.cpp")).output().unwrap(),
-                &format!("{cpp}: {}", self.key()),
-            );
-            output = Some(succeeds(
-                Command::new(&made).args(arguments).output().unwrap(),
-                &format!("{program}: {}", self.key()),
-            ));
+                .args([LANGUAGE, "-fsanitize=undefined", "-fno-sanitize-recover=undefined"])
+                .args(WARNINGS);
+            command.args(folders).args(generated).args(own).arg("-o").arg(&made);
+            succeeds(&command.output().unwrap(), &format!("{compiler}: {}", self.key()));
+            let ended = Command::new(&made).args(arguments).output().unwrap();
+            output = Some(succeeds(&ended, &format!("{program}: {}", self.key())));
         }
+        for compiler in found(["g++", "clang++"]) {
+            let mut command = Command::new(compiler);
+            command.args(["-std=c++11", "-fsyntax-only"]).args(WARNINGS).args(folders);
+            succeeds(
+                &command.arg(tests.join("includes.cpp")).output().unwrap(),
+                &format!("{compiler}: {}", self.key()),
+            );
+        }
+        assert!(output.is_some(), "generated C is compiled: install gcc or clang");
         output.unwrap()
     }
 
@@ -165,8 +147,8 @@ impl Project {
     }
 }
 
-fn succeeds(output: Output, what: &str) -> String {
+fn succeeds(output: &Output, what: &str) -> String {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && said.is_empty(), "{what}:\n{said}");
-    String::from_utf8(output.stdout).unwrap()
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }
