@@ -3,11 +3,13 @@
 //! Each device has a folder, `c/KEY/`, with `OD_types.h`, what its numbers mean, and the dictionary of each [`Kind`] that is wanted.
 
 mod canopennode;
+mod conditions;
 mod language;
 mod literal;
 mod names;
 mod page;
 mod plain;
+mod relations;
 mod text;
 mod types;
 

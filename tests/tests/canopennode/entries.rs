@@ -122,7 +122,9 @@ fn length(entry: &Json) -> usize {
         "visible-string" | "octet-string" | "unicode-string" => {
             let capacity = entry["capacity"].as_u64().and_then(|bytes| usize::try_from(bytes).ok());
             match (text(entry, "access"), capacity) {
-                ("const", _) if default > 0 => default,
+                ("const", _) if !entry["default"].is_null() => {
+                    default.max(usize::from(name != "octet-string"))
+                }
                 (_, Some(capacity)) => capacity,
                 // An EDS says no capacity: a text gets room for 32 bytes, bytes stay as many as there are.
                 (_, None) if name == "octet-string" && default > 0 => default,

@@ -24,7 +24,7 @@ pub(super) enum Cell {
 }
 
 impl Cell {
-    /// The variable of an entry; `None` where no memory is needed: a DOMAIN, a string without room.
+    /// The variable of an entry; `None` where no memory is needed: a DOMAIN, bytes of which there are none.
     pub(super) fn of(entry: &Entry) -> Option<Self> {
         let data_type = entry.data_type;
         Some(match data_type.family() {
@@ -39,9 +39,10 @@ impl Cell {
             Family::Real if data_type == DataType::Real32 => Self::Real32,
             Family::Real => Self::Real64,
             Family::Time => Self::Bytes(6),
-            Family::VisibleString => Self::Characters(room(entry)?),
-            Family::UnicodeString => Self::WideCharacters(room(entry)? / 2),
-            Family::OctetString => Self::Bytes(room(entry)?),
+            // An empty text can be read, too.
+            Family::VisibleString => Self::Characters(room(entry).max(1)),
+            Family::UnicodeString => Self::WideCharacters((room(entry) / 2).max(1)),
+            Family::OctetString => Self::Bytes(Some(room(entry)).filter(|room| *room > 0)?),
             Family::Domain => return None,
         })
     }
@@ -81,9 +82,9 @@ impl Cell {
     }
 }
 
-/// Bytes that a string has room for; `None` where it has none. What never changes needs as many as it has, and so do bytes of which nobody
+/// Bytes that a string has room for. What never changes needs as many as it has, and so do bytes of which nobody
 /// says how many there can be: the stack knows no shorter ones.
-fn room(entry: &Entry) -> Option<u32> {
+fn room(entry: &Entry) -> u32 {
     let length =
         entry.default.as_ref().and_then(|value| value.bytes_for(entry.data_type, 0)).map(|bytes| bytes.len());
     let is_assumed =
@@ -93,5 +94,5 @@ fn room(entry: &Entry) -> Option<u32> {
         (Some(length), None) => length,
         (_, capacity) => usize::from(capacity.unwrap_or(0)),
     };
-    u32::try_from(room).ok().filter(|room| *room > 0)
+    u32::try_from(room).unwrap_or(u32::MAX)
 }

@@ -3,6 +3,7 @@
 use od_spec::model::{Entry, TypeKind};
 
 use super::super::page::WORDING;
+use super::super::relations::relations;
 use super::objects::{Memory, Shape, Slot, StackObject};
 use crate::facts;
 use crate::plan::Plan;
@@ -85,27 +86,12 @@ impl Docs<'_, '_> {
         let planned = self.plan.row(slot.id).and_then(|row| self.plan.entry(row));
         let facts = planned.map(|planned| facts::facts(planned, WORDING, str::to_owned)).unwrap_or_default();
         let mut text = facts.join(", ") + ".";
-        for sentence in [values(slot.entry), self.carriers(slot), condition(slot.entry), memory(slot)]
-            .into_iter()
-            .flatten()
-        {
+        for sentence in [values(slot.entry), memory(slot)].into_iter().flatten() {
             text.push(' ');
             text.push_str(&sentence);
         }
+        text.push_str(&planned.map(|planned| relations(self.plan, planned)).unwrap_or_default());
         text
-    }
-
-    /// The PDOs that carry the entry by default.
-    fn carriers(self, slot: &Slot<'_>) -> Option<String> {
-        let row = self.plan.row(slot.id)?;
-        let carriers = self.plan.pdos.iter().filter(|pdo| pdo.fields.iter().any(|field| field.row == row));
-        let names: Vec<String> = carriers
-            .map(|pdo| {
-                let off = if pdo.pdo.valid { "" } else { " (off by default)" };
-                format!("{} {}{off}", pdo.pdo.direction.pdo(), pdo.pdo.number)
-            })
-            .collect();
-        (!names.is_empty()).then(|| format!("In {}.", names.join(", ")))
     }
 }
 
@@ -137,10 +123,6 @@ fn values(entry: &Entry) -> Option<String> {
 fn join(heading: &str, warning: &str, facts: &str) -> String {
     let facts = if facts.is_empty() { String::new() } else { format!("\n{facts}") };
     format!("{heading}{warning}{facts}")
-}
-
-fn condition(entry: &Entry) -> Option<String> {
-    entry.writable_when.as_ref().map(|condition| format!("Writable while {}.", condition.text))
 }
 
 /// Who has the value, where it does not lie in memory.

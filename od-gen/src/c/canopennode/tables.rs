@@ -1,14 +1,14 @@
 //! `OD_rules.c`: the rows of the rules.
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::expr::{ArithmeticOp, CompareOp};
 use od_spec::model::{DataType, EntryId, Outside, Rounding, Value};
 
+use super::super::conditions::{self, Entries};
 use super::super::literal::Integer;
 use super::super::text::Text;
 use super::node_id::NodeIdDefault;
 use super::rules::{LISTED, LOCKED, NONE, Number, Rule, Rules, size};
-use crate::plan::{Compare, Condition, Plan, PlannedAlias, Sum};
+use crate::plan::{Condition, Plan, PlannedAlias, Sum};
 
 const I64: Integer = Integer { signed: true, bits: 64 };
 const U64: Integer = Integer { signed: false, bits: 64 };
@@ -94,12 +94,12 @@ fn conditions(text: &mut Text, plan: &Plan<'_>, rules: &Rules<'_, '_>, diagnosti
         text.gap();
         text.doc(&format!("Whether {}.", condition.text));
         text.block(&format!("static bool_t condition_{at}(void) {{"), "}", |text| {
-            let entries = Read { plan, ids: entries_of(condition) };
-            for number in 0..entries.ids.len() {
+            let entries = Read(entries_of(condition));
+            for number in 0..entries.0.len() {
                 text.line(&format!("int64_t n{number} = 0;"));
             }
             let mut reads = Vec::new();
-            for (number, id) in entries.ids.iter().enumerate() {
+            for (number, id) in entries.0.iter().enumerate() {
                 let data_type = plan.device.entry(*id).map_or(DataType::Unsigned8, |entry| entry.data_type);
                 text.line(&format!(
                     "const bool_t r{number} = OD_ruleNumber(0x{:04X}U, {}U, {}, {}U, &n{number});",
@@ -110,14 +110,9 @@ fn conditions(text: &mut Text, plan: &Plan<'_>, rules: &Rules<'_, '_>, diagnosti
                 ));
                 reads.push(format!("r{number}"));
             }
-            let alternatives: Vec<String> = condition
-                .alternatives
-                .iter()
-                .map(|all| all.iter().map(|one| entries.compare(one)).collect::<Vec<_>>().join(" && "))
-                .collect();
-            let holds = alternatives.iter().map(|all| format!("({all})")).collect::<Vec<_>>().join(" || ");
+            let holds = conditions::holds(plan, &entries, condition);
             reads.push(format!("({holds})"));
-            text.line(&format!("return (bool_t)({});", reads.join(" && ")));
+            text.broken(&format!("return (bool_t)({});", reads.join(" && ")));
         });
         rows.push(format!("condition_{at}"));
     }
@@ -146,59 +141,17 @@ fn entries_of(condition: &Condition) -> Vec<EntryId> {
     ids
 }
 
-/// The entries that a condition is about, as they have been read.
-struct Read<'p, 'a> {
-    plan: &'p Plan<'a>,
-    /// Ascending; the first one is `n0`.
-    ids: Vec<EntryId>,
-}
+/// The entries that a condition is about, as they have been read: ascending; the first one is `n0`.
+struct Read(Vec<EntryId>);
 
-impl Read<'_, '_> {
+impl Entries for Read {
     fn number(&self, id: EntryId) -> String {
-        format!("n{}", self.ids.binary_search(&id).unwrap_or_default())
+        format!("n{}", self.0.binary_search(&id).unwrap_or_default())
     }
 
-    fn compare(&self, compare: &Compare) -> String {
-        let op = match compare.op {
-            CompareOp::Less => "<",
-            CompareOp::LessOrEqual => "<=",
-            CompareOp::Greater => ">",
-            CompareOp::GreaterOrEqual => ">=",
-            CompareOp::Equal => "==",
-            CompareOp::NotEqual => "!=",
-        };
-        let comparison = format!("({} {op} {})", self.sum(&compare.left), self.sum(&compare.right));
-        // What would be divided by 0 counts as met.
-        let divisors = compare.divisors.iter().map(|divisor| format!("({} == 0)", self.sum(divisor)));
-        let alternatives: Vec<String> = divisors.chain([comparison]).collect();
-        if alternatives.len() == 1 {
-            alternatives.concat()
-        } else {
-            format!("({})", alternatives.join(" || "))
-        }
-    }
-
-    fn sum(&self, of: &Sum) -> String {
-        match of {
-            Sum::Number(value) => I64.literal(*value),
-            Sum::Entry(id) => self.number(*id),
-            Sum::Bit(id, bit) => {
-                let is_widest =
-                    self.plan.device.entry(*id).is_some_and(|entry| entry.data_type == DataType::Unsigned64);
-                // An UNSIGNED64 counts from 2^63.
-                let half = if is_widest { " ^ 0x8000000000000000ULL" } else { "" };
-                format!("(int64_t)((((uint64_t){}{half}) >> {bit}U) & 1U)", self.number(*id))
-            }
-            Sum::Binary(left, op, right) => {
-                let op = match op {
-                    ArithmeticOp::Add => "+",
-                    ArithmeticOp::Subtract => "-",
-                    ArithmeticOp::Multiply => "*",
-                    ArithmeticOp::Divide => "/",
-                };
-                format!("({} {op} {})", self.sum(left), self.sum(right))
-            }
-        }
+    fn count(&self, id: EntryId) -> String {
+        // It has been read as a number with a sign.
+        format!("(uint64_t){} ^ 0x8000000000000000ULL", self.number(id))
     }
 }
 

@@ -1,14 +1,13 @@
 //! What the header says of each entry: its numbers, its default and its limits, and what reads and writes it.
 
-use std::fmt::Write as _;
-
 use od_spec::model::{Text, Value};
 
 use super::super::page::{Page, WORDING};
+use super::super::relations::relations;
 use super::accessors;
 use super::raw::Raw;
 use crate::facts;
-use crate::plan::{Plan, PlannedEntry, PlannedObject, Shape};
+use crate::plan::{PlannedEntry, PlannedObject, Shape};
 
 pub(super) fn entries(page: &mut Page<'_, '_>) {
     let plan = page.plan;
@@ -51,7 +50,7 @@ fn numbers(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>) {
     let about = page.about(&format!("{} {}", entry.id, entry.entry.name), &entry.entry.about);
     let about = warned(page, &about, &entry.entry.warning);
     let facts = facts::facts(entry, WORDING, str::to_owned).join(", ");
-    page.text.doc(&[format!("{about}\n{facts}."), condition(plan, entry)].concat());
+    page.text.doc(&[format!("{about}\n{facts}."), relations(plan, entry)].concat());
     let row = plan.row(entry.id).unwrap_or(crate::plan::NONE);
     page.define(&["ENTRY", &entry.name], &format!("({row}U)"), &what);
     page.define(&["INDEX", &entry.name], &format!("(0x{:04X}U)", entry.id.index.0), &what);
@@ -81,24 +80,4 @@ fn warned(page: &Page<'_, '_>, about: &str, warning: &Text) -> String {
         "" => about.to_owned(),
         warning => format!("{about}\nWarning: {warning}"),
     }
-}
-
-/// When the entry can be written, and what carries it.
-fn condition(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> String {
-    let mut text = String::new();
-    if let Some(condition) = &entry.entry.writable_when {
-        let _ = write!(text, " Writable while {}.", condition.text);
-    }
-    let row = plan.row(entry.id);
-    let carriers = plan.pdos.iter().filter(|pdo| pdo.fields.iter().any(|field| Some(field.row) == row));
-    let carriers: Vec<String> = carriers
-        .map(|pdo| {
-            let off = if pdo.pdo.valid { "" } else { " (off by default)" };
-            format!("{} {}{off}", pdo.pdo.direction.pdo(), pdo.pdo.number)
-        })
-        .collect();
-    if !carriers.is_empty() {
-        let _ = write!(text, " In {}.", carriers.join(", "));
-    }
-    text
 }

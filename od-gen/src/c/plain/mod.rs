@@ -1,7 +1,6 @@
 //! The dictionary by itself: a header and a source for each device, and the reader and writer that they all share.
 
 mod accessors;
-mod conditions;
 mod entries;
 mod raw;
 mod tables;

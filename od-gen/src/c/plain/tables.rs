@@ -1,12 +1,13 @@
 //! The table: the same numbers as the Rust's, which `firmware-glue` explains.
 
-use od_spec::model::{DataType, Outside, Rounding, Storage};
+use od_spec::model::{DataType, EntryId, Outside, Rounding, Storage};
 
+use super::super::conditions::{self, Entries};
 use super::super::literal::{Integer, string};
 use super::super::names::Names;
 use super::super::page::Page;
 use super::super::text::{Text, WIDTH};
-use super::{conditions, table};
+use super::table;
 use crate::plan::{
     Attributes, Block, Condition, Directory, Flags, NONE, Place, PlaceKind, Plan, PlannedConstraint,
 };
@@ -106,6 +107,29 @@ pub(super) fn tables(page: &mut Page<'_, '_>) {
             text.line(&format!(".{name} = {value},"));
         }
     });
+}
+
+/// Entries as rows of the table; of one that the device does not have, the runtime gives 0.
+struct Rows<'p, 'a> {
+    plan: &'p Plan<'a>,
+    names: &'p Names,
+}
+
+impl Rows<'_, '_> {
+    fn name(&self, id: EntryId) -> String {
+        let entry = self.plan.row(id).and_then(|row| self.plan.entry(row));
+        entry.map_or_else(|| "OD_NONE".to_owned(), |entry| self.names.macro_of(&["ENTRY", &entry.name]))
+    }
+}
+
+impl Entries for Rows<'_, '_> {
+    fn number(&self, id: EntryId) -> String {
+        format!("od_number(table, image, {})", self.name(id))
+    }
+
+    fn count(&self, id: EntryId) -> String {
+        format!("od_count(table, image, {})", self.name(id))
+    }
 }
 
 /// A member of the table.
@@ -234,7 +258,7 @@ impl Lists<'_> {
             self.function(
                 &name,
                 &format!("Writable while {text}."),
-                &conditions::holds(plan, self.names, condition),
+                &conditions::holds(plan, &Rows { plan, names: self.names }, condition),
             );
             items.push(name);
         }
@@ -258,7 +282,11 @@ impl Lists<'_> {
             let partial = if *partial { " Only what can be told from this device." } else { "" };
             let about = format!("{name}: {}{when}.{partial}", require.text);
             let function = format!("constraint_{at}");
-            self.function(&function, &about, &conditions::constraint(plan, self.names, planned));
+            self.function(
+                &function,
+                &about,
+                &conditions::constraint(plan, &Rows { plan, names: self.names }, planned),
+            );
             items.push(format!("{{{}, {function}}}", string(od_spec::ascii::transliterate(name).as_bytes())));
         }
         self.list(

@@ -1,17 +1,26 @@
-//! Conditions between entries as functions of C99, which has no integer of 128 bits: those that need one are computed by functions of the runtime.
+//! Conditions between entries as expressions of C99, which has no integer of 128 bits: those that need one are computed by functions of the plain
+//! dictionary's runtime.
 
 use od_spec::expr::{ArithmeticOp, CompareOp};
 use od_spec::model::{DataType, EntryId};
 
-use super::super::literal::Integer;
-use super::super::names::Names;
+use super::literal::Integer;
 use crate::plan::{Compare, Condition, Plan, PlannedConstraint, Sum};
 
 const NUMBER: Integer = Integer { signed: true, bits: 64 };
 
+/// How an expression gets at the values of entries.
+pub(super) trait Entries {
+    /// The number of an entry that is no UNSIGNED64, as an `int64_t`.
+    fn number(&self, id: EntryId) -> String;
+
+    /// The number of an UNSIGNED64, as a `uint64_t`.
+    fn count(&self, id: EntryId) -> String;
+}
+
 /// A condition as an expression. A divisor of 0 leaves it undecided; a condition that is undecided counts as met.
-pub(super) fn holds(plan: &Plan<'_>, names: &Names, condition: &Condition) -> String {
-    let sides = Sides { plan, names, narrow: condition.narrow };
+pub(super) fn holds(plan: &Plan<'_>, entries: &dyn Entries, condition: &Condition) -> String {
+    let sides = Sides { plan, entries, narrow: condition.narrow };
     let all = |comparisons: &Vec<Compare>| {
         let links = comparisons.iter().map(|compare| sides.link(compare, compare.op));
         links.collect::<Vec<_>>().join(" && ")
@@ -20,8 +29,8 @@ pub(super) fn holds(plan: &Plan<'_>, names: &Names, condition: &Condition) -> St
 }
 
 /// That a condition does not hold, or is undecided.
-fn is_not_met(plan: &Plan<'_>, names: &Names, condition: &Condition) -> String {
-    let sides = Sides { plan, names, narrow: condition.narrow };
+fn is_not_met(plan: &Plan<'_>, entries: &dyn Entries, condition: &Condition) -> String {
+    let sides = Sides { plan, entries, narrow: condition.narrow };
     let one_fails = |comparisons: &Vec<Compare>| {
         let links = comparisons.iter().map(|compare| sides.link(compare, negated(compare.op)));
         links.collect::<Vec<_>>().join(" || ")
@@ -30,10 +39,10 @@ fn is_not_met(plan: &Plan<'_>, names: &Names, condition: &Condition) -> String {
 }
 
 /// A constraint as an expression.
-pub(super) fn constraint(plan: &Plan<'_>, names: &Names, planned: &PlannedConstraint<'_>) -> String {
-    let require = holds(plan, names, &planned.require);
+pub(super) fn constraint(plan: &Plan<'_>, entries: &dyn Entries, planned: &PlannedConstraint<'_>) -> String {
+    let require = holds(plan, entries, &planned.require);
     match &planned.when {
-        Some(when) => format!("({}) || ({require})", is_not_met(plan, names, when)),
+        Some(when) => format!("({}) || ({require})", is_not_met(plan, entries, when)),
         None => require,
     }
 }
@@ -63,7 +72,7 @@ const fn negated(op: CompareOp) -> CompareOp {
 /// How the sides of a comparison are computed.
 struct Sides<'p, 'a> {
     plan: &'p Plan<'a>,
-    names: &'p Names,
+    entries: &'p dyn Entries,
     /// Whether 64 bits are enough.
     narrow: bool,
 }
@@ -101,18 +110,14 @@ impl Sides<'_, '_> {
         match sum {
             Sum::Number(number) if self.narrow => NUMBER.literal(*number),
             Sum::Number(number) => wide(*number),
-            Sum::Entry(id) => match (self.row(*id), self.narrow) {
-                (row, true) => row.number(),
-                (row @ Row { data_type: Some(DataType::Unsigned64), .. }, false) => {
-                    format!("od_wide(0U, {})", row.count())
-                }
-                (row, false) => format!("od_wide_of({})", row.number()),
-            },
+            Sum::Entry(id) if self.narrow => self.entries.number(*id),
+            Sum::Entry(id) if self.is_widest(*id) => format!("od_wide(0U, {})", self.entries.count(*id)),
+            Sum::Entry(id) => format!("od_wide_of({})", self.entries.number(*id)),
             Sum::Bit(id, bit) => {
-                let row = self.row(*id);
-                let bits = match row.data_type {
-                    Some(DataType::Unsigned64) => row.count(),
-                    _ => format!("(uint64_t){}", row.number()),
+                let bits = if self.is_widest(*id) {
+                    self.entries.count(*id)
+                } else {
+                    format!("(uint64_t){}", self.entries.number(*id))
                 };
                 let level = format!("((({bits}) >> {bit}U) & 1U)");
                 if self.narrow { format!("(int64_t){level}") } else { format!("od_wide(0U, {level})") }
@@ -135,29 +140,8 @@ impl Sides<'_, '_> {
         }
     }
 
-    fn row(&self, id: EntryId) -> Row {
-        let entry = self.plan.row(id).and_then(|row| self.plan.entry(row));
-        Row {
-            name: entry
-                .map_or_else(|| "OD_NONE".to_owned(), |entry| self.names.macro_of(&["ENTRY", &entry.name])),
-            data_type: entry.map(|entry| entry.entry.data_type),
-        }
-    }
-}
-
-/// An entry in a condition; of one that the device does not have the runtime gives 0.
-struct Row {
-    name: String,
-    data_type: Option<DataType>,
-}
-
-impl Row {
-    fn number(&self) -> String {
-        format!("od_number(table, image, {})", self.name)
-    }
-
-    fn count(&self) -> String {
-        format!("od_count(table, image, {})", self.name)
+    fn is_widest(&self, id: EntryId) -> bool {
+        self.plan.device.entry(id).is_some_and(|entry| entry.data_type == DataType::Unsigned64)
     }
 }
 
