@@ -68,6 +68,9 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
     uint8_t frame_length = 0U;
     od_received_t received = {false, OD_NONE, OD_OK};
     const od_constraint_t *constraint;
+    const od_region_t *region;
+    uint32_t layout;
+    uint16_t row;
     size_t at;
     call_count = 0U;
     /* The fourth byte behind the operation says how the application is: unlocked, and whether it refuses. */
@@ -117,6 +120,19 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
         for (at = 0U; at < data_length; at++) {
             image[((size_t)sub << 16) + index + at] = data[at];
         }
+        break;
+    case 'k':
+        if (od_id(&TABLE, index, &row, &frame[2])) {
+            od_put_u16(frame, row);
+            value.bytes = frame;
+            value.length = 3U;
+        }
+        break;
+    case 'R':
+        /* The application byte says whether the number is that of the layout. */
+        region = od_stored(&TABLE, sub);
+        layout = (region != NULL) ? region->layout : 0U;
+        code = od_restore(&TABLE, image, sub, unlocked ? layout : (layout + 1U), data, data_length) ? 0U : 1U;
         break;
     case 'i':
         value.bytes = image;

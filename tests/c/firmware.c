@@ -19,8 +19,10 @@ void *memset(void *place, int value, size_t length);
 void *memcpy(void *place, const void *from, size_t length);
 void __aeabi_memclr(void *place, size_t length);
 void __aeabi_memcpy(void *place, const void *from, size_t length);
+uint64_t divided_count(uint64_t number, uint64_t divisor, uint64_t *rest);
 int64_t divided(int64_t number, int64_t divisor, int64_t *rest);
 void __aeabi_ldivmod(void);
+void __aeabi_uldivmod(void);
 void reset(void);
 
 void *memset(void *place, int value, size_t length)
@@ -54,38 +56,50 @@ void __aeabi_memcpy(void *place, const void *from, size_t length)
     (void)memcpy(place, from, length);
 }
 
-/** Divides bit by bit, and rounds towards 0. */
-int64_t divided(int64_t number, int64_t divisor, int64_t *rest)
+/** Divides bit by bit. */
+uint64_t divided_count(uint64_t number, uint64_t divisor, uint64_t *rest)
 {
-    uint64_t left = (number < 0) ? (0U - (uint64_t)number) : (uint64_t)number;
-    uint64_t by = (divisor < 0) ? (0U - (uint64_t)divisor) : (uint64_t)divisor;
     uint64_t quotient = 0U;
     uint64_t remainder = 0U;
     int bit;
     for (bit = 63; bit >= 0; bit--) {
-        remainder = (remainder << 1) | ((left >> bit) & 1U);
-        if (remainder >= by) {
-            remainder -= by;
+        remainder = (remainder << 1) | ((number >> bit) & 1U);
+        if (remainder >= divisor) {
+            remainder -= divisor;
             quotient |= (uint64_t)1U << bit;
         }
     }
+    *rest = remainder;
+    return quotient;
+}
+
+/** Divides, and rounds towards 0. */
+int64_t divided(int64_t number, int64_t divisor, int64_t *rest)
+{
+    uint64_t by = (divisor < 0) ? (0U - (uint64_t)divisor) : (uint64_t)divisor;
+    uint64_t remainder;
+    uint64_t quotient = divided_count((number < 0) ? (0U - (uint64_t)number) : (uint64_t)number, by, &remainder);
     *rest = (number < 0) ? (int64_t)(0U - remainder) : (int64_t)remainder;
     return ((number < 0) != (divisor < 0)) ? (int64_t)(0U - quotient) : (int64_t)quotient;
 }
 
-/** The quotient in r0 and r1, the rest in r2 and r3. */
-__attribute__((naked)) void __aeabi_ldivmod(void)
-{
-    __asm volatile("push {r6, lr}\n"
-                   "sub sp, #16\n"
-                   "add r6, sp, #8\n"
-                   "str r6, [sp]\n"
-                   "bl divided\n"
-                   "ldr r2, [sp, #8]\n"
-                   "ldr r3, [sp, #12]\n"
-                   "add sp, #16\n"
-                   "pop {r6, pc}");
-}
+/* The quotient in r0 and r1, the rest in r2 and r3. */
+#define DIVISION(name, function)                 \
+    __attribute__((naked)) void name(void)       \
+    {                                            \
+        __asm volatile("push {r6, lr}\n"         \
+                       "sub sp, #16\n"           \
+                       "add r6, sp, #8\n"        \
+                       "str r6, [sp]\n"          \
+                       "bl " function "\n"       \
+                       "ldr r2, [sp, #8]\n"      \
+                       "ldr r3, [sp, #12]\n"     \
+                       "add sp, #16\n"           \
+                       "pop {r6, pc}");          \
+    }
+
+DIVISION(__aeabi_ldivmod, "divided")
+DIVISION(__aeabi_uldivmod, "divided_count")
 
 /* Semihosting. */
 

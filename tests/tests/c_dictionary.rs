@@ -260,10 +260,50 @@ DataType=1
 AccessType=wo
 ";
 
+/// Communication objects whose values have rules of their own, all of them writable, and as wide as the standard has them.
+fn communication_objects() -> String {
+    let variable = |name: &str, data_type: u8, default: &str| {
+        format!(
+            "ParameterName={name}\nObjectType=7\nDataType={data_type}\nAccessType=rw\nDefaultValue={default}\n"
+        )
+    };
+    let mut text = String::new();
+    for (index, data_type, default) in
+        [(0x1006, 7, "0"), (0x1012, 7, "0x100"), (0x1019, 5, "0"), (0x1017, 6, "0"), (0x100C, 6, "0")]
+    {
+        text += &format!("[{index:X}]\n{}", variable(&format!("object {index:X}"), data_type, default));
+    }
+    let records: [(u16, &[(u8, &str)]); 9] = [
+        (0x1003, &[(7, "0"), (7, "0"), (7, "0")]),
+        (0x1010, &[(7, "1"), (7, "1")]),
+        (0x1011, &[(7, "1")]),
+        (0x1016, &[(7, "0"), (7, "0"), (7, "0")]),
+        (0x1028, &[(7, "0x80000000"), (7, "0x85")]),
+        (0x1029, &[(5, "0"), (5, "1")]),
+        (0x1200, &[(7, "$NODEID+0x600"), (7, "$NODEID+0x580"), (5, "1")]),
+        (0x1201, &[(7, "0x80000000"), (7, "0x80000000"), (5, "1")]),
+        (0x1280, &[(7, "0x80000000"), (7, "0x80000000"), (5, "1")]),
+    ];
+    for (index, subs) in records {
+        text += &format!(
+            "[{index:X}]\nParameterName=object {index:X}\nObjectType=9\nSubNumber={}\n",
+            subs.len() + 1
+        );
+        let count = if index == 0x1003 { "0".to_owned() } else { subs.len().to_string() };
+        text += &format!("[{index:X}sub0]\n{}", variable("number", 5, &count));
+        for (sub, (data_type, default)) in (1..).zip(subs) {
+            text +=
+                &format!("[{index:X}sub{sub:X}]\n{}", variable(&format!("part {sub}"), *data_type, default));
+        }
+    }
+    text
+}
+
 #[test]
 fn an_eds_answers_as_the_table_that_is_made_of_it() {
     let directory = directory("foreign");
-    let Written { system, devices } = write_text("foreign.eds", FOREIGN.to_owned(), &directory).unwrap();
+    let text = FOREIGN.to_owned() + &communication_objects();
+    let Written { system, devices } = write_text("foreign.eds", text, &directory).unwrap();
     let [device] = devices.as_slice() else { panic!("{devices:?}") };
     let host = Host::build(&cc(), &directory, device).unwrap();
     let live = runtime::device(&system, &system.devices[0], &mut Diagnostics::new()).unwrap();

@@ -18,8 +18,11 @@ pub struct Consistency<D> {
     /// The position of the first that is broken, counted from 1; 0 for none.
     pub broken: fn(&D) -> u32,
     /// A write that keeps them.
-    pub write: fn(&mut D, u16, u8, &[u8], &mut Recorder) -> Result<(), AbortCode>,
+    pub write: Write<D>,
 }
+
+/// A write to an index and sub-index.
+type Write<D> = fn(&mut D, u16, u8, &[u8], &mut Recorder) -> Result<(), AbortCode>;
 
 impl<D> Clone for Consistency<D> {
     fn clone(&self) -> Self {
@@ -165,6 +168,16 @@ impl<'t, D: Dictionary<'t>> Reference<D> {
                 place.zip(data).for_each(|(byte, new)| *byte = *new);
                 Ok(Vec::new())
             }
+            b'k' => {
+                let rows = od.table().parts().entries.len();
+                let id = (usize::from(index) < rows).then(|| od.table().id(index));
+                Ok(id.map_or_else(Vec::new, |id| [&id.index.to_le_bytes()[..], &[id.sub]].concat()))
+            }
+            b'R' => {
+                let storage = STORAGES.get(usize::from(sub)).copied().unwrap_or(Storage::No);
+                let layout = od.layout(storage).wrapping_add(u32::from(!application.unlocked));
+                od.restore(storage, layout, data).map(|()| Vec::new()).map_err(|_| (1, Vec::new()))
+            }
             b'i' => Ok(od.image().to_vec()),
             _ => Err(refused(AbortCode::GENERAL)),
         }
@@ -172,7 +185,7 @@ impl<'t, D: Dictionary<'t>> Reference<D> {
 }
 
 /// Storage groups by their numbers in C.
-const STORAGES: [Storage; 5] =
+pub(super) const STORAGES: [Storage; 5] =
     [Storage::No, Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent];
 
 /// The number of an error in C.

@@ -4,7 +4,7 @@
 use firmware_glue::table::{Attributes, Flags, Place, Table};
 use firmware_glue::{DataType, Dictionary, EntryId};
 
-use super::protocol::Reference;
+use super::protocol::{Reference, STORAGES};
 use crate::fuzz::Random;
 
 /// A request and its answer.
@@ -139,15 +139,28 @@ impl<'t, D: Dictionary<'t>> Trial<D> {
         if self.reference.consistency.is_some() {
             self.ask(b"b");
         }
-        for storage in 0..5u8 {
-            self.ask(&[b'g', storage, 0, 5]);
+        for (number, storage) in (0..).zip(STORAGES) {
+            let stored = self.reference.dictionary.stored(storage).to_vec();
+            self.ask(&[b'g', number, 0, 5]);
+            let other = EntryId { index: 0, sub: number };
+            for (application, data) in
+                [(0, &stored[..]), (UNLOCKED, &stored[..stored.len() / 2]), (UNLOCKED, &stored[..])]
+            {
+                if data.len() < 4000 {
+                    self.access(b'R', other, application, data);
+                }
+            }
+            if self.below(2) == 0 {
+                self.ask(&[b'g', number, 0, 6]);
+            }
         }
         self.ask(b"i");
     }
 
     fn missing(&mut self) {
         let mut indices = vec![0, 1, 0x1F, 0xFFFF];
-        for row in 0..self.rows() {
+        for row in 0..=self.rows() {
+            self.access(b'k', EntryId { index: row, sub: 0 }, 0, &[]);
             let EntryId { index, sub } = self.table().id(row);
             indices.extend([index.wrapping_sub(1), index.wrapping_add(1), index.wrapping_add(32)]);
             for sub in [sub.wrapping_add(1), 255] {
@@ -315,8 +328,14 @@ impl<'t, D: Dictionary<'t>> Trial<D> {
         let Some(entry) = self.table().parts().entries.get(usize::from(row)) else { return };
         if shared.place == Place::Image {
             let place = EntryId { index: entry.place, sub: shared.page };
-            let data = data.get(..usize::from(shared.size)).unwrap_or(data);
-            self.access(b's', place, 0, data);
+            let mut data = data.get(..usize::from(shared.size)).unwrap_or(data).to_vec();
+            if shared.data_type == DataType::Boolean {
+                // What no BOOLEAN is, tables that are made at run time do not take for one.
+                for byte in &mut data {
+                    *byte &= 1;
+                }
+            }
+            self.access(b's', place, 0, &data);
         }
     }
 

@@ -1488,6 +1488,9 @@ uint8_t od_unpack(
         uint8_t value[8];
         uint32_t code;
         if (!mapped_at(table, image, mapping, at, &found, &bits)) {
+            received->too_long = false;
+            received->refused = OD_NONE;
+            received->code = OD_OK;
             return OD_PDO_NOT_MAPPED;
         }
         od_put_unsigned(value, 8U, rest & mask_of(bits));
