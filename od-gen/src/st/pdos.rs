@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::model::{Direction, Entry, EntryId, Object, Pdo, PdoTarget, Value};
+use od_spec::model::{Direction, Entry, EntryId, Fact, Object, Pdo, PdoTarget, TypeKind, Value};
 
 use super::bits::Bits;
 use super::constants::{Group, literal, raw};
@@ -301,8 +301,9 @@ impl PlannedPdo<'_> {
             };
             if let Some((quantity, to_raw)) = quantity {
                 let accepted = scope.give(format!("{name}_accepted"), number(field.id));
-                let start =
-                    default.and_then(|value| raw(value, device.node)).map(|raw| quantity.literal(raw));
+                // Without a default the quantity that the raw 0 of the structure is, so that an input that nobody sets changes nothing.
+                let start = default.and_then(|value| raw(value, device.node)).unwrap_or(0);
+                let start = Some(quantity.literal(start));
                 let note = format!("{}; {note}", quantity.symbol());
                 inputs.push(Declaration::new(&name, "LREAL", note).with_value(start));
                 outputs.push(Declaration::new(&accepted, "BOOL", ""));
@@ -310,7 +311,18 @@ impl PlannedPdo<'_> {
             } else {
                 let start = default.and_then(|value| literal(field.of_type, value, device.node));
                 inputs.push(Declaration::new(&name, field.of_type.name(), note).with_value(start));
-                statements.push(format!("raw.{member} := {name};"));
+                let assignment = format!("raw.{member} := {name};");
+                let Some(condition) = field.whole().and_then(|entry| allowed(entry, field.of_type, &name))
+                else {
+                    statements.push(assignment);
+                    continue;
+                };
+                let accepted = scope.give(format!("{name}_accepted"), number(field.id));
+                outputs.push(Declaration::new(&accepted, "BOOL", ""));
+                statements.push(format!("{accepted} := {condition};"));
+                statements.push(format!("IF {accepted} THEN"));
+                statements.push(format!("    {assignment}"));
+                statements.push("END_IF;".to_owned());
             }
         }
         text.line("");
@@ -323,6 +335,39 @@ impl PlannedPdo<'_> {
     }
 }
 
+/// When a number without a unit is one that the device takes; `None` where every one is.
+fn allowed(entry: &Entry, of_type: Elementary, name: &str) -> Option<String> {
+    let (Kind::Signed | Kind::Unsigned) = of_type.kind() else { return None };
+    let is = |raw: i128| format!("({name} = {})", of_type.literal(raw));
+    let mut cases: Vec<String> = Vec::new();
+    if let Some(TypeKind::Enum(values)) = entry.named_type.as_ref().map(|named| &named.kind) {
+        let taken = values.iter().filter(|value| value.supported && entry.allows(value.value));
+        cases.extend(taken.map(|value| is(value.value)));
+    } else {
+        let (least, most) = entry.data_type.range()?;
+        let low =
+            entry.low.filter(|low| *low > least).map(|low| format!("({name} >= {})", of_type.literal(low)));
+        let high = entry
+            .high
+            .filter(|high| *high < most)
+            .map(|high| format!("({name} <= {})", of_type.literal(high)));
+        cases.push(match (low, high) {
+            (Some(low), Some(high)) => format!("({low} AND {high})"),
+            (Some(one), None) | (None, Some(one)) => one,
+            (None, None) => return None,
+        });
+    }
+    cases.extend(
+        entry
+            .special
+            .iter()
+            .map(|special| is(special.value))
+            .filter(|case| !cases.contains(case))
+            .collect::<Vec<_>>(),
+    );
+    Some(cases.join(" OR "))
+}
+
 /// What a field is.
 fn note(device: &Device<'_>, field: &Field<'_>) -> String {
     let Some((object, entry)) = field.entry else {
@@ -333,6 +378,10 @@ fn note(device: &Device<'_>, field: &Field<'_>) -> String {
     notes.extend(device.wording.range(object.index, entry));
     if let Some(bits) = entry.data_type.bits().map(u32::from).filter(|bits| *bits != field.bits) {
         notes.push(device.phrase(Phrase::PartMapped, &[&field.bits.to_string(), &bits.to_string()]));
+    }
+    let warning = device.text(&entry.warning);
+    if !warning.is_empty() {
+        notes.push(format!("{}: {warning}", device.wording.fact(Fact::Warning)));
     }
     notes.join("; ")
 }
