@@ -64,7 +64,7 @@ def run(*command: object) -> str:
 
 
 def letters(name: str) -> str:
-    for old, new in [("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"), ("µ", "u"), ("°", "deg")]:
+    for old, new in [("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"), ("µ", "u"), ("°", "deg"), ("²", "2")]:
         name = name.lower().replace(old, new)
     return "".join(c for c in name if c.isascii() and c.isalnum())
 
@@ -110,8 +110,8 @@ class Device:
             for entry in one["entries"]:
                 self.entries[(int(one["index"], 16), entry["sub"])] = (one, entry)
         self.pdos: list[dict] = device["pdos"]
-        self.machines = [one for one in dump["state-machines"] if self.key in one.get("on", [self.key])]
-        self.errors = [one for one in dump["errors"] if self.key in one.get("on", [self.key])]
+        self.machines = [one for one in dump["state-machines"] if self.key in (one.get("on") or [self.key])]
+        self.errors = [one for one in dump["errors"] if self.key in (one.get("on") or [self.key])]
         used = {entry["named-type"] for _, entry in self.entries.values() if "named-type" in entry}
         self.used_types = [self.types[name] for name in sorted(used)]
 

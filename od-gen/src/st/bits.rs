@@ -178,9 +178,7 @@ impl Bits<'_> {
             device.phrase(Phrase::BitsOf, &[&self.named.name]),
             device.text(&self.named.about).to_owned(),
         ]);
-        for mask in &self.masks {
-            text.declaration(mask);
-        }
+        text.declarations(&self.masks);
     }
 
     /// The structure.

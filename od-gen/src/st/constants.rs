@@ -1,9 +1,10 @@
 //! Constants of entries, enums and errors.
 
 use od_spec::model::{Entry, EntryId, EnumValue, ErrorCode, Family, NamedType, TypeKind, Value};
+use od_spec::wording::Radix;
 
 use super::device::{Device, capitals, number};
-use super::elementary::{Elementary, real};
+use super::elementary::{Elementary, Kind, real};
 use super::enums::note_of;
 use super::names::Wanted;
 use super::phrases::Phrase;
@@ -25,9 +26,7 @@ impl Group {
 
     pub(super) fn print(&self, text: &mut Text) {
         text.comment(&self.about);
-        for constant in &self.constants {
-            text.declaration(constant);
-        }
+        text.declarations(&self.constants);
     }
 }
 
@@ -92,13 +91,15 @@ fn of_entry(device: &Device<'_>, id: EntryId, entry: &Entry) -> Wish {
         format!("16#{:04X}", entry.data_type.code()),
         entry.data_type.to_string(),
     );
-    if let Some((of_type, value)) = entry.default.as_ref().and_then(|value| default(device, entry, value)) {
+    if let Some((of_type, value)) = entry.default.as_ref().and_then(|value| default(device, id, entry, value))
+    {
         add("default", of_type, value, String::new());
     }
     let Some(of_type) = Elementary::of(entry) else { return wish };
     let (low, high) = entry.limits();
     for (limit, behind) in [(low, "low"), (high, "high")] {
-        if let Some(value) = limit.and_then(|limit| literal(of_type, &limit, device.node)) {
+        if let Some(value) = limit.and_then(|limit| of_entry_literal(id, entry, of_type, &limit, device.node))
+        {
             add(behind, of_type.name().to_owned(), value, String::new());
         }
     }
@@ -114,9 +115,9 @@ fn of_entry(device: &Device<'_>, id: EntryId, entry: &Entry) -> Wish {
 }
 
 /// Type and literal of a default; `None` for what no constant can be.
-fn default(device: &Device<'_>, entry: &Entry, value: &Value) -> Option<(String, String)> {
+fn default(device: &Device<'_>, id: EntryId, entry: &Entry, value: &Value) -> Option<(String, String)> {
     if let Some(of_type) = Elementary::of(entry) {
-        return Some((of_type.name().to_owned(), literal(of_type, value, device.node)?));
+        return Some((of_type.name().to_owned(), of_entry_literal(id, entry, of_type, value, device.node)?));
     }
     let Value::Text(text) = value else { return None };
     let is_plain = text.len() <= LONGEST_TEXT && text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
@@ -133,6 +134,20 @@ pub(super) fn literal(of_type: Elementary, value: &Value, node: Option<u8>) -> O
         Value::Integer(_) | Value::NodeId(_) => raw(value, node).map(|raw| of_type.literal(raw)),
         Value::Real(number) => Some(real(number.number())),
         Value::Text(_) | Value::Bytes(_) => None,
+    }
+}
+
+/// The literal of an entry's raw value: in hexadecimal, where nobody knows its numbers in decimal, such as a COB-ID.
+fn of_entry_literal(
+    id: EntryId,
+    entry: &Entry,
+    of_type: Elementary,
+    value: &Value,
+    node: Option<u8>,
+) -> Option<String> {
+    match (Radix::of(Some(id.index), entry), of_type.kind()) {
+        (Radix::Hexadecimal, Kind::Unsigned) => raw(value, node).map(|raw| format!("16#{raw:08X}")),
+        (Radix::Hexadecimal | Radix::Decimal, _) => literal(of_type, value, node),
     }
 }
 

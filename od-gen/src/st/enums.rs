@@ -46,7 +46,7 @@ pub(super) fn enums(device: &mut Device<'_>, machines: &[Machine<'_>]) -> Vec<En
             }
         }
     }
-    for Machine { machine, name, .. } in machines {
+    for Machine { of: machine, name, .. } in machines {
         found.push(states(device, machine, name));
         if !machine.commands.is_empty() {
             found.push(commands(device, machine, name));

@@ -121,9 +121,8 @@ impl PlannedPdo<'_> {
 fn of_bytes(field: &Field<'_>) -> String {
     let number = Elementary::unsigned(field.bits);
     if field.of_type == Elementary::Bool {
-        return pieces(field)
-            .map(|piece| format!("(data[{}] AND 16#{:02X}) <> 0", piece.byte, piece.mask()))
-            .collect();
+        let bit = format!("(data[{}] AND 16#{:02X}) <> 0", field.first / 8, 1 << (field.first % 8));
+        return bit;
     }
     let terms: Vec<String> = pieces(field)
         .map(|piece| {
@@ -178,7 +177,7 @@ fn print_number(text: &mut Text, field: &Field<'_>, local: &str) {
             });
         }
         (Kind::BitString, _) => {
-            text.line(&format!("{local} := {};", convert(field.of_type, number, &member)))
+            text.line(&format!("{local} := {};", convert(field.of_type, number, &member)));
         }
         (Kind::Unsigned | Kind::Real, _) => text.line(&format!("{local} := {member};")),
     }

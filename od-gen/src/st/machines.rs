@@ -10,7 +10,7 @@ use super::text::{Declaration, Text};
 
 /// A state machine of the device.
 pub(super) struct Machine<'a> {
-    pub machine: &'a StateMachine,
+    pub of: &'a StateMachine,
     /// Type of the entry that shows the state.
     pub status: Elementary,
     command: Elementary,
@@ -34,7 +34,7 @@ pub(super) fn machines<'a>(device: &mut Device<'a>) -> Vec<Machine<'a>> {
         let (status, command) = (word(machine.status)?, word(machine.command)?);
         let name = device.prefixed(&machine.name);
         Some(Machine {
-            machine,
+            of: machine,
             status,
             command,
             state: device.scope.give(format!("{name}_state"), "machine"),
@@ -118,19 +118,19 @@ impl Constants {
 impl Machine<'_> {
     /// Numbers, masks and values.
     pub(super) fn print_constants(&self, device: &Device<'_>, text: &mut Text) {
-        let StateMachine { name, status, command, .. } = self.machine;
+        let StateMachine { name, status, command, .. } = self.of;
         text.comment(&[device.phrase(Phrase::StatesOf, &[name, &device.title(*status)])]);
-        self.states.iter().for_each(|one| text.declaration(one));
+        text.declarations(&self.states);
         if !self.commands.is_empty() {
             text.line("");
             text.comment(&[device.phrase(Phrase::CommandsOf, &[name, &device.title(*command)])]);
-            self.commands.iter().for_each(|one| text.declaration(one));
+            text.declarations(&self.commands);
         }
     }
 
     /// The functions.
     pub(super) fn print(&self, device: &Device<'_>, text: &mut Text) {
-        let Self { machine, status, command, state, give, .. } = self;
+        let Self { of: machine, status, command, state, give, .. } = self;
         text.line("");
         text.comment(
             &[device.phrase(Phrase::StateFunction, &[&machine.name, &device.title(machine.status)])],

@@ -166,11 +166,21 @@ pub fn write(system: &System, device: &Dictionary, node: Option<u8>, language: O
     });
 
     let mut code = head(device, Phrase::CodeFile);
-    bits.iter().for_each(|bits| bits.print_type(device, &mut code));
-    pdos.iter().for_each(|pdo| pdo.print_type(device, &mut code));
-    quantities.iter().for_each(|quantity| quantity.print(device, &mut code));
-    bits.iter().for_each(|bits| bits.print(device, &mut code));
-    machines.iter().for_each(|machine| machine.print(device, &mut code));
+    for bits in &bits {
+        bits.print_type(device, &mut code);
+    }
+    for pdo in &pdos {
+        pdo.print_type(device, &mut code);
+    }
+    for quantity in &quantities {
+        quantity.print(device, &mut code);
+    }
+    for bits in &bits {
+        bits.print(device, &mut code);
+    }
+    for machine in &machines {
+        machine.print(device, &mut code);
+    }
     let by_entry = quantities::by_entry(&quantities);
     let called = Called { quantities: &by_entry, bits: &bits, machines: &machines };
     for pdo in &pdos {
@@ -179,7 +189,9 @@ pub fn write(system: &System, device: &Dictionary, node: Option<u8>, language: O
     }
 
     let mut types = head(device, Phrase::EnumsFile);
-    enums.iter().for_each(|one| one.print(&mut types));
+    for one in &enums {
+        one.print(&mut types);
+    }
 
     let key = &device.dictionary.key;
     let file = |path: String, text: Text, purpose: &str| Artifact {

@@ -267,13 +267,12 @@ impl PlannedPdo<'_> {
                     statements.push(format!("{name} := raw.{member};"));
                 }
             }
-            let is_shown = |machine: &&Machine<'_>| {
-                machine.machine.status == field.id && machine.status == field.of_type
-            };
+            let is_shown =
+                |machine: &&Machine<'_>| machine.of.status == field.id && machine.status == field.of_type;
             for machine in called.machines.iter().filter(is_shown) {
-                let behind = Words::of(&machine.machine.name).snake();
+                let behind = Words::of(&machine.of.name).snake();
                 let state = scope.give(format!("{name}_{behind}_state"), number(field.id));
-                outputs.push(Declaration::new(&state, "INT", &machine.machine.name));
+                outputs.push(Declaration::new(&state, "INT", &machine.of.name));
                 statements.push(format!("{state} := {}(raw := raw.{member});", machine.state));
             }
         }
@@ -282,7 +281,7 @@ impl PlannedPdo<'_> {
         text.line(&format!("FUNCTION_BLOCK {}", self.block));
         text.variables("VAR_INPUT", &[Declaration::new("raw", &self.type_name, "")]);
         text.variables("VAR_OUTPUT", &outputs);
-        statements.iter().for_each(|statement| text.line(statement));
+        text.lines(&statements);
         text.line("END_FUNCTION_BLOCK");
     }
 
@@ -330,7 +329,7 @@ impl PlannedPdo<'_> {
         text.line(&format!("FUNCTION_BLOCK {}", self.block));
         text.variables("VAR_INPUT", &inputs);
         text.variables("VAR_OUTPUT", &outputs);
-        statements.iter().for_each(|statement| text.line(statement));
+        text.lines(&statements);
         text.line("END_FUNCTION_BLOCK");
     }
 }

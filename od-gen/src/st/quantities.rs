@@ -117,7 +117,7 @@ const fn is_taken(entry: &Entry) -> bool {
 }
 
 /// The groups of an object's entries that share functions: all quantities of it, where nothing tells them apart; else each.
-fn groups<'a>(object: &'a Object) -> Vec<(Vec<&'a Entry>, bool)> {
+fn groups(object: &Object) -> Vec<(Vec<&Entry>, bool)> {
     let entries: Vec<&Entry> = object.entries.iter().filter(|entry| unit_of(entry).is_some()).collect();
     let is_one = entries.len() > 1
         && entries.windows(2).all(|pair| matches!(pair, [one, other] if facts(one) == facts(other)));
@@ -284,7 +284,9 @@ impl Quantity<'_> {
         let whole = if has_room { Elementary::Dint } else { Elementary::Lint };
         let special =
             self.entry.special.iter().map(|special| special.value).filter(|raw| (low..=high).contains(raw));
-        let unless: String = special.map(|raw| format!(" AND (whole <> {})", whole.literal(raw))).collect();
+        let unless: Vec<String> =
+            special.map(|raw| format!(" AND (whole <> {})", whole.literal(raw))).collect();
+        let unless = unless.concat();
         text.line("");
         text.comment(&comment);
         text.line(&format!("FUNCTION {name} : BOOL"));

@@ -22,6 +22,13 @@ impl Text {
         self.text.push('\n');
     }
 
+    /// Lines, one below the other.
+    pub(super) fn lines(&mut self, lines: &[String]) {
+        for line in lines {
+            self.line(line);
+        }
+    }
+
     /// Lines that stand one level further in, between two others.
     pub(super) fn block(&mut self, first: &str, last: &str, inner: impl FnOnce(&mut Self)) {
         self.line(first);
@@ -61,24 +68,25 @@ impl Text {
         if declarations.is_empty() {
             return;
         }
-        self.block(section, "END_VAR", |text| {
-            for declaration in declarations {
-                text.declaration(declaration);
-            }
-        });
+        self.block(section, "END_VAR", |text| text.declarations(declarations));
     }
 
     /// The declaration of a structure.
     pub(super) fn structure(&mut self, name: &str, members: &[Declaration]) {
         self.line(&format!("TYPE {name} :"));
-        self.block("STRUCT", "END_STRUCT;", |text| {
-            members.iter().for_each(|member| text.declaration(member))
-        });
+        self.block("STRUCT", "END_STRUCT;", |text| text.declarations(members));
         self.line("END_TYPE");
     }
 
+    /// Declarations, one below the other.
+    pub(super) fn declarations(&mut self, declarations: &[Declaration]) {
+        for declaration in declarations {
+            self.declaration(declaration);
+        }
+    }
+
     /// A declaration.
-    pub(super) fn declaration(&mut self, Declaration { name, of_type, value, note }: &Declaration) {
+    fn declaration(&mut self, Declaration { name, of_type, value, note }: &Declaration) {
         let value = value.as_ref().map(|value| format!(" := {value}")).unwrap_or_default();
         self.noted(&format!("{name} : {of_type}{value};"), note);
     }
