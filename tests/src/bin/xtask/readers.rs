@@ -162,10 +162,12 @@ pub(crate) fn structured_text(runner: &mut Runner) -> Result<(), Failure> {
     let mut command = Command::new(&python);
     command.arg("tests/readers/st.py").arg("--odgen").arg(beside("odgen")?);
     command.arg("--frames").arg(beside("pdo-frames")?);
-    for file in ["scales", "limits", "everything"] {
+    for file in ["limits", "everything"] {
         command.arg("--as-it-is").arg(format!("tests/readers/{file}.od.yaml"));
     }
-    command.arg("--faults").arg("tests/readme/valve.od.yaml");
+    for file in ["readme/valve", "readme/lift", "readers/scales"] {
+        command.arg("--faults").arg(format!("tests/{file}.od.yaml"));
+    }
     runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
 }
 
