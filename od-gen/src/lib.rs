@@ -52,6 +52,8 @@ pub mod slcan;
 #[cfg(all(feature = "links", target_os = "linux"))]
 pub mod socketcan;
 pub mod source;
+#[cfg(feature = "st")]
+pub mod st;
 #[cfg(feature = "runtime")]
 pub mod trace;
 #[cfg(feature = "xdd")]

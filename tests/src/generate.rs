@@ -9,6 +9,7 @@ use od_gen::diff::{Question, Scope, compare, human};
 use od_gen::docs::{self, Templates};
 use od_gen::files::{left_over, remove};
 use od_gen::rust::{self, Provenance};
+use od_gen::st;
 use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
@@ -181,6 +182,7 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
     let text = block(&text, "canopennode", &format!("```c\n{}\n```", stack(&system, &sources)?))?;
     let text = block(&text, "dbc", &format!("```text\n{}\n```", frames(&system)))?;
+    let text = block(&text, "st", &format!("```text\n{}\n```", structured_text(&system)?))?;
     block(&text, "docs", &tables(&system)?)
 }
 
@@ -204,6 +206,36 @@ fn stack(system: &System, sources: &SourceMap) -> Result<String, Failure> {
         lines("/OD_rules.c", "/* 2000h", "},")?,
     ]
     .join("\n"))
+}
+
+/// Some constants of the example in Structured Text, a conversion and the block of a PDO.
+fn structured_text(system: &System) -> Result<String, Failure> {
+    let [device] = system.devices.as_slice() else {
+        return Err("the example has another number of devices".into());
+    };
+    let files = st::write(system, device, Some(5), None).artifacts;
+    let file = |path: &str| {
+        let file = files.iter().find(|file| file.path == path).ok_or_else(|| format!("no {path}"))?;
+        Ok::<_, Failure>(String::from_utf8(file.bytes.clone())?)
+    };
+    let (constants, code) = (file("valve-constants.st")?, file("valve.st")?);
+    let constants = constants.lines().filter(|line| {
+        let line = line.trim_start();
+        ["VALVE_ACTUAL_PRESSURE_INDEX", "VALVE_ACTUAL_PRESSURE_SENSOR", "VALVE_RPDO1_CAN_ID"]
+            .iter()
+            .any(|name| line.starts_with(name))
+    });
+    let mut parts = vec![constants.map(str::trim_start).collect::<Vec<_>>().join("\n")];
+    for (begin, end) in [
+        ("FUNCTION valve_actual_pressure_to_value", "END_FUNCTION\n"),
+        ("FUNCTION_BLOCK VALVE_RPDO1_OUT", "END_FUNCTION_BLOCK\n"),
+    ] {
+        let from = code.find(begin).ok_or_else(|| format!("the example lacks `{begin}`"))?;
+        let item = code.get(from..).unwrap_or_default();
+        let to = item.find(end).ok_or_else(|| format!("`{begin}` does not end"))? + end.len();
+        parts.push(item.get(..to).unwrap_or_default().trim_end().to_owned());
+    }
+    Ok(parts.join("\n\n"))
 }
 
 /// The PDOs of the example in its DBC.

@@ -1,8 +1,7 @@
 //! What PDOs carry, as signals.
 
 use od_spec::model::{
-    BitField, BitUsage, DataType, Edge, Entry, EntryId, Family, Object, Pdo, PdoTarget, Ratio, TypeKind,
-    Value,
+    BitField, DataType, Edge, Entry, EntryId, Family, Object, Pdo, PdoTarget, Ratio, TypeKind, Value,
 };
 use od_spec::wording::{Notation, Wording};
 
@@ -123,9 +122,7 @@ pub(super) fn of_entry_at(node: &Node<'_>, id: EntryId, bits: u32, first: u32) -
 
 /// Whether bits mean something, and at least one of them is mapped.
 fn is_used(field: &BitField, mapped: u32) -> bool {
-    field.usage == BitUsage::Used
-        && (!field.name.is_empty() || !field.modes.is_empty())
-        && u32::from(field.first) < mapped
+    field.is_told() && u32::from(field.first) < mapped
 }
 
 /// One field of a bit field.

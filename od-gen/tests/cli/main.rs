@@ -34,6 +34,7 @@ mod serve;
 mod served;
 mod shipped;
 mod specs;
+mod st;
 mod texts;
 mod xdd;
 

@@ -138,6 +138,11 @@ pub struct ModeMeaning {
 }
 
 impl BitField {
+    /// Whether the bits mean something that is told: under a name of their own, or in some mode.
+    pub fn is_told(&self) -> bool {
+        self.usage == BitUsage::Used && (!self.name.is_empty() || !self.modes.is_empty())
+    }
+
     /// The error codes that the device reports with this bit.
     pub fn error_codes(&self) -> impl Iterator<Item = u16> {
         self.errors.iter().map(|code| code.value)

@@ -7,6 +7,7 @@ mod diff;
 mod node;
 mod on_bus;
 mod plant;
+mod st;
 
 use std::path::PathBuf;
 
@@ -24,6 +25,7 @@ pub(crate) use on_bus::{
     NodeNmtArgs, NodeReadArgs, NodeScanArgs, NodeWriteArgs, OneNodeArgs,
 };
 pub(crate) use plant::{PlantArgs, PlantBuildArgs, PlantCommand, PlantShowArgs, ShowFormat};
+pub(crate) use st::StArgs;
 
 /// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
 #[derive(Debug, Parser)]
@@ -125,6 +127,7 @@ impl Cli {
             Command::Params(args) => args.messages.format,
             Command::Plant(args) => args.command.message_format(),
             Command::Serve(args) => args.messages.format,
+            Command::St(args) => args.messages.format,
             _ => None,
         };
         behind.or(self.format).unwrap_or_default()
@@ -200,6 +203,8 @@ pub(crate) enum Command {
     Plant(PlantArgs),
     /// Be nodes on a bus, without hardware, for whoever comes by SLCAN (TCP or a pseudo-terminal) or a CAN interface
     Serve(ServeArgs),
+    /// Make Structured Text (IEC 61131-3) for PLC programs: constants, enums, bits, conversions to units and back, PDOs
+    St(StArgs),
     /// Tell what a message code means and what to do about it
     Explain {
         /// A code such as OD0507, or `all`

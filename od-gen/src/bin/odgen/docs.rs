@@ -10,6 +10,7 @@ use od_spec::model::System;
 use od_spec::rule_codes;
 
 use super::args::{DocsArgs, DocsFormat};
+use super::language::language;
 use super::output::{clash, forced, tidy, write};
 use super::report::{Report, print_json};
 use super::specs::{self, stem};
@@ -82,23 +83,6 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
 fn options(system: &System, args: &DocsArgs) -> docs::Options {
     let options = docs::options(system, &args.device, args.lang.as_deref());
     docs::Options { errata: args.errata, ..options }
-}
-
-/// The language of this code, in any case: one whose fixed words are known, or one of the specifications.
-fn language<'a>(code: &str, systems: impl Iterator<Item = &'a System>) -> Result<String, Box<Diagnostic>> {
-    let of_specs = systems.flat_map(|system| &system.languages).map(String::as_str);
-    let mut known: Vec<&str> = docs_gen::LANGUAGES.iter().copied().chain(of_specs).collect();
-    known.sort_unstable();
-    known.dedup();
-    known.iter().find(|known| known.eq_ignore_ascii_case(code)).map(|known| (*known).to_owned()).ok_or_else(
-        || {
-            let list = known.iter().map(|code| format!("`{code}`")).collect::<Vec<_>>().join(", ");
-            Box::new(
-                Diagnostic::without_place(codes::UNKNOWN_WORD, format!("there is no language `{code}`"))
-                    .help(format!("the languages are {list}")),
-            )
-        },
-    )
 }
 
 /// The formats to print; a user's own templates come alone unless a format is named.

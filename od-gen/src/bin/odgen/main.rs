@@ -16,6 +16,7 @@ mod fmt;
 mod git;
 mod import;
 mod interrupt;
+mod language;
 mod line_diff;
 mod link;
 mod listing;
@@ -30,6 +31,7 @@ mod report;
 mod serve;
 mod settings;
 mod specs;
+mod st;
 mod templates;
 
 use std::io::Write as _;
@@ -83,6 +85,7 @@ fn main() -> ExitCode {
         Command::Params(args) => params::run(&args, &report),
         Command::Plant(args) => plant::run(&args, &report),
         Command::Serve(args) => serve::run(&args, directory, &report),
+        Command::St(args) => st::run(&args, directory, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
         Command::Reference => report::print(&od_spec::reference()),

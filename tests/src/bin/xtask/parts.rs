@@ -35,6 +35,8 @@ pub(crate) enum Part {
     Plant,
     /// DBC files, and frames of the generated Rust that are read by them.
     Dbc,
+    /// Structured Text, parsed by a parser that others wrote, and evaluated.
+    StructuredText,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -94,6 +96,7 @@ impl Part {
         Part::XddStructure,
         Part::Plant,
         Part::Dbc,
+        Part::StructuredText,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -118,6 +121,7 @@ impl Part {
             Part::XddStructure => "EDS readers: XDD and XDC",
             Part::Plant => "EDS readers: a plant",
             Part::Dbc => "DBC readers",
+            Part::StructuredText => "Structured Text",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -142,6 +146,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::StructuredText
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware | Part::PlainC => Area::Firmware,
@@ -163,6 +168,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::StructuredText
             | Part::Manuals
             | Part::FirmwareSizes
             | Part::PlainC => Turn::Beside,
@@ -185,6 +191,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::StructuredText
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -213,6 +220,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::StructuredText
             | Part::Browser
             | Part::Manuals
             | Part::FirmwareSizes
@@ -257,6 +265,7 @@ impl Part {
             Part::XddStructure => readers::xdd_structure(runner),
             Part::Plant => readers::plant(runner),
             Part::Dbc => readers::dbc(runner),
+            Part::StructuredText => readers::structured_text(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),

@@ -156,6 +156,22 @@ pub(crate) fn dbc(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
 }
 
+/// Structured Text, parsed by blark and compared with the dump; what its functions do is evaluated, on frames of the generated Rust, too.
+pub(crate) fn structured_text(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let beside = |name: &str| std::env::current_exe().map(|path| path.with_file_name(name));
+    let mut command = Command::new(&python);
+    command.arg("tests/readers/st.py").arg("--odgen").arg(beside("odgen")?);
+    command.arg("--frames").arg(beside("pdo-frames")?);
+    for file in ["limits", "everything"] {
+        command.arg("--as-it-is").arg(format!("tests/readers/{file}.od.yaml"));
+    }
+    for file in ["readme/valve", "readme/lift", "readers/scales"] {
+        command.arg("--faults").arg(format!("tests/{file}.od.yaml"));
+    }
+    runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
+}
+
 /// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
 /// and `odgen node` against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {

@@ -1,0 +1,108 @@
+//! The printed text; what it does on a controller, tests/readers/st.py evaluates.
+
+use std::collections::BTreeSet;
+
+use od_spec::diag::render::{Format, render};
+use od_spec::model::System;
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
+
+use super::{Written, write};
+
+fn system(text: &str) -> System {
+    let mut sources = SourceMap::new();
+    let root = sources.add("valve.od.yaml", text);
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    compiled
+        .system
+        .unwrap_or_else(|| panic!("{}", render(&compiled.diagnostics, &sources, Format::Human, false)))
+}
+
+fn written(text: &str, node: Option<u8>) -> (Written, String) {
+    let system = system(text);
+    let written = write(&system, &system.devices[0], node, None);
+    let all = written.artifacts.iter().map(|file| String::from_utf8(file.bytes.clone()).unwrap());
+    let all = all.collect::<Vec<_>>().concat();
+    (written, all)
+}
+
+/// Names that are words of the language, that differ in nothing but case, and that are too long; texts that could end a comment.
+const NAMES: &str = "
+od-spec: 1
+title: Valve
+uses: [cia301]
+devices:
+  24v-valve: {name: Valve *) x, bit-rates: [125], granularity: 1, features: [heartbeat producer]}
+units: {step: {symbol: mm, scale: 1/3}, far: {symbol: m, scale: 1/36028797018963968}}
+types:
+  way: {base: unsigned8, values: {0: on, 1: At, 2: Ω}}
+  flags: {base: unsigned8, bits: {0: type, 1: ready, 2: Ready, 3..4: {name: r, values: {0: slow}}, 5..7: unused}}
+objects:
+  0x2000: {name: Set Point, type: unsigned8, unit: step, access: rw, pdo: receive, about: 'ends *) here (* or \"not\"'}
+  0x2001: {name: set-point, type: unsigned8, unit: far, access: rw, pdo: receive}
+  0x2002: {name: way, type: way, access: rw, pdo: receive}
+  0x2003: {name: flags, type: flags, access: ro, pdo: transmit}
+  0x2004: {name: part of the plant that is described by a name which nobody would want to read twice or type even once, type: integer24, access: rw, pdo: receive}
+  0x2005: {name: a real, type: real32, access: rw, pdo: receive}
+pdos:
+  24v-valve:
+    receive: {1: {map: [0x2000, 0x2001, 0x2002, 0x2004]}, 2: {map: [0x2005]}}
+    transmit: {1: {map: [0x2003]}}
+";
+
+#[test]
+fn names_are_names_of_the_language() {
+    let (written, text) = written(NAMES, Some(5));
+    for line in [
+        "    N24V_VALVE_SET_POINT_2000_0_INDEX : UINT := 16#2000;",
+        "    N24V_VALVE_SET_POINT_2001_0_INDEX : UINT := 16#2001;",
+        "    on_0 := 0, (* on *)",
+        "    at_1 := 1, (* At *)",
+        "    ohm := 2 (* Ω *)",
+        "    type_b0 : BOOL; (* Bit 0; type *)",
+        "    ready_b1 : BOOL; (* Bit 1; ready *)",
+        "    ready_b2 : BOOL; (* Bit 2; Ready *)",
+        "    r_b3 : USINT; (* Bits 3..4; r *)",
+    ] {
+        assert!(text.contains(&line.replace("Bit", "bit")), "{line}\n{text}");
+    }
+    let long = text.lines().filter_map(|line| line.trim().split(' ').next()).map(str::len).max();
+    assert!(long <= Some(super::names::LONGEST), "{long:?}");
+    let names: Vec<String> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("    N24V").and_then(|rest| rest.split(' ').next()))
+        .map(str::to_ascii_uppercase)
+        .collect();
+    assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
+    let told: Vec<String> = written.left_out.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        told,
+        [
+            "the bytes of RPDO2 of 24v-valve: it carries a REAL, and tools differ in what converts its bits",
+            "conversions of 2001h set-point of 24v-valve: LREAL does not have the numbers in the scale of `far` exactly",
+        ]
+    );
+}
+
+#[test]
+fn code_is_ascii_and_no_text_ends_a_comment() {
+    let (_, text) = written(NAMES, None);
+    let mut code = String::new();
+    let mut rest = text.as_str();
+    while let Some((before, behind)) = rest.split_once("(*") {
+        let (comment, after) = behind.split_once("*)").expect("an end");
+        assert!(!comment.contains("(*"), "{comment}");
+        code.push_str(before);
+        rest = after;
+    }
+    code.push_str(rest);
+    assert!(code.is_ascii() && !code.contains("*)"), "{code}");
+    assert!(text.contains("ends * ) here ( * or \"not\""), "{text}");
+}
+
+#[test]
+fn the_same_specification_gives_the_same_bytes() {
+    let system = system(NAMES);
+    let first = write(&system, &system.devices[0], None, Some("de"));
+    assert_eq!(first, write(&system, &system.devices[0], None, Some("de")));
+}
