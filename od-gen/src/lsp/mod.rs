@@ -12,8 +12,11 @@
 mod analysis;
 mod buffer;
 mod capabilities;
+mod code_actions;
+mod copies;
 mod diagnostics;
 mod folding;
+mod formatting;
 mod overlay;
 mod place;
 mod position;

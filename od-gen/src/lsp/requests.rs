@@ -2,17 +2,18 @@
 
 use lsp_server::{ErrorCode, Request, ResponseError};
 use lsp_types::request::{
-    DocumentSymbolRequest, FoldingRangeRequest, Request as Method, WorkspaceSymbolRequest,
+    CodeActionRequest, DocumentSymbolRequest, FoldingRangeRequest, Formatting, RangeFormatting,
+    Request as Method, WorkspaceSymbolRequest,
 };
 use lsp_types::{DocumentSymbolResponse, Uri, WorkspaceSymbolResponse};
 use serde_json::Value;
 
-use super::folding;
 use super::position::Encoding;
 use super::snapshot::Snapshot;
 use super::symbols;
 use super::workspace::Workspace;
 use super::workspace_symbols;
+use super::{code_actions, folding, formatting};
 
 /// What an answer is made from.
 pub(super) struct Context<'a> {
@@ -39,12 +40,23 @@ pub(super) fn refusal(code: ErrorCode, message: String) -> ResponseError {
 pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Value, ResponseError> {
     let Request { method, params, .. } = request;
     match method.as_str() {
+        CodeActionRequest::METHOD => on::<CodeActionRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(code_actions::actions(&snapshot, params.range, &params.context)))
+        }),
         DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
         }),
         FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(params, |params| {
             Ok(Some(folding::ranges(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        Formatting::METHOD => on::<Formatting>(params, |params| {
+            Ok(Some(formatting::document(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        RangeFormatting::METHOD => on::<RangeFormatting>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(formatting::range(&snapshot, params.range)))
         }),
         WorkspaceSymbolRequest::METHOD => on::<WorkspaceSymbolRequest>(params, |params| {
             let found =

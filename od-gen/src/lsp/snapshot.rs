@@ -44,7 +44,6 @@ impl Snapshot {
     }
 
     /// The URI of the document.
-    #[expect(dead_code, reason = "for requests whose answer names the document")]
     pub(super) fn uri(&self) -> Option<&Uri> {
         self.now.uri(self.file)
     }
@@ -70,7 +69,6 @@ impl Snapshot {
     }
 
     /// The byte of the document at a position.
-    #[expect(dead_code, reason = "for requests at a position")]
     pub(super) fn offset(&self, position: Position) -> usize {
         self.lines().offset(self.text(), position, self.encoding)
     }

@@ -41,7 +41,6 @@ impl Directory {
         format!("file://{}/{name}", self.0.display())
     }
 
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.0.join(name), text).unwrap();
     }
@@ -199,7 +198,6 @@ impl Client {
         self.notify("textDocument/didChange", &json!({"textDocument": document, "contentChanges": changes}));
     }
 
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn close(&mut self, name: &str) {
         let uri = self.uri(name);
         self.notify("textDocument/didClose", &json!({"textDocument": {"uri": uri}}));
@@ -212,7 +210,6 @@ impl Client {
     }
 
     /// What is said about a document that is not open.
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn diagnostics_of_file(&mut self, name: &str) -> Vec<Value> {
         let uri = self.uri(name);
         self.published(&uri, &Value::Null)
@@ -231,7 +228,6 @@ impl Client {
     }
 
     /// A request about a document, at a place in it.
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn request_at(&mut self, method: &str, name: &str, (line, character): (u32, u32)) -> Value {
         let params = json!({
             "textDocument": {"uri": self.uri(name)},
@@ -266,7 +262,6 @@ impl Client {
 
     /// The memory of the server that is in use, in kB.
     #[cfg(target_os = "linux")]
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn resident(&self) -> u64 {
         let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
         let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();
