@@ -2,15 +2,13 @@
 
 use std::ops::Range;
 
-use super::definitions::Scope;
-use super::references::{At, Collector};
-use super::{By, Kind};
+use super::definitions::{Scope, one_or_more};
+use super::references::{At, Collector, scope};
+use super::{By, DefinitionId, Kind};
 use crate::decode::lexical;
 use crate::expr::{EntryRef, Lookup, Named, Operand, PLACEHOLDER, without_names};
 use crate::model::{EntryId, Index, SubIndex};
 use crate::yaml::Node;
-
-use super::definitions::one_or_more;
 
 /// Reads what a condition refers to.
 pub(super) fn condition<'t>(collector: &mut Collector<'_, 't>, at: At<'_, 't>) {
@@ -55,13 +53,16 @@ impl<'t> Asked<'_, '_, '_, 't> {
     }
 
     /// The named type of an entry.
-    fn type_of(&self, entry: &EntryRef) -> Option<super::DefinitionId> {
+    fn type_of(&self, entry: &EntryRef) -> Option<DefinitionId> {
         let device = entry.device.as_deref();
         let device = device.map(|key| [key]);
         let devices = device.as_ref().map_or(self.devices.as_slice(), |one| one.as_slice());
-        let mut found = self.collector.meant.devices(super::references::scope(devices));
-        let named = found.find_map(|device| device.entry(entry.id)?.named_type.as_ref());
-        self.collector.type_of(&named?.name, self.at.file())
+        let scope = scope(devices);
+        let known = self.collector.known;
+        let mut found = self.collector.meant.devices(scope);
+        let meant = found.find_map(|device| Some(device.entry(entry.id)?.named_type.as_ref()?.name.as_str()));
+        let name = meant.or_else(|| known.objects.type_of(known, self.at.file(), entry.id, scope))?;
+        self.collector.type_of(name, self.at.file())
     }
 }
 
@@ -70,9 +71,10 @@ impl Lookup for Asked<'_, '_, '_, '_> {
         let full = self.with_number(name.text);
         let devices = self.on(name.device, name.range.start);
         self.collector.named_entry(self.at, name.range.clone(), &full, &devices);
-        let scope = super::references::scope(&devices);
+        let scope = scope(&devices);
         let found = self.collector.meant.named(&full, scope).next().map(|(_, id)| id);
-        found.or(Some(UNKNOWN))
+        let written = || self.collector.known.objects.named(&full, scope).map(|found| found.first);
+        found.or_else(written).or(Some(UNKNOWN))
     }
 
     fn operand(&mut self, compared: &EntryRef, name: &Named<'_>) -> Option<Operand> {

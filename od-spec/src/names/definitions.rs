@@ -42,6 +42,10 @@ impl<'t> Known<'t> {
         &self.list[id.0 as usize]
     }
 
+    pub(super) fn definition_mut(&mut self, id: DefinitionId) -> &mut Definition {
+        &mut self.list[id.0 as usize]
+    }
+
     /// What has a name, as a text of `file` means it: what it defines itself, or else the maker, or else the first library.
     pub(super) fn named(&self, kind: Kind, scope: Scope, name: &str, file: FileId) -> Option<DefinitionId> {
         let all = self.by_name.get(&(kind, scope, name))?;

@@ -7,7 +7,9 @@
 
 mod conditions;
 mod definitions;
+mod meant;
 mod objects;
+mod place;
 mod references;
 #[cfg(test)]
 mod tests;
@@ -19,6 +21,7 @@ use crate::model::{Index, SubIndex, System};
 use crate::source::{FileId, SourceMap, Span};
 use crate::yaml::Node;
 
+pub use place::{Place, Spot};
 pub use walk::Step;
 
 /// What something is that has a name or a number.

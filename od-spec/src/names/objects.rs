@@ -1,13 +1,9 @@
 //! Objects and entries: where they are described, and which one a reference means.
 
-use std::cell::OnceCell;
-use std::collections::BTreeMap;
-
 use super::definitions::{Known, definition, one_or_more, subs};
 use super::{Definition, DefinitionId, Kind, Spelling};
 use crate::expr::PLACEHOLDER;
-use crate::model::{Dictionary, EntryId, Fact, Index, SubIndex, System};
-use crate::resolve::NamesOfDevice;
+use crate::model::{EntryId, Index, SubIndex};
 use crate::source::{FileId, Span, Spanned};
 use crate::yaml::Node;
 
@@ -21,13 +17,42 @@ struct Described<'t> {
     /// The library that it is taken from.
     from: Option<&'t str>,
     name: Option<&'t str>,
-    /// Members and elements with their sub-indices and names.
-    members: Vec<(SubIndex, SubIndex, DefinitionId, Option<&'t str>)>,
+    type_name: Option<&'t str>,
+    /// Members, elements and sub-index 0.
+    members: Vec<Member<'t>>,
     /// What stands for the elements of an array that have no description of their own.
-    elements: Option<(DefinitionId, Option<&'t str>)>,
+    elements: Option<Member<'t>>,
 }
 
-impl Described<'_> {
+/// What a file says of an entry or a run of entries.
+struct Member<'t> {
+    first: SubIndex,
+    last: SubIndex,
+    id: DefinitionId,
+    name: Option<&'t str>,
+    type_name: Option<&'t str>,
+}
+
+impl Member<'_> {
+    fn has_any(&self, first: SubIndex, last: SubIndex) -> bool {
+        self.first <= last && first <= self.last
+    }
+
+    fn is_called(&self, name: &str) -> bool {
+        self.name.is_some_and(|known| fits(known, name))
+    }
+}
+
+impl<'t> Described<'t> {
+    /// What describes some of its entries: what is about them alone, and where that has no name, what is about all.
+    fn about(&self, first: SubIndex, last: SubIndex) -> Vec<&Member<'t>> {
+        let mut found: Vec<_> = self.members.iter().filter(|member| member.has_any(first, last)).collect();
+        if found.iter().all(|member| member.name.is_none()) {
+            found.extend(self.elements.iter().filter(|all| all.has_any(first, last)));
+        }
+        found
+    }
+
     fn is_for(&self, scope: Devices<'_>) -> bool {
         match (&self.devices, scope) {
             (None, _) | (_, Devices::All) => true,
@@ -45,12 +70,15 @@ pub(super) struct Objects<'t> {
     longest_run: u16,
 }
 
-/// What a name of an entry consists of: ranges of the text, with what they name.
+/// What a name of an entry names, where no model says it.
 pub(super) struct NamedParts {
-    /// The object.
-    pub object: (std::ops::Range<usize>, Vec<DefinitionId>),
-    /// Its entry, where one is named.
-    pub entry: Option<(std::ops::Range<usize>, Vec<DefinitionId>)>,
+    /// The first entry that it may be.
+    pub first: EntryId,
+    /// How many bytes of it are the name of the object.
+    pub object_length: usize,
+    pub objects: Vec<DefinitionId>,
+    /// Its entries, where some are named.
+    pub entries: Vec<DefinitionId>,
 }
 
 impl<'t> Objects<'t> {
@@ -70,27 +98,21 @@ impl<'t> Objects<'t> {
         let id = known.add(spelt(object, name.is_some(), || index_text(first, last)));
         let array = node.get("array");
         let lists = [node.get("record"), array.and_then(|array| array.get("elements"))];
-        let mut members = Vec::new();
-        for (key, member) in lists.into_iter().flatten().flat_map(Node::entries) {
-            let Some((from, to)) = subs(&key.value) else { continue };
-            let name = member.get("name").and_then(Node::text);
-            let entry = entry(id, name, key.span, (from, to));
-            let entry = spelt(entry, name.is_some(), || key.value.clone());
-            members.push((from, to, known.add(entry), name.map(|name| name.value)));
-        }
+        let members = lists.into_iter().flatten().flat_map(Node::entries);
+        let members = members.filter_map(|(key, member)| Some((key, subs(&key.value)?, member)));
+        let mut members: Vec<Member<'_>> = members
+            .map(|(key, range, node)| Member::add(known, id, Spanned::new(&key.value, key.span), range, node))
+            .collect();
         if let Some(sub0) = node.get("sub0") {
-            let name = sub0.get("name").and_then(Node::text);
-            let zero = (SubIndex(0), SubIndex(0));
-            let entry = spelt(entry(id, name, sub0.span, zero), name.is_some(), || "0".to_owned());
-            members.push((zero.0, zero.1, known.add(entry), name.map(|name| name.value)));
+            let number = Spanned::new("0", sub0.span.part(0, 1));
+            members.push(Member::add(known, id, number, (SubIndex(0), SubIndex(0)), sub0));
         }
         let elements = array.map(|array| {
-            let name = array.get("name").and_then(Node::text);
-            let all = (SubIndex(1), SubIndex(254));
-            let place = name.map_or_else(|| array.span.part(0, 1), |name| name.span);
-            let entry = entry(id, name, place, all);
-            let entry = spelt(entry, name.is_some(), || "elements".to_owned());
-            (known.add(Definition { spelling: Spelling::Pattern, ..entry }), name.map(|name| name.value))
+            let place = array.get("name").map_or_else(|| array.span.part(0, 1), |name| name.span);
+            let all =
+                Member::add(known, id, Spanned::new("elements", place), (SubIndex(1), SubIndex(254)), array);
+            known.definition_mut(all.id).spelling = Spelling::Pattern;
+            all
         });
         known.objects.longest_run = known.objects.longest_run.max(last.0 - first.0);
         known.objects.described.push(Described {
@@ -98,8 +120,9 @@ impl<'t> Objects<'t> {
             last,
             id,
             devices,
-            from: node.get("from").and_then(Node::text).map(|from| from.value),
+            from: text_of(node, "from"),
             name: name.map(|name| name.value),
+            type_name: text_of(node, "type"),
             members,
             elements,
         });
@@ -166,32 +189,60 @@ impl<'t> Objects<'t> {
         (index, first, last): (Index, SubIndex, SubIndex),
         scope: Devices<'_>,
     ) -> Vec<DefinitionId> {
-        let mut found = Vec::new();
-        for one in self.of(known, file, index, scope) {
-            let before = found.len();
-            let members = one.members.iter().filter(|(from, to, ..)| *from <= last && first <= *to);
-            found.extend(members.map(|(_, _, id, _)| *id));
-            if found.len() == before && first.0 > 0 {
-                found.extend(one.elements.map(|(id, _)| id));
-            }
-            // What the maker takes from a library as it is, the library describes.
-            if found.len() == before
-                && let Some(from) = one.from
-            {
-                let library = self.at(index).filter(|other| {
-                    let file = known.definition(other.id).key.file;
-                    known.library(from) == Some(file)
-                });
-                for other in library {
-                    let members = other.members.iter().filter(|(from, to, ..)| *from <= last && first <= *to);
-                    found.extend(members.map(|(_, _, id, _)| *id));
-                    found.extend(other.elements.filter(|_| first.0 > 0).map(|(id, _)| id));
-                }
-            }
-        }
+        let members = self.members(known, file, (index, first, last), scope);
+        let mut found: Vec<DefinitionId> = members.iter().map(|member| member.id).collect();
         found.sort_unstable();
         found.dedup();
         found
+    }
+
+    /// What describes entries of an object; what the maker takes from a library as it is, the library describes.
+    fn members<'s>(
+        &'s self,
+        known: &Known<'_>,
+        file: FileId,
+        (index, first, last): (Index, SubIndex, SubIndex),
+        scope: Devices<'_>,
+    ) -> Vec<&'s Member<'t>> {
+        let mut found = Vec::new();
+        for one in self.of(known, file, index, scope) {
+            let of_maker = one.about(first, last);
+            if of_maker.is_empty() {
+                found.extend(self.below(known, one, index).flat_map(|below| below.about(first, last)));
+            }
+            found.extend(of_maker);
+        }
+        found
+    }
+
+    /// What a library says of an object that is taken from it.
+    fn below<'s>(
+        &'s self,
+        known: &Known<'_>,
+        over: &Described<'_>,
+        index: Index,
+    ) -> impl Iterator<Item = &'s Described<'t>> {
+        let library = over.from.and_then(|from| known.library(from));
+        let files: Vec<FileId> = self.at(index).map(|one| known.definition(one.id).key.file).collect();
+        let all = self.at(index).zip(files);
+        all.filter(move |(_, file)| Some(*file) == library).map(|(one, _)| one)
+    }
+
+    /// The name of the type of an entry, as the texts say it.
+    pub(super) fn type_of(
+        &self,
+        known: &Known<'_>,
+        file: FileId,
+        EntryId { index, sub }: EntryId,
+        scope: Devices<'_>,
+    ) -> Option<&'t str> {
+        let members = self.members(known, file, (index, sub, sub), scope);
+        let of_member = || members.iter().find_map(|member| member.type_name);
+        let objects = self.of(known, file, index, scope);
+        let of_object = objects.iter().find_map(|one| {
+            one.type_name.or_else(|| self.below(known, one, index).find_map(|below| below.type_name))
+        });
+        of_member().or(of_object)
     }
 
     /// The objects that are written with a name, or with one that it fits.
@@ -204,43 +255,55 @@ impl<'t> Objects<'t> {
 
     /// What a name stands for where no model says it.
     pub(super) fn named(&self, name: &str, scope: Devices<'_>) -> Option<NamedParts> {
-        let whole: Vec<DefinitionId> = self.by_name(name, scope).map(|one| one.id).collect();
-        if !whole.is_empty() {
-            return Some(NamedParts { object: (0..name.len(), whole), entry: None });
+        let whole: Vec<&Described<'_>> = self.by_name(name, scope).collect();
+        if let Some(one) = whole.first() {
+            return Some(NamedParts {
+                first: EntryId { index: one.first, sub: SubIndex(0) },
+                object_length: name.len(),
+                objects: whole.iter().map(|one| one.id).collect(),
+                entries: Vec::new(),
+            });
         }
         name.match_indices('.').find_map(|(dot, _)| {
             let (object, entry) = (&name[..dot], &name[dot + 1..]);
-            let (mut objects, mut entries) = (Vec::new(), Vec::new());
-            for one in self.by_name(object, scope) {
-                let members =
-                    one.members.iter().filter(|(_, _, _, name)| name.is_some_and(|known| fits(known, entry)));
-                let before = entries.len();
-                entries.extend(members.map(|(_, _, id, _)| *id));
-                let elements = one.elements.filter(|(_, name)| name.is_some_and(|known| fits(known, entry)));
-                entries.extend(elements.map(|(id, _)| id));
-                if entries.len() > before {
-                    objects.push(one.id);
-                }
-            }
-            (!entries.is_empty()).then(|| NamedParts {
-                object: (0..dot, objects),
-                entry: Some((dot + 1..name.len(), entries)),
+            let found = self.by_name(object, scope).flat_map(|one| {
+                let all = one.members.iter().chain(&one.elements);
+                all.filter(|member| member.is_called(entry)).map(move |member| (one, member))
+            });
+            let found: Vec<(&Described<'_>, &Member<'_>)> = found.collect();
+            let (one, member) = found.first()?;
+            Some(NamedParts {
+                first: EntryId { index: one.first, sub: member.first },
+                object_length: dot,
+                objects: found.iter().map(|(one, _)| one.id).collect(),
+                entries: found.iter().map(|(_, member)| member.id).collect(),
             })
         })
     }
 }
 
-/// An entry of an object.
-fn entry(
-    owner: DefinitionId,
-    name: Option<Spanned<&str>>,
-    place: Span,
-    subs: (SubIndex, SubIndex),
-) -> Definition {
-    Definition {
-        owner: Some(owner),
-        subs: Some(subs),
-        ..definition(Kind::Entry, name.unwrap_or(Spanned::new("", place)), place)
+/// The text of a key.
+fn text_of<'t>(node: &'t Node, key: &str) -> Option<&'t str> {
+    node.get(key).and_then(Node::text).map(|text| text.value)
+}
+
+impl<'t> Member<'t> {
+    /// Adds what describes entries of an object; without a name, a number stands for it.
+    fn add(
+        known: &mut Known<'t>,
+        owner: DefinitionId,
+        number: Spanned<&str>,
+        (first, last): (SubIndex, SubIndex),
+        node: &'t Node,
+    ) -> Self {
+        let name = node.get("name").and_then(Node::text);
+        let entry = Definition {
+            owner: Some(owner),
+            subs: Some((first, last)),
+            ..definition(Kind::Entry, name.unwrap_or(Spanned::new("", number.span)), number.span)
+        };
+        let id = known.add(spelt(entry, name.is_some(), || number.value.to_owned()));
+        Self { first, last, id, name: name.map(|name| name.value), type_name: text_of(node, "type") }
     }
 }
 
@@ -277,65 +340,10 @@ pub(super) enum Devices<'d> {
 }
 
 impl Devices<'_> {
-    fn has(self, key: &str) -> bool {
+    pub(super) fn has(self, key: &str) -> bool {
         match self {
             Devices::All => true,
             Devices::Only(list) => list.contains(&key),
         }
-    }
-}
-
-/// The devices of a model, each with its names, which are looked up as compiling looks them up.
-pub(super) struct Meant<'a> {
-    devices: Vec<(&'a Dictionary, OnceCell<NamesOfDevice<'a>>)>,
-    /// The names of the types of values, by the places of the values.
-    types: OnceCell<BTreeMap<Span, &'a str>>,
-}
-
-impl<'a> Meant<'a> {
-    pub(super) fn of(system: Option<&'a System>) -> Self {
-        let devices = system.map(|system| system.devices.as_slice()).unwrap_or_default();
-        Self {
-            devices: devices.iter().map(|device| (device, OnceCell::new())).collect(),
-            types: OnceCell::new(),
-        }
-    }
-
-    /// The entries that a name stands for, each on its device.
-    pub(super) fn named<'s>(
-        &'s self,
-        name: &'s str,
-        scope: Devices<'s>,
-    ) -> impl Iterator<Item = (&'a Dictionary, EntryId)> + use<'s, 'a> {
-        let devices = self.devices.iter().filter(move |(device, _)| scope.has(&device.key));
-        devices.filter_map(move |(device, names)| {
-            let names = names.get_or_init(|| NamesOfDevice::new(device.objects.values()));
-            Some((*device, names.get(name)?))
-        })
-    }
-
-    /// The name of the named type of the value that stands at a place, or in the list there.
-    pub(super) fn type_of_value(&self, place: Span) -> Option<&'a str> {
-        let types = self.types.get_or_init(|| {
-            let entries = self.devices.iter().flat_map(|(device, _)| device.entries());
-            entries
-                .filter_map(|(_, _, entry)| Some((entry, entry.named_type.as_ref()?)))
-                .flat_map(|(entry, named)| {
-                    let facts = [Fact::Default, Fact::LowLimit, Fact::HighLimit];
-                    let places = facts.into_iter().filter_map(|fact| entry.facts.get(fact));
-                    places.map(|statement| (statement.span, named.name.as_str()))
-                })
-                .collect()
-        });
-        let (span, name) = types.range(..=Span { end: u32::MAX, ..place }).next_back()?;
-        (span.file == place.file && place.end <= span.end).then_some(*name)
-    }
-
-    /// The devices.
-    pub(super) fn devices<'s>(
-        &'s self,
-        scope: Devices<'s>,
-    ) -> impl Iterator<Item = &'a Dictionary> + use<'s, 'a> {
-        self.devices.iter().map(|(device, _)| *device).filter(move |device| scope.has(&device.key))
     }
 }

@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::conditions;
 use super::definitions::{Known, Scope, one_or_more};
-use super::objects::{Devices, Meant};
+use super::meant::Meant;
+use super::objects::Devices;
 use super::walk::{Role, Step, Visitor, walk};
 use super::{By, DefinitionId, Kind, Reference};
 use crate::decode::{inside, lexical};
@@ -348,9 +349,8 @@ impl<'t> Collector<'_, 't> {
         if parts.is_none()
             && let Some(found) = self.known.objects.named(name, scope(devices))
         {
-            parts = Some(found.object.0.end);
-            objects = found.object.1;
-            entries = found.entry.map(|(_, entries)| entries).unwrap_or_default();
+            parts = Some(found.object_length);
+            (objects, entries) = (found.objects, found.entries);
         }
         for list in [&mut objects, &mut entries] {
             list.sort_unstable();
