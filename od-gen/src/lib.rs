@@ -31,6 +31,8 @@ mod hexadecimal;
 pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(feature = "lsp")]
+pub mod lsp;
 #[cfg(feature = "runtime")]
 pub mod monitor;
 #[cfg(any(feature = "dbc", feature = "runtime"))]

@@ -87,6 +87,11 @@ pub fn compile_as(
     }
 }
 
+/// Whether a text is a specification, a part of one or a library: its first key says so.
+pub fn is_specification(text: &str) -> bool {
+    yaml::begins_with(text, "od-spec")
+}
+
 /// A file of this project that says nothing about what a device is, with the command that takes it.
 fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
     let text = file.text();

@@ -72,7 +72,7 @@ pub use check::codes as rule_codes;
 pub use check::start_values_are_allowed::start_of_code;
 pub use check::texts_fit_eds::problem as eds_text_problem;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, TextOfNode, bit_rate};
-pub use compile::{Compiled, Strictness, compile, compile_as};
+pub use compile::{Compiled, Strictness, compile, compile_as, is_specification};
 pub use decode::is_device_key;
 pub use departures::departures;
 pub use diag::nearest;

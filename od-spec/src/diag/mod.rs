@@ -167,7 +167,7 @@ impl Diagnostic {
     }
 
     /// The notes, and who stumbles over it.
-    pub(crate) fn all_notes(&self) -> impl Iterator<Item = String> {
+    pub fn all_notes(&self) -> impl Iterator<Item = String> {
         self.notes.iter().chain(&self.stumbling).cloned()
     }
 

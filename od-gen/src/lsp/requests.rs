@@ -1,0 +1,68 @@
+//! Which function answers which request.
+
+use lsp_server::{ErrorCode, Request, ResponseError};
+use lsp_types::request::{
+    DocumentSymbolRequest, FoldingRangeRequest, Request as Method, WorkspaceSymbolRequest,
+};
+use lsp_types::{DocumentSymbolResponse, Uri, WorkspaceSymbolResponse};
+use serde_json::Value;
+
+use super::folding;
+use super::position::Encoding;
+use super::snapshot::Snapshot;
+use super::symbols;
+use super::workspace::Workspace;
+use super::workspace_symbols;
+
+/// What an answer is made from.
+pub(super) struct Context<'a> {
+    /// What is open.
+    pub workspace: &'a mut Workspace,
+    /// What positions are counted in.
+    pub encoding: Encoding,
+}
+
+impl Context<'_> {
+    /// What a request about a document is answered from.
+    fn snapshot(&mut self, uri: &Uri) -> Result<Snapshot, ResponseError> {
+        let snapshot = self.workspace.snapshot(uri, self.encoding);
+        snapshot.ok_or_else(|| refusal(ErrorCode::InvalidParams, format!("`{}` is not open", uri.as_str())))
+    }
+}
+
+/// An error as an answer.
+pub(super) fn refusal(code: ErrorCode, message: String) -> ResponseError {
+    ResponseError { code: code as i32, message, data: None }
+}
+
+/// The result of a request, or why there is none.
+pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Value, ResponseError> {
+    let Request { method, params, .. } = request;
+    match method.as_str() {
+        DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
+        }),
+        FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(params, |params| {
+            Ok(Some(folding::ranges(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        WorkspaceSymbolRequest::METHOD => on::<WorkspaceSymbolRequest>(params, |params| {
+            let found =
+                workspace_symbols::find(&params.query, &context.workspace.snapshots(context.encoding));
+            Ok(Some(WorkspaceSymbolResponse::Nested(found)))
+        }),
+        _ => Err(refusal(ErrorCode::MethodNotFound, format!("there is no method `{method}`"))),
+    }
+}
+
+/// Reads the parameters of a request, and writes down its answer.
+fn on<M: Method>(
+    params: Value,
+    answer: impl FnOnce(M::Params) -> Result<M::Result, ResponseError>,
+) -> Result<Value, ResponseError> {
+    let params = serde_json::from_value(params).map_err(|error| {
+        refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `{}`: {error}", M::METHOD))
+    })?;
+    serde_json::to_value(answer(params)?)
+        .map_err(|error| refusal(ErrorCode::InternalError, format!("cannot write the answer: {error}")))
+}
