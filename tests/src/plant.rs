@@ -204,10 +204,14 @@ fn walk_map(node: &Node, table: &'static Keys, sites: &mut Vec<Site>) {
 
 fn walk(node: &Node, shape: Shape, name: KeyName, sites: &mut Vec<Site>) {
     match shape {
-        Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) | Shape::NameOf(_) => match &node.kind {
-            NodeKind::Map(entries) => entries.iter().for_each(|(_, value)| walk(value, shape, name, sites)),
-            _ => node.text().into_iter().for_each(|text| add(text.value, name, sites)),
-        },
+        Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) | Shape::NameOf(_) => {
+            match &node.kind {
+                NodeKind::Map(entries) => {
+                    entries.iter().for_each(|(_, value)| walk(value, shape, name, sites))
+                }
+                _ => node.text().into_iter().for_each(|text| add(text.value, name, sites)),
+            }
+        }
         Shape::Map(table) => walk_map(node, table, sites),
         Shape::MapOf(kind, inner) => {
             for (key, value) in node.entries() {

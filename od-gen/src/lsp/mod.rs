@@ -12,8 +12,12 @@
 mod analysis;
 mod buffer;
 mod capabilities;
+mod cursor;
+mod definition;
 mod diagnostics;
 mod folding;
+mod hover;
+mod library;
 mod overlay;
 mod place;
 mod position;
@@ -23,6 +27,7 @@ mod shift;
 mod snapshot;
 mod symbols;
 mod transport;
+mod unread;
 mod workspace;
 mod workspace_symbols;
 

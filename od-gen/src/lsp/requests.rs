@@ -2,12 +2,18 @@
 
 use lsp_server::{ErrorCode, Request, ResponseError};
 use lsp_types::request::{
-    DocumentSymbolRequest, FoldingRangeRequest, Request as Method, WorkspaceSymbolRequest,
+    DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, GotoDefinition, HoverRequest,
+    References, Request as Method, WorkspaceSymbolRequest,
 };
-use lsp_types::{DocumentSymbolResponse, Uri, WorkspaceSymbolResponse};
+use lsp_types::{
+    DocumentSymbolResponse, GotoDefinitionResponse, Position, TextDocumentPositionParams, Uri,
+    WorkspaceSymbolResponse,
+};
 use serde_json::Value;
 
+use super::definition;
 use super::folding;
+use super::hover;
 use super::position::Encoding;
 use super::snapshot::Snapshot;
 use super::symbols;
@@ -30,6 +36,13 @@ impl Context<'_> {
     }
 }
 
+impl Context<'_> {
+    /// What a request at a position of a document is answered from.
+    fn at(&mut self, at: &TextDocumentPositionParams) -> Result<(Snapshot, Position), ResponseError> {
+        Ok((self.snapshot(&at.text_document.uri)?, at.position))
+    }
+}
+
 /// An error as an answer.
 pub(super) fn refusal(code: ErrorCode, message: String) -> ResponseError {
     ResponseError { code: code as i32, message, data: None }
@@ -42,6 +55,23 @@ pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Valu
         DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
+        }),
+        GotoDefinition::METHOD => on::<GotoDefinition>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position_params)?;
+            Ok(Some(GotoDefinitionResponse::Array(definition::definition(&snapshot, position))))
+        }),
+        HoverRequest::METHOD => on::<HoverRequest>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position_params)?;
+            Ok(hover::hover(&snapshot, position))
+        }),
+        References::METHOD => on::<References>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position)?;
+            let with_definition = params.context.include_declaration;
+            Ok(Some(definition::references(&snapshot, position, with_definition)))
+        }),
+        DocumentHighlightRequest::METHOD => on::<DocumentHighlightRequest>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position_params)?;
+            Ok(Some(definition::highlights(&snapshot, position)))
         }),
         FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(params, |params| {
             Ok(Some(folding::ranges(&context.snapshot(&params.text_document.uri)?)))

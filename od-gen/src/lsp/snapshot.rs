@@ -70,7 +70,6 @@ impl Snapshot {
     }
 
     /// The byte of the document at a position.
-    #[expect(dead_code, reason = "for requests at a position")]
     pub(super) fn offset(&self, position: Position) -> usize {
         self.lines().offset(self.text(), position, self.encoding)
     }

@@ -17,7 +17,7 @@ mod walk;
 
 use std::ops::Range;
 
-use crate::model::{Index, SubIndex, System};
+use crate::model::{EntryId, Index, SubIndex, System};
 use crate::source::{FileId, SourceMap, Span};
 use crate::yaml::Node;
 
@@ -162,6 +162,8 @@ pub struct Reference {
     pub by: By,
     /// What it can be: one thing, or one for each device that has its own; none where nothing has the name.
     pub targets: Vec<DefinitionId>,
+    /// Of an object or entry, which one it is; of a run, the first.
+    pub entry: Option<EntryId>,
 }
 
 /// What stands at a place.

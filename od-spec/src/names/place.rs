@@ -1,6 +1,6 @@
 //! What a byte of a text is a part of, by the table of keys.
 
-use super::walk::Step;
+use super::walk::{Step, devices_of};
 use crate::keys::{KeyKind, Keys, PART, PART_OF, SPEC, Shape, name_today};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
@@ -53,6 +53,16 @@ impl<'t> Place<'t> {
         let mut finder = Finder { offset, path: Vec::new() };
         let spot = finder.map(root, keys)?;
         Some(Self { path: finder.path, spot })
+    }
+
+    /// The keys of the devices that it speaks of; empty for all.
+    pub fn devices(&self) -> Vec<&'t str> {
+        devices_of(&self.path)
+    }
+
+    /// The value of a key beside it.
+    pub fn beside(&self, key: &str) -> Option<&'t Node> {
+        self.map().and_then(|(map, _)| map.get(key))
     }
 
     /// The innermost map with fixed keys around it, with those keys.

@@ -4,16 +4,16 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::conditions;
-use super::definitions::{Known, Scope, one_or_more};
+use super::definitions::{Known, Scope};
 use super::meant::Meant;
 use super::objects::Devices;
-use super::walk::{Role, Step, Visitor, walk};
+use super::walk::{Role, Step, Visitor, devices_of, walk};
 use super::{By, DefinitionId, Kind, Reference};
 use crate::decode::{inside, lexical};
 use crate::eds::file_name;
 use crate::expr::{Expr, PLACEHOLDER};
 use crate::keys::{COMMAND, KeyKind, Keys, NameOf, PART, PART_OF, SIGNAL, SPEC, Shape};
-use crate::model::{DataType, Index, SubIndex, System};
+use crate::model::{DataType, EntryId, Index, SubIndex, System};
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::Node;
 
@@ -68,22 +68,7 @@ impl<'t> At<'_, 't> {
 
     /// The keys of the devices that it speaks of; empty for all.
     pub(super) fn devices(&self) -> Vec<&'t str> {
-        for step in self.path.iter().rev() {
-            match step {
-                Step::Data { kind: KeyKind::Device, name, .. } => return vec![name.value.as_str()],
-                Step::Key { map, keys, .. } => {
-                    let has = keys.get("devices").is_some_and(|key| !matches!(key.shape, Shape::MapOf(..)));
-                    if let Some(devices) = map.get("devices").filter(|_| has) {
-                        return one_or_more(devices)
-                            .iter()
-                            .filter_map(|one| Some(one.text()?.value))
-                            .collect();
-                    }
-                }
-                Step::Data { .. } | Step::Item { .. } => {}
-            }
-        }
-        Vec::new()
+        devices_of(self.path)
     }
 }
 
@@ -122,8 +107,13 @@ impl<'t> Collector<'_, 't> {
             Shape::Type => self.type_name(at),
             Shape::Entry | Shape::Entries => self.entry(at),
             Shape::Index => {
-                let targets = lexical::index(at.text.value).map(|index| self.objects(at, index));
-                self.whole(at, Kind::Object, By::Number, targets.unwrap_or_default());
+                let before = self.found.len();
+                let index = lexical::index(at.text.value);
+                let targets = index.map(|index| self.objects(at, index)).unwrap_or_default();
+                self.whole(at, Kind::Object, By::Number, targets);
+                if let Some(index) = index {
+                    self.are(before, EntryId { index, sub: SubIndex(0) });
+                }
             }
             Shape::ErrorCode => self.errors(at),
             Shape::Condition if self.is_new(at) => conditions::condition(self, at),
@@ -319,6 +309,7 @@ impl<'t> Collector<'_, 't> {
         let text = &at.text.value[range.clone()];
         let object = self.known.objects.object(self.known, at.file(), index, scope(devices));
         let end = text.find('.').map_or(range.end, |dot| range.start + dot);
+        let before = self.found.len();
         self.add(at, range.start..end, Kind::Object, By::Number, object);
         let sub = end + 1..range.end;
         if sub.start < sub.end {
@@ -329,6 +320,14 @@ impl<'t> Collector<'_, 't> {
             };
             self.add(at, sub, Kind::Entry, By::Number, entries);
         }
+        self.are(before, EntryId { index, sub: first });
+    }
+
+    /// The references that were added since are to an entry.
+    fn are(&mut self, before: usize, id: EntryId) {
+        for reference in self.found.iter_mut().skip(before) {
+            reference.entry = Some(id);
+        }
     }
 
     /// An entry by name; `range` is where the name stands in the text.
@@ -336,7 +335,9 @@ impl<'t> Collector<'_, 't> {
         let written = &at.text.value[range.clone()];
         let by = if written == name { By::Name } else { By::Pattern };
         let (mut parts, mut objects, mut entries) = (None, Vec::new(), Vec::new());
+        let (before, mut first) = (self.found.len(), None);
         for (device, id) in self.meant.named(name, scope(devices)) {
+            first.get_or_insert(id);
             let key = [device.key.as_str()];
             let Some(object) = device.objects.get(&id.index) else { continue };
             parts.get_or_insert(object.name.len().min(name.len()));
@@ -350,6 +351,7 @@ impl<'t> Collector<'_, 't> {
             && let Some(found) = self.known.objects.named(name, scope(devices))
         {
             parts = Some(found.object_length);
+            first = Some(found.first);
             (objects, entries) = (found.objects, found.entries);
         }
         for list in [&mut objects, &mut entries] {
@@ -362,6 +364,9 @@ impl<'t> Collector<'_, 't> {
         if object_end + 1 < range.end || by == By::Pattern && !entries.is_empty() {
             let entry = if by == By::Name { object_end + 1..range.end } else { range };
             self.add(at, entry, Kind::Entry, by, entries);
+        }
+        if let Some(id) = first {
+            self.are(before, id);
         }
     }
 
@@ -394,6 +399,6 @@ impl<'t> Collector<'_, 't> {
         let part = if range == (0..at.text.value.len()) { scalar } else { inside(at.text, &range) };
         let is_exact = part == scalar || self.sources.text(part) == &at.text.value[range.clone()];
         let span = if is_exact { part } else { scalar };
-        self.found.push(Reference { span, scalar, range, kind, by, targets });
+        self.found.push(Reference { span, scalar, range, kind, by, targets, entry: None });
     }
 }

@@ -1,5 +1,6 @@
 //! Every scalar of a syntax tree, with the keys that lead to it.
 
+use super::definitions::one_or_more;
 use crate::keys::{Key, KeyKind, Keys, Shape, name_today};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
@@ -34,6 +35,23 @@ pub enum Step<'t> {
         /// Its number, from 0.
         at: usize,
     },
+}
+
+/// The keys of the devices that a place speaks of, by the keys that lead there; empty for all.
+pub(super) fn devices_of<'t>(path: &[Step<'t>]) -> Vec<&'t str> {
+    for step in path.iter().rev() {
+        match step {
+            Step::Data { kind: KeyKind::Device, name, .. } => return vec![name.value.as_str()],
+            Step::Key { map, keys, .. } => {
+                let has = keys.get("devices").is_some_and(|key| !matches!(key.shape, Shape::MapOf(..)));
+                if let Some(devices) = map.get("devices").filter(|_| has) {
+                    return one_or_more(devices).iter().filter_map(|one| Some(one.text()?.value)).collect();
+                }
+            }
+            Step::Data { .. } | Step::Item { .. } => {}
+        }
+    }
+    Vec::new()
 }
 
 /// What a scalar is where it stands.
