@@ -12,6 +12,7 @@
 mod analysis;
 mod buffer;
 mod capabilities;
+mod completion;
 mod cursor;
 mod definition;
 mod diagnostics;

@@ -2,15 +2,16 @@
 
 use lsp_server::{ErrorCode, Request, ResponseError};
 use lsp_types::request::{
-    DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, GotoDefinition, HoverRequest,
-    References, Request as Method, WorkspaceSymbolRequest,
+    Completion, DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, GotoDefinition,
+    HoverRequest, References, Request as Method, WorkspaceSymbolRequest,
 };
 use lsp_types::{
-    DocumentSymbolResponse, GotoDefinitionResponse, Position, TextDocumentPositionParams, Uri,
-    WorkspaceSymbolResponse,
+    CompletionList, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse, Position,
+    TextDocumentPositionParams, Uri, WorkspaceSymbolResponse,
 };
 use serde_json::Value;
 
+use super::completion::{self, Insertion};
 use super::definition;
 use super::folding;
 use super::hover;
@@ -26,6 +27,8 @@ pub(super) struct Context<'a> {
     pub workspace: &'a mut Workspace,
     /// What positions are counted in.
     pub encoding: Encoding,
+    /// How the client wants completions.
+    pub insertion: Insertion,
 }
 
 impl Context<'_> {
@@ -55,6 +58,12 @@ pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Valu
         DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
+        }),
+        Completion::METHOD => on::<Completion>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position)?;
+            let items = completion::completion(&snapshot, position, context.insertion);
+            // What is offered hangs on what has been written: an index or a name.
+            Ok(Some(CompletionResponse::List(CompletionList { is_incomplete: true, items })))
         }),
         GotoDefinition::METHOD => on::<GotoDefinition>(params, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;

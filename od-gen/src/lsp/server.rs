@@ -17,6 +17,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::capabilities;
+use super::completion::Insertion;
 use super::diagnostics::Published;
 use super::place::Place;
 use super::position::Encoding;
@@ -49,6 +50,7 @@ pub(super) fn serve(connection: &Connection) -> Exit {
         connection,
         phase: Phase::Strange,
         encoding: Encoding::default(),
+        insertion: Insertion::default(),
         workspace: Workspace::default(),
         published: Published::default(),
         is_news: false,
@@ -97,6 +99,7 @@ struct Server<'c> {
     connection: &'c Connection,
     phase: Phase,
     encoding: Encoding,
+    insertion: Insertion,
     workspace: Workspace,
     published: Published,
     /// Whether something changed since diagnostics were published.
@@ -142,7 +145,11 @@ impl Server<'_> {
                 Ok(Value::Null)
             }
             Phase::Working => {
-                let mut context = Context { workspace: &mut self.workspace, encoding: self.encoding };
+                let mut context = Context {
+                    workspace: &mut self.workspace,
+                    encoding: self.encoding,
+                    insertion: self.insertion,
+                };
                 requests::answer(request, &mut context)
             }
             Phase::Leaving => {
@@ -157,6 +164,7 @@ impl Server<'_> {
             refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `initialize`: {error}"))
         })?;
         self.encoding = capabilities::encoding(&client);
+        self.insertion = capabilities::insertion(&client);
         self.phase = Phase::Working;
         self.client_watches = capabilities::watches_files(&client);
         serde_json::to_value(capabilities::answer(self.encoding))
