@@ -22,6 +22,7 @@ mod library;
 mod overlay;
 mod place;
 mod position;
+mod rename;
 mod requests;
 mod server;
 mod shift;

@@ -3,7 +3,7 @@
 use lsp_server::{ErrorCode, Request, ResponseError};
 use lsp_types::request::{
     Completion, DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, GotoDefinition,
-    HoverRequest, References, Request as Method, WorkspaceSymbolRequest,
+    HoverRequest, PrepareRenameRequest, References, Rename, Request as Method, WorkspaceSymbolRequest,
 };
 use lsp_types::{
     CompletionList, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse, Position,
@@ -16,6 +16,7 @@ use super::definition;
 use super::folding;
 use super::hover;
 use super::position::Encoding;
+use super::rename;
 use super::snapshot::Snapshot;
 use super::symbols;
 use super::workspace::Workspace;
@@ -51,6 +52,11 @@ pub(super) fn refusal(code: ErrorCode, message: String) -> ResponseError {
     ResponseError { code: code as i32, message, data: None }
 }
 
+/// What was asked for cannot be done.
+fn failed(reason: String) -> ResponseError {
+    refusal(ErrorCode::RequestFailed, reason)
+}
+
 /// The result of a request, or why there is none.
 pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Value, ResponseError> {
     let Request { method, params, .. } = request;
@@ -68,6 +74,14 @@ pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Valu
         GotoDefinition::METHOD => on::<GotoDefinition>(params, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;
             Ok(Some(GotoDefinitionResponse::Array(definition::definition(&snapshot, position))))
+        }),
+        PrepareRenameRequest::METHOD => on::<PrepareRenameRequest>(params, |params| {
+            let (snapshot, position) = context.at(&params)?;
+            rename::prepare(&snapshot, position).map(Some).map_err(failed)
+        }),
+        Rename::METHOD => on::<Rename>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position)?;
+            rename::rename(&snapshot, position, &params.new_name).map(Some).map_err(failed)
         }),
         HoverRequest::METHOD => on::<HoverRequest>(params, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;

@@ -231,7 +231,6 @@ impl Client {
     }
 
     /// A request about a document, at a place in it.
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn request_at(&mut self, method: &str, name: &str, (line, character): (u32, u32)) -> Value {
         let params = json!({
             "textDocument": {"uri": self.uri(name)},
