@@ -32,6 +32,8 @@ pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
 #[cfg(feature = "lsp")]
+pub mod line_diff;
+#[cfg(feature = "lsp")]
 pub mod lsp;
 #[cfg(feature = "runtime")]
 pub mod monitor;

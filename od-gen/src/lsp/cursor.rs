@@ -80,10 +80,9 @@ pub(super) fn entry_around(path: &[Step<'_>]) -> Option<EntryId> {
         |key: &str| path.iter().any(|step| matches!(step, Step::Key { key: one, .. } if one.name == key));
     let sub = if is_element("record") || is_element("elements") {
         number(data.next()?)?
-    } else if is_element("array") {
-        1
     } else {
-        0
+        // The first element stands for all.
+        u16::from(is_element("array"))
     };
     Some(EntryId { index: Index(index), sub: SubIndex(u8::try_from(sub).ok()?) })
 }

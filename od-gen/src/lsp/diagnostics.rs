@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use lsp_types::{
-    Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Location, NumberOrString,
-    PublishDiagnosticsParams, Uri,
+    CodeDescription, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Location,
+    NumberOrString, PublishDiagnosticsParams, Uri,
 };
 use od_spec::diag::{self, Severity, codes};
 use od_spec::rule_codes;
 use od_spec::source::FileId;
 
 use super::analysis::Analysis;
+use super::copies;
 use super::place::Place;
 use super::position::Encoding;
 
@@ -37,7 +38,7 @@ pub(super) fn translated(analysis: &Analysis, said: &diag::Diagnostic, encoding:
         range: first.map(|label| analysis.range(label.span, encoding)).unwrap_or_default(),
         severity: Some(severity(said.severity)),
         code: Some(NumberOrString::String(said.code.id.to_owned())),
-        code_description: None,
+        code_description: copies::explained(said.code).map(|href| CodeDescription { href }),
         source: Some("odgen".to_owned()),
         message: message(said),
         related_information: (!related.is_empty()).then_some(related),

@@ -12,12 +12,18 @@
 mod analysis;
 mod buffer;
 mod capabilities;
+mod code_actions;
 mod completion;
+mod copies;
 mod cursor;
 mod definition;
 mod diagnostics;
+#[cfg(test)]
+mod every_position;
 mod folding;
+mod formatting;
 mod hover;
+mod inlay;
 mod library;
 mod overlay;
 mod place;

@@ -6,6 +6,7 @@ use std::str::FromStr as _;
 
 use lsp_types::Uri;
 
+use super::copies;
 use crate::source::plain;
 
 /// Where a document is. Two spellings of one file are one place.
@@ -13,7 +14,7 @@ use crate::source::plain;
 pub(super) enum Place {
     /// A file, by its absolute path.
     File(PathBuf),
-    /// A library that comes with the compiler.
+    /// A library that comes with the compiler; who opens its copy has opened the library.
     Library(&'static str),
     /// Something without a file, such as a text that was never saved, by its URI.
     Elsewhere(String),
@@ -23,7 +24,10 @@ impl Place {
     /// The place that a client means.
     pub(super) fn of_uri(uri: &Uri) -> Self {
         match path_of(uri.as_str()) {
-            Some(path) => Place::File(plain(&path)),
+            Some(path) => {
+                let path = plain(&path);
+                copies::library_at(&path).map_or(Place::File(path), Place::Library)
+            }
             None => Place::Elsewhere(uri.as_str().to_owned()),
         }
     }

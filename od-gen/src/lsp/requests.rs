@@ -1,9 +1,12 @@
 //! Which function answers which request.
 
+use std::collections::BTreeSet;
+
 use lsp_server::{ErrorCode, Request, ResponseError};
 use lsp_types::request::{
-    Completion, DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest, GotoDefinition,
-    HoverRequest, PrepareRenameRequest, References, Rename, Request as Method, WorkspaceSymbolRequest,
+    CodeActionRequest, Completion, DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest,
+    Formatting, GotoDefinition, HoverRequest, InlayHintRequest, PrepareRenameRequest, RangeFormatting,
+    References, Rename, Request as Method, WorkspaceSymbolRequest,
 };
 use lsp_types::{
     CompletionList, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse, Position,
@@ -12,15 +15,13 @@ use lsp_types::{
 use serde_json::Value;
 
 use super::completion::{self, Insertion};
-use super::definition;
-use super::folding;
-use super::hover;
+use super::inlay::Hint;
 use super::position::Encoding;
-use super::rename;
 use super::snapshot::Snapshot;
 use super::symbols;
 use super::workspace::Workspace;
 use super::workspace_symbols;
+use super::{code_actions, definition, folding, formatting, hover, inlay, rename};
 
 /// What an answer is made from.
 pub(super) struct Context<'a> {
@@ -30,6 +31,8 @@ pub(super) struct Context<'a> {
     pub encoding: Encoding,
     /// How the client wants completions.
     pub insertion: Insertion,
+    /// The hints that the client wants.
+    pub hints: &'a BTreeSet<Hint>,
 }
 
 impl Context<'_> {
@@ -38,9 +41,7 @@ impl Context<'_> {
         let snapshot = self.workspace.snapshot(uri, self.encoding);
         snapshot.ok_or_else(|| refusal(ErrorCode::InvalidParams, format!("`{}` is not open", uri.as_str())))
     }
-}
 
-impl Context<'_> {
     /// What a request at a position of a document is answered from.
     fn at(&mut self, at: &TextDocumentPositionParams) -> Result<(Snapshot, Position), ResponseError> {
         Ok((self.snapshot(&at.text_document.uri)?, at.position))
@@ -61,6 +62,10 @@ fn failed(reason: String) -> ResponseError {
 pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Value, ResponseError> {
     let Request { method, params, .. } = request;
     match method.as_str() {
+        CodeActionRequest::METHOD => on::<CodeActionRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(code_actions::actions(&snapshot, params.range, &params.context)))
+        }),
         DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
@@ -83,6 +88,10 @@ pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Valu
             let (snapshot, position) = context.at(&params.text_document_position)?;
             rename::rename(&snapshot, position, &params.new_name).map(Some).map_err(failed)
         }),
+        InlayHintRequest::METHOD => on::<InlayHintRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(inlay::hints(&snapshot, params.range, context.hints)))
+        }),
         HoverRequest::METHOD => on::<HoverRequest>(params, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;
             Ok(hover::hover(&snapshot, position))
@@ -98,6 +107,13 @@ pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Valu
         }),
         FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(params, |params| {
             Ok(Some(folding::ranges(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        Formatting::METHOD => on::<Formatting>(params, |params| {
+            Ok(Some(formatting::document(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        RangeFormatting::METHOD => on::<RangeFormatting>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(formatting::range(&snapshot, params.range)))
         }),
         WorkspaceSymbolRequest::METHOD => on::<WorkspaceSymbolRequest>(params, |params| {
             let found =

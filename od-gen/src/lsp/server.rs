@@ -1,6 +1,6 @@
 //! The loop: one message after the other.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use lsp_types::notification::{
@@ -19,6 +19,7 @@ use serde_json::Value;
 use super::capabilities;
 use super::completion::Insertion;
 use super::diagnostics::Published;
+use super::inlay::Hint;
 use super::place::Place;
 use super::position::Encoding;
 use super::requests::{self, Context, refusal};
@@ -51,6 +52,7 @@ pub(super) fn serve(connection: &Connection) -> Exit {
         phase: Phase::Strange,
         encoding: Encoding::default(),
         insertion: Insertion::default(),
+        hints: BTreeSet::new(),
         workspace: Workspace::default(),
         published: Published::default(),
         is_news: false,
@@ -100,6 +102,7 @@ struct Server<'c> {
     phase: Phase,
     encoding: Encoding,
     insertion: Insertion,
+    hints: BTreeSet<Hint>,
     workspace: Workspace,
     published: Published,
     /// Whether something changed since diagnostics were published.
@@ -149,6 +152,7 @@ impl Server<'_> {
                     workspace: &mut self.workspace,
                     encoding: self.encoding,
                     insertion: self.insertion,
+                    hints: &self.hints,
                 };
                 requests::answer(request, &mut context)
             }
@@ -165,6 +169,7 @@ impl Server<'_> {
         })?;
         self.encoding = capabilities::encoding(&client);
         self.insertion = capabilities::insertion(&client);
+        self.hints = Hint::wanted(client.initialization_options.as_ref());
         self.phase = Phase::Working;
         self.client_watches = capabilities::watches_files(&client);
         serde_json::to_value(capabilities::answer(self.encoding))

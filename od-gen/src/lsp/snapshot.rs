@@ -44,7 +44,6 @@ impl Snapshot {
     }
 
     /// The URI of the document.
-    #[expect(dead_code, reason = "for requests whose answer names the document")]
     pub(super) fn uri(&self) -> Option<&Uri> {
         self.now.uri(self.file)
     }

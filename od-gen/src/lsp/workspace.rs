@@ -7,6 +7,7 @@ use lsp_types::{TextDocumentContentChangeEvent, TextDocumentItem, Uri};
 
 use super::analysis::Analysis;
 use super::buffer::Buffer;
+use super::copies;
 use super::overlay::{Buffers, whole};
 use super::place::{Place, uri_of};
 use super::position::Encoding;
@@ -149,6 +150,7 @@ fn uri(place: &Place, buffers: &Buffers) -> Option<Uri> {
     match (buffers.get(place), place) {
         (Some(buffer), _) => Some(buffer.uri.clone()),
         (None, Place::File(path)) => uri_of(path),
-        (None, Place::Library(_) | Place::Elsewhere(_)) => None,
+        (None, Place::Library(name)) => copies::library(name),
+        (None, Place::Elsewhere(_)) => None,
     }
 }

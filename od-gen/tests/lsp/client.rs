@@ -41,7 +41,6 @@ impl Directory {
         format!("file://{}/{name}", self.0.display())
     }
 
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.0.join(name), text).unwrap();
     }
@@ -199,7 +198,6 @@ impl Client {
         self.notify("textDocument/didChange", &json!({"textDocument": document, "contentChanges": changes}));
     }
 
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn close(&mut self, name: &str) {
         let uri = self.uri(name);
         self.notify("textDocument/didClose", &json!({"textDocument": {"uri": uri}}));
@@ -212,7 +210,6 @@ impl Client {
     }
 
     /// What is said about a document that is not open.
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn diagnostics_of_file(&mut self, name: &str) -> Vec<Value> {
         let uri = self.uri(name);
         self.published(&uri, &Value::Null)
@@ -265,7 +262,6 @@ impl Client {
 
     /// The memory of the server that is in use, in kB.
     #[cfg(target_os = "linux")]
-    #[expect(dead_code, reason = "for sessions to come")]
     pub(crate) fn resident(&self) -> u64 {
         let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
         let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();

@@ -2,7 +2,10 @@
 
 #![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod actions;
 mod client;
+mod diagnostics;
+mod layout;
 mod names;
 mod protocol;
 mod structure;

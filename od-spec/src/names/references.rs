@@ -130,7 +130,7 @@ impl<'t> Collector<'_, 't> {
                 if at
                     .maps()
                     .next()
-                    .is_some_and(|(_, keys, key)| std::ptr::eq(keys, &COMMAND) && key == "transitions") =>
+                    .is_some_and(|(_, keys, key)| keys.name == COMMAND.name && key == "transitions") =>
             {
                 self.of_machine(at, Kind::Transition, By::Number);
             }
@@ -254,7 +254,7 @@ impl<'t> Collector<'_, 't> {
     fn type_around(&self, at: At<'_, 't>) -> Option<DefinitionId> {
         let named = |node: &Node| self.type_of(node.text()?.value, at.file());
         for (map, keys, _) in at.maps() {
-            if std::ptr::eq(keys, &SIGNAL) {
+            if keys.name == SIGNAL.name {
                 let owner = map.get("type").and_then(named)?;
                 let bit = map.get("bit").and_then(Node::text)?;
                 return self.known.named(Kind::Bit, Scope::In(owner), bit.value, at.file());

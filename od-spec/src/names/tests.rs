@@ -64,7 +64,7 @@ struct Naming(Vec<(Span, String, bool)>);
 impl<'t> Visitor<'t> for Naming {
     fn scalar(&mut self, text: Spanned<&'t str>, role: Role, path: &[Step<'t>]) {
         let is_condition = matches!(role, Role::Value(Shape::Condition | Shape::Formula));
-        let is_axis = matches!(path.last(), Some(Step::Key { keys, .. }) if std::ptr::eq(*keys, &AXES));
+        let is_axis = matches!(path.last(), Some(Step::Key { keys, .. }) if keys.name == AXES.name);
         let names = match role {
             Role::Value(
                 Shape::NameOf(_)

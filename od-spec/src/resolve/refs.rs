@@ -231,8 +231,8 @@ fn find(
         let meant = diagnostics.suggestions.nearest(text, known);
         diagnostics.push(match (broken.owners_of_name(text), lexical::with_0x(text), meant) {
             (Some(owners), ..) => diagnostic.help(owners.help()),
-            (None, Some(index), _) => diagnostic.help(format!("did you mean `{index}`?")),
-            (None, None, Some(name)) => diagnostic.help(format!("did you mean `{name}`?")),
+            (None, Some(index), _) => diagnostic.did_you_mean(&index),
+            (None, None, Some(name)) => diagnostic.did_you_mean(name),
             (None, None, None) => {
                 diagnostic.help("write an object's name, `object.entry` for a member, or an index")
             }

@@ -16,7 +16,6 @@ mod fmt;
 mod git;
 mod import;
 mod interrupt;
-mod line_diff;
 mod link;
 mod listing;
 mod lsp;

@@ -4,7 +4,7 @@ use lsp_types::CompletionItemKind;
 use od_spec::LIBRARIES;
 use od_spec::keys::{KeyKind, NameOf, Shape, VERSION};
 use od_spec::model::{Access, BitUsage, DataType, NamedType, System, TypeKind};
-use od_spec::names::{Definition, DefinitionId, Kind, Spelling, Step};
+use od_spec::names::{Definition, Kind, Spelling, Step};
 use od_spec::wording::Language;
 use od_spec::yaml::Node;
 
@@ -104,7 +104,7 @@ pub(super) fn of_value(shape: Shape, written: &Written, wanted: &Wanted<'_>) -> 
         }
         Shape::Type => {
             let mut offers = data_types();
-            offers.extend(defined(wanted, Kind::Type).into_iter().map(|offer| offer.rank(4)));
+            offers.extend(defined(wanted, Kind::Type).into_iter().map(|offer| offer.rank(3)));
             offers
         }
         Shape::NameOf(of) => of_name(of, wanted),
@@ -203,9 +203,9 @@ fn of_name(of: NameOf, wanted: &Wanted<'_>) -> Vec<Offer> {
 fn defined(wanted: &Wanted<'_>, kind: Kind) -> Vec<Offer> {
     let all = wanted.names.definitions().filter(|(_, one)| one.kind == kind && !one.name.contains(MARK));
     let mut offers: Vec<Offer> = Vec::new();
-    for (id, one) in all {
+    for (_, one) in all {
         if one.spelling != Spelling::Elsewhere && !offers.iter().any(|offer| offer.label == one.name) {
-            offers.push(offer(wanted, id, one));
+            offers.push(offer(wanted, one));
         }
     }
     offers
@@ -218,15 +218,15 @@ fn members(wanted: &Wanted<'_>, kind: Kind, owner: Option<&str>) -> Vec<Offer> {
         one.kind == kind && one.owner.is_some_and(|id| wanted.names.definition(id).name == owner)
     };
     let mut offers: Vec<Offer> = Vec::new();
-    for (id, one) in wanted.names.definitions().filter(|(_, one)| is_in(one)) {
+    for (_, one) in wanted.names.definitions().filter(|(_, one)| is_in(one)) {
         if !offers.iter().any(|offer| offer.label == one.name) {
-            offers.push(offer(wanted, id, one));
+            offers.push(offer(wanted, one));
         }
     }
     offers
 }
 
-fn offer(wanted: &Wanted<'_>, _: DefinitionId, one: &Definition) -> Offer {
+fn offer(wanted: &Wanted<'_>, one: &Definition) -> Offer {
     let system = wanted.snapshot.system();
     let (kind, detail) = match one.kind {
         Kind::Unit => (CompletionItemKind::UNIT, system.and_then(|system| unit(system, &one.name))),
@@ -249,7 +249,10 @@ fn offer(wanted: &Wanted<'_>, _: DefinitionId, one: &Definition) -> Offer {
         Kind::Library | Kind::File => (CompletionItemKind::FILE, None),
         _ => (CompletionItemKind::REFERENCE, None),
     };
-    Offer::name(&one.name, kind).detail(detail.unwrap_or_default())
+    // What the specification defines itself goes before what libraries do.
+    let root = wanted.snapshot.now.root;
+    let is_own = root.is_some_and(|root| one.span.file.is_one_with(root));
+    Offer::name(&one.name, kind).detail(detail.unwrap_or_default()).rank(if is_own { 4 } else { 5 })
 }
 
 fn unit(system: &System, name: &str) -> Option<String> {

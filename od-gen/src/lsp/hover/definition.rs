@@ -16,7 +16,7 @@ use crate::lsp::cursor::Cursor;
 const SHOWN: usize = 24;
 
 /// What is defined: its kind, its name and its facts.
-pub(super) fn of(cursor: &Cursor<'_>, one: &Definition, words: Words<'_>) -> Option<String> {
+pub(super) fn of(cursor: &Cursor<'_>, one: &Definition, words: Words<'_>) -> String {
     let system = cursor.snapshot.system();
     let title = format!("{} **{}**", one.kind.word(), escaped(&one.name));
     let facts = match one.kind {
@@ -91,10 +91,10 @@ pub(super) fn of(cursor: &Cursor<'_>, one: &Definition, words: Words<'_>) -> Opt
         | Kind::Mark => None,
     };
     let facts = facts.or_else(|| as_written(cursor, one));
-    Some(match facts {
+    match facts {
         Some(facts) => format!("{title}\n\n{facts}"),
         None => title,
-    })
+    }
 }
 
 fn of_unit(unit: &Unit, words: Words<'_>) -> String {
@@ -142,7 +142,12 @@ pub(super) fn type_members(named: &NamedType, words: Words<'_>) -> String {
         }
     };
     let more = if lines.len() > SHOWN { "\n  - …" } else { "" };
-    lines.iter().take(SHOWN).map(|line| format!("\n  - {line}")).collect::<String>() + more
+    let mut list = String::new();
+    for line in lines.iter().take(SHOWN) {
+        list.push_str("\n  - ");
+        list.push_str(line);
+    }
+    list + more
 }
 
 /// `3`, `4..6`.

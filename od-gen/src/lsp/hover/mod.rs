@@ -11,6 +11,8 @@ use od_spec::names::{By, Found, Kind, Place, Spot};
 use od_spec::source::Span;
 use od_spec::wording::{Language, Wording};
 
+pub(super) use value::{fact_of, value_of};
+
 use super::cursor::{Cursor, entries_of};
 use super::snapshot::Snapshot;
 
@@ -73,8 +75,7 @@ fn of_name(cursor: &Cursor<'_>, found: Found<'_>, words: Words<'_>) -> Option<(S
                 }
                 _ => {
                     let of_targets = one.targets.iter();
-                    let texts =
-                        of_targets.filter_map(|id| definition::of(cursor, names.definition(*id), words));
+                    let texts = of_targets.map(|id| definition::of(cursor, names.definition(*id), words));
                     joined(texts)
                 }
             };
@@ -89,7 +90,7 @@ fn of_name(cursor: &Cursor<'_>, found: Found<'_>, words: Words<'_>) -> Option<(S
                     let keys: Vec<&str> = entries.iter().map(|(device, _)| device.key.as_str()).collect();
                     entry::of_entry(system?, id, &keys, words)?
                 }
-                _ => definition::of(cursor, one, words)?,
+                _ => definition::of(cursor, one, words),
             };
             Some((text, span))
         }
