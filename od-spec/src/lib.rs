@@ -45,6 +45,7 @@ mod library;
 mod limits;
 pub mod model;
 pub mod name_pattern;
+pub mod names;
 mod parameters;
 mod parts;
 pub mod plant;

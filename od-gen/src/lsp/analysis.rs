@@ -7,6 +7,7 @@ use lsp_types::{Range, Uri};
 use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::eds::is_eds;
 use od_spec::model::{System, SystemSource};
+use od_spec::names::Names;
 use od_spec::plant::{Settled, is_plant, plant};
 use od_spec::source::{FileId, SourceMap, Span};
 use od_spec::xdd::is_xdd;
@@ -16,6 +17,7 @@ use od_spec::{Compiled, add_source, compile, is_parameter_file, is_specification
 use super::overlay::{Buffers, Overlay, bytes_of};
 use super::place::Place;
 use super::position::{Encoding, Lines};
+use super::unread;
 use crate::source::remark;
 
 /// What a document is.
@@ -70,6 +72,7 @@ pub(super) struct Analysis {
     /// The places that were asked for, whether there is something or not.
     pub asked: BTreeSet<Place>,
     files: BTreeMap<FileId, FileFacts>,
+    names: OnceLock<Names>,
 }
 
 /// The lines of a text of other sources.
@@ -82,6 +85,7 @@ struct FileFacts {
     uri: Option<Uri>,
     lines: OnceLock<Lines>,
     tree: OnceLock<Option<Node>>,
+    outline: OnceLock<Node>,
 }
 
 impl Analysis {
@@ -101,6 +105,7 @@ impl Analysis {
             diagnostics: Diagnostics::new(),
             asked: BTreeSet::from([place.clone()]),
             files: BTreeMap::new(),
+            names: OnceLock::new(),
         };
         let mut loader = Overlay::new(buffers);
         analysis.read(place, &mut loader, buffers);
@@ -139,6 +144,9 @@ impl Analysis {
                 remark(&self.sources, root, &mut compiled);
                 let Compiled { system, diagnostics, .. } = compiled;
                 (self.system, self.diagnostics) = (system, diagnostics);
+                if self.kind == Kind::Specification && self.sources.files().count() == 1 {
+                    unread::add(&mut self.sources, root, loader);
+                }
             }
             Kind::Plant => self.diagnostics = of_plant(&mut self.sources, root, loader),
             Kind::Parameters => {
@@ -154,7 +162,13 @@ impl Analysis {
             self.files.entry(id).or_insert_with(|| {
                 let place = Place::of_source(file.name());
                 let uri = uri(&place);
-                FileFacts { place, uri, lines: OnceLock::new(), tree: OnceLock::new() }
+                FileFacts {
+                    place,
+                    uri,
+                    lines: OnceLock::new(),
+                    tree: OnceLock::new(),
+                    outline: OnceLock::new(),
+                }
             });
         }
     }
@@ -194,6 +208,23 @@ impl Analysis {
             Kind::Eds | Kind::Xdd | Kind::Foreign => None,
         };
         self.files.get(&file)?.tree.get_or_init(read).as_ref()
+    }
+
+    /// The syntax tree of a file of a specification; where the text is no YAML, what can be read of it.
+    pub(super) fn outline(&self, file: FileId) -> Option<&Node> {
+        if self.kind != Kind::Specification {
+            return None;
+        }
+        let lenient = || yaml::lenient(file, self.sources.file(file).text());
+        self.tree(file).or_else(|| Some(self.files.get(&file)?.outline.get_or_init(lenient)))
+    }
+
+    /// What the specification defines, and what refers to it.
+    pub(super) fn names(&self) -> &Names {
+        self.names.get_or_init(|| match self.root {
+            Some(root) => Names::of(&self.sources, root, |file| self.outline(file), self.system.as_ref()),
+            None => Names::default(),
+        })
     }
 
     /// The range of a span of these sources.

@@ -1,6 +1,6 @@
 //! The loop: one message after the other.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use lsp_types::notification::{
@@ -17,7 +17,9 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::capabilities;
+use super::completion::Insertion;
 use super::diagnostics::Published;
+use super::inlay::Hint;
 use super::place::Place;
 use super::position::Encoding;
 use super::requests::{self, Context, refusal};
@@ -49,6 +51,8 @@ pub fn serve(connection: &Connection) -> Exit {
         connection,
         phase: Phase::Strange,
         encoding: Encoding::default(),
+        insertion: Insertion::default(),
+        hints: BTreeSet::new(),
         workspace: Workspace::default(),
         published: Published::default(),
         is_news: false,
@@ -97,6 +101,8 @@ struct Server<'c> {
     connection: &'c Connection,
     phase: Phase,
     encoding: Encoding,
+    insertion: Insertion,
+    hints: BTreeSet<Hint>,
     workspace: Workspace,
     published: Published,
     /// Whether something changed since diagnostics were published.
@@ -142,7 +148,12 @@ impl Server<'_> {
                 Ok(Value::Null)
             }
             Phase::Working => {
-                let mut context = Context { workspace: &mut self.workspace, encoding: self.encoding };
+                let mut context = Context {
+                    workspace: &mut self.workspace,
+                    encoding: self.encoding,
+                    insertion: self.insertion,
+                    hints: &self.hints,
+                };
                 requests::answer(request, &mut context)
             }
             Phase::Leaving => {
@@ -157,6 +168,8 @@ impl Server<'_> {
             refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `initialize`: {error}"))
         })?;
         self.encoding = capabilities::encoding(&client);
+        self.insertion = capabilities::insertion(&client);
+        self.hints = Hint::wanted(client.initialization_options.as_ref());
         self.phase = Phase::Working;
         self.client_watches = capabilities::watches_files(&client);
         serde_json::to_value(capabilities::answer(self.encoding))

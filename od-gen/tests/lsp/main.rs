@@ -7,6 +7,7 @@ mod client;
 mod diagnostics;
 mod endurance;
 mod layout;
+mod names;
 mod protocol;
 mod structure;
 

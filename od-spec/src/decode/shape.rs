@@ -171,7 +171,7 @@ pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mu
         },
         _ => match node.text() {
             Some(text) => check_scalar(text, shape, diagnostics),
-            None if matches!((shape, &node.kind), (Shape::Text | Shape::HeaderText, NodeKind::Map(_))) => diagnostics.push(
+            None if matches!((shape, &node.kind), (Shape::Text | Shape::HeaderText | Shape::NameOf(_), NodeKind::Map(_))) => diagnostics.push(
                 Diagnostic::new(
                     codes::WRONG_KIND,
                     node.span,
@@ -219,7 +219,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
         let text = name.value.as_str();
         let integer = || scalar::integer(text).ok();
         let fits = match kind {
-            KeyKind::Name => !text.is_empty(),
+            KeyKind::Name | KeyKind::Device => !text.is_empty(),
             KeyKind::DeviceKey => lexical::is_device_key(text),
             KeyKind::Place => lexical::is_place(text),
             KeyKind::Machines => lexical::machines(text).is_some(),
@@ -239,6 +239,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
             let meant = match kind {
                 KeyKind::Indices | KeyKind::ErrorCodes => lexical::with_0x(text),
                 KeyKind::Name
+                | KeyKind::Device
                 | KeyKind::DeviceKey
                 | KeyKind::Place
                 | KeyKind::Machines
@@ -257,6 +258,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 KeyKind::ErrorCodes => lexical::error_codes(text).is_some(),
                 KeyKind::Machines => lexical::machines(text).is_some(),
                 KeyKind::Name
+                | KeyKind::Device
                 | KeyKind::DeviceKey
                 | KeyKind::Place
                 | KeyKind::Language
@@ -280,7 +282,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
 
 const fn key_words(kind: KeyKind) -> &'static str {
     match kind {
-        KeyKind::Name => "names",
+        KeyKind::Name | KeyKind::Device => "names",
         KeyKind::DeviceKey => "short keys of lower-case letters, digits and `-`, such as `pmc`",
         KeyKind::Place => "names of letters, digits, `-` and `_`, such as `A` or `hall-2`",
         KeyKind::Machines => "names or numbers such as `17`, or runs such as `1..200`",
@@ -320,7 +322,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
         Shape::NumberedName(NumberedName::Parameter) => "a name such as `Receive PDO {pdo} Mapping`",
         Shape::NumberedName(NumberedName::MappedEntry) => "a name such as `Mapping Entry {n}`",
-        Shape::Text | Shape::HeaderText | Shape::Words => "a text",
+        Shape::Text | Shape::HeaderText | Shape::Words | Shape::NameOf(_) => "a text",
         Shape::Map(_) | Shape::MapOf(..) | Shape::ShortOr(..) => "a map",
         Shape::Feature => "a feature such as `emergency` or `digital inputs: 16`",
         Shape::List(_) | Shape::OneOrMore(_) => "a list",
@@ -415,7 +417,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         _ => {
             let fits = match shape {
                 Shape::NumberedName(_) => false,
-                Shape::Text => !value.trim().is_empty(),
+                Shape::Text | Shape::NameOf(_) => !value.trim().is_empty(),
                 Shape::Date => lexical::date(value).is_some(),
                 Shape::DateTime => lexical::date_time(value).is_some(),
                 Shape::Index => lexical::index(value).is_some(),

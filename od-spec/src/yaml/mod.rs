@@ -4,6 +4,8 @@
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
 
+mod lenient;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use granit_parser::{Event, Parser, ScalarStyle};
@@ -11,6 +13,8 @@ use granit_parser::{Event, Parser, ScalarStyle};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
 use crate::visible::turning;
+
+pub use lenient::lenient;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 64;
