@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -194,6 +195,16 @@ async def ask(
         check.that(not wrong, f"{name}: {what}: {wrong[:1]} lies outside")
 
 
+def of_editors(check: Check) -> None:
+    """The extension for VS Code is JavaScript, as far as there is something that reads it."""
+    extension = Path(__file__).resolve().parents[1] / "editors/vscode"
+    json.loads((extension / "package.json").read_text(encoding="utf-8"))
+    json.loads((extension / "eds.json").read_text(encoding="utf-8"))
+    if node := shutil.which("node"):
+        read = subprocess.run([node, "--check", extension / "extension.js"], capture_output=True, text=True, check=False)
+        check.that(read.returncode == 0, read.stderr)
+
+
 async def run(odgen: Path, specs: list[Path]) -> int:
     check = Check()
     client = Client()
@@ -208,6 +219,7 @@ async def run(odgen: Path, specs: list[Path]) -> int:
     await client.shutdown_async(None)
     client.exit(None)
     await client.stop()
+    of_editors(check)
     for error in client.errors:
         check.that(False, error)
     for wrong in check.wrong[:40]:
