@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use lsp_types::Uri;
 use od_spec::diag::Code;
@@ -17,19 +17,23 @@ use super::place::uri_of;
 use crate::artifact::Artifact;
 use crate::files::{Existing, write_set};
 
-/// The folder of the copies.
-static FOLDER: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
+/// The folder of the copies; empty until a process wants some.
+static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+
+/// From now on there are copies, in the user's folder for what can be made again.
+pub(super) fn make_them() {
     let of = |name: &str| env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    let below = |path: PathBuf, folders: &str| path.join(folders);
-    let caches = of("XDG_CACHE_HOME").or_else(|| of("LOCALAPPDATA")).or_else(|| {
-        Some(below(of("HOME")?, if cfg!(target_os = "macos") { "Library/Caches" } else { ".cache" }))
-    });
-    Some(caches?.join("odgen").join(env!("CARGO_PKG_VERSION")))
-});
+    let in_home = if cfg!(target_os = "macos") { "Library/Caches" } else { ".cache" };
+    let home = || Some(of("HOME")?.join(in_home));
+    let folder = of("XDG_CACHE_HOME").or_else(|| of("LOCALAPPDATA")).or_else(home);
+    if let Some(folder) = folder {
+        FOLDER.get_or_init(|| folder.join("odgen").join(env!("CARGO_PKG_VERSION")));
+    }
+}
 
 /// The built-in library that a file is a copy of.
 pub(super) fn library_at(path: &Path) -> Option<&'static str> {
-    let folder = FOLDER.as_ref()?;
+    let folder = FOLDER.get()?;
     LIBRARIES.iter().map(|(name, _)| *name).find(|name| folder.join(library_file(name)) == path)
 }
 
@@ -60,7 +64,7 @@ fn copy(name: String, text: impl FnOnce() -> String) -> Option<Uri> {
 
 /// Writes a file of the folder, unless it is there as it should be.
 fn written(name: &str, text: &str) -> Option<Uri> {
-    let path = FOLDER.as_ref()?.join(name);
+    let path = FOLDER.get()?.join(name);
     if fs::read(&path).ok().is_none_or(|bytes| bytes != text.as_bytes()) {
         let file = path.file_name()?.to_str()?.to_owned();
         let artifact = Artifact { path: file, bytes: text.as_bytes().to_vec(), purpose: String::new() };

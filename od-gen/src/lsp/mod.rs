@@ -41,15 +41,16 @@ mod workspace_symbols;
 
 use std::io;
 
-pub use server::Exit;
+pub use server::{Exit, serve};
 
 /// Serves a client on standard input and output until it says goodbye or its end of the line is closed.
 ///
 /// # Errors
 /// The input is not the Language Server Protocol, or the output cannot be written.
 pub fn serve_stdio() -> io::Result<Exit> {
+    copies::make_them();
     let (connection, writer) = transport::stdio();
-    let exit = server::serve(&connection);
+    let exit = serve(&connection);
     drop(connection);
     transport::finished(writer)?;
     Ok(exit)

@@ -45,8 +45,8 @@ enum Phase {
     Leaving,
 }
 
-/// Serves a client until it leaves.
-pub(super) fn serve(connection: &Connection) -> Exit {
+/// Serves a client until it leaves. Nothing is written to any file.
+pub fn serve(connection: &Connection) -> Exit {
     let mut server = Server {
         connection,
         phase: Phase::Strange,

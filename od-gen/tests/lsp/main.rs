@@ -5,6 +5,7 @@
 mod actions;
 mod client;
 mod diagnostics;
+mod endurance;
 mod layout;
 mod names;
 mod protocol;

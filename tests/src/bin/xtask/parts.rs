@@ -35,6 +35,8 @@ pub(crate) enum Part {
     Plant,
     /// DBC files, and frames of the generated Rust that are read by them.
     Dbc,
+    /// `odgen lsp`, asked by a client that others wrote.
+    LanguageServer,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -78,7 +80,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 19] = [
+    pub(crate) const ALL: [Part; 20] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -92,6 +94,7 @@ impl Part {
         Part::XddStructure,
         Part::Plant,
         Part::Dbc,
+        Part::LanguageServer,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -115,6 +118,7 @@ impl Part {
             Part::XddStructure => "EDS readers: XDD and XDC",
             Part::Plant => "EDS readers: a plant",
             Part::Dbc => "DBC readers",
+            Part::LanguageServer => "language server",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -138,6 +142,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::LanguageServer
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware => Area::Firmware,
@@ -159,6 +164,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::LanguageServer
             | Part::Manuals
             | Part::FirmwareSizes => Turn::Beside,
             Part::SdoClient | Part::Browser | Part::FirmwareTests | Part::DemoFirmware => Turn::Alone,
@@ -180,6 +186,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::LanguageServer
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -207,6 +214,7 @@ impl Part {
             | Part::XddStructure
             | Part::Plant
             | Part::Dbc
+            | Part::LanguageServer
             | Part::Browser
             | Part::Manuals
             | Part::FirmwareSizes
@@ -250,6 +258,7 @@ impl Part {
             Part::XddStructure => readers::xdd_structure(runner),
             Part::Plant => readers::plant(runner),
             Part::Dbc => readers::dbc(runner),
+            Part::LanguageServer => readers::language_server(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),
