@@ -37,7 +37,7 @@ fn asked(name: &str, text: &str, every: usize) -> [usize; 4] {
             told[2] += references(&snapshot, at, true).len() + highlights(&snapshot, at).len();
             let _ = prepare(&snapshot, at);
             // Each of these reads the whole text.
-            if line as usize % (every * 16) == 0 {
+            if line as usize % (every * 8) == 0 {
                 told[3] += completion(&snapshot, at, Insertion::Snippet).len();
             }
         }
@@ -55,11 +55,11 @@ fn every_position_has_an_answer() {
         let file = format!("{name}.od.yaml");
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../od-spec/devices");
         let text = std::fs::read_to_string(Path::new(folder).join(&file)).unwrap();
-        let told = asked(&file, &text, 7);
-        assert!(told[0] > 100 && told[1] > 20 && told[2] > 40, "{name}: {told:?}");
+        let told = asked(&file, &text, 31);
+        assert!(told[0] > 30 && told[1] > 0 && told[2] > 0, "{name}: {told:?}");
         // Cut in the middle, and with something left open.
         let middle = text.char_indices().nth(text.chars().count() / 2).unwrap().0;
-        asked(&file, &text[..middle], 61);
-        asked(&file, &format!("{}{{ \"x: [{}", &text[..middle], &text[middle..]), 61);
+        asked(&file, &text[..middle], 211);
+        asked(&file, &format!("{}{{ \"x: [{}", &text[..middle], &text[middle..]), 211);
     }
 }

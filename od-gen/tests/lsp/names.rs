@@ -191,7 +191,7 @@ fn completion_offers_what_may_stand_there() {
             &["volt"][..],
         ),
         ("unit: tenth °C, access: rw", "unit: te‸, access: rw", &["tenth °C"], &[]),
-        ("  0x2003: {", "  0x2003: {‸", &["record", "min", "about"], &["name", "type", "access", "symbol"]),
+        ("  0x2003: {", "  0x2003: {‸, ", &["record", "min", "about"], &["name", "type", "access", "symbol"]),
         ("access: ro, pdo: transmit", "access: ‸, pdo: transmit", &["ro", "rw locked"], &["integer8"]),
         (
             "type: integer16, unit: tenth °C, access: ro",
@@ -212,7 +212,7 @@ fn completion_offers_what_may_stand_there() {
         ("\npdos:\n", "\n‸\npdos:\n", &["errors", "document"], &["units", "title"]),
         ("objects:\n", "objects:\n  ‸\n", &["0x1017", "0x1018"], &["0x2000"]),
         ("uses: [cia301]", "uses: [cia301, ‸]", &["cia402"], &["cia301"]),
-        ("      1: {name: lowest, ", "      1: {‸name: lowest, ", &[], &["name"]),
+        ("      1: {name: lowest, ", "      1: {‸, name: lowest, ", &[], &["name"]),
         ("pdos:\n  heater:", "pdos:\n  ‸\n  other:", &["heater"], &[]),
         // Broken behind the cursor, and in it.
         ("access: rw, default: 0, writable", "access: r‸, default: [0, writable", &["rw", "ro"], &[]),

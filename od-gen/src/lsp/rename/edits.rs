@@ -58,7 +58,11 @@ fn rewritten(written: &str, mut parts: Vec<Part>) -> Option<String> {
             Some(format!("\"{}\"", new.replace('\\', "\\\\").replace('"', "\\\"")))
         }
         Some('"' | '\'') => Some(spelled(&new)),
-        _ if written == text => Some(if holds(&new) { new } else { spelled(&new) }),
+        _ if written == text => {
+            // What does not stand in brackets stands in lines, where more is allowed.
+            let stays = if holds_in_brackets(&text) { holds_in_brackets(&new) } else { holds_in_lines(&new) };
+            Some(if stays { new } else { spelled(&new) })
+        }
         // Several lines, or a block scalar: the parts stand there as they are.
         _ => in_lines(written, &text, &parts),
     }
@@ -90,20 +94,30 @@ fn text_of(written: &str) -> Option<String> {
     })
 }
 
-/// Whether a text may stand without quotes wherever a scalar may.
-fn holds(text: &str) -> bool {
-    let mut sources = SourceMap::new();
-    let file =
-        sources.add("scalar", format!("a: {text}\nb: {{c: {text}, {text}: d, e: [{text}]}}\n{text}: f\n"));
-    let Some(tree) = parse(file, sources.file(file), &mut Diagnostics::new()) else { return false };
-    let is_it = |node: Option<&Node>| node.and_then(Node::text).is_some_and(|read| read.value == text);
-    let flow = tree.get("b");
-    is_it(tree.get("a"))
-        && is_it(flow.and_then(|flow| flow.get("c")))
-        && flow.is_some_and(|flow| {
-            flow.get(text).is_some() && is_it(flow.get("e").and_then(|list| list.items().first()))
+/// Whether a text may stand without quotes as a key and as a value in lines.
+fn holds_in_lines(text: &str) -> bool {
+    reads(&format!("a: {text}\n{text}: f\n"), |tree| is_text(tree.get("a"), text) && tree.get(text).is_some())
+}
+
+/// Whether it may stand so in brackets, too.
+fn holds_in_brackets(text: &str) -> bool {
+    holds_in_lines(text)
+        && reads(&format!("b: {{c: {text}, {text}: d, e: [{text}]}}\n"), |tree| {
+            let Some(map) = tree.get("b") else { return false };
+            let first = map.get("e").and_then(|list| list.items().first());
+            is_text(map.get("c"), text) && map.get(text).is_some() && is_text(first, text)
         })
-        && tree.get(text).is_some()
+}
+
+fn is_text(node: Option<&Node>, text: &str) -> bool {
+    node.and_then(Node::text).is_some_and(|read| read.value == text)
+}
+
+/// Whether a document can be read, and is as it should be.
+fn reads(document: &str, is_right: impl FnOnce(&Node) -> bool) -> bool {
+    let mut sources = SourceMap::new();
+    let file = sources.add("scalar", document);
+    parse(file, sources.file(file), &mut Diagnostics::new()).is_some_and(|tree| is_right(&tree))
 }
 
 /// Replaces parts that stand in several lines, if each of them stands there as often as in the text.
