@@ -34,6 +34,10 @@ mod hexadecimal;
 pub mod import;
 #[cfg(feature = "json")]
 pub mod json;
+#[cfg(feature = "lsp")]
+pub mod line_diff;
+#[cfg(feature = "lsp")]
+pub mod lsp;
 #[cfg(feature = "runtime")]
 pub mod monitor;
 #[cfg(any(feature = "dbc", feature = "runtime"))]

@@ -87,6 +87,11 @@ pub fn compile_as(
     }
 }
 
+/// Whether a text is a specification, a part of one or a library: its first key says so.
+pub fn is_specification(text: &str) -> bool {
+    yaml::begins_with(text, "od-spec")
+}
+
 /// A file of this project that says nothing about what a device is, with the command that takes it.
 fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
     let text = file.text();
@@ -308,18 +313,18 @@ fn libraries(
 fn missing_library(name: &Spanned<String>, reason: &str) -> Diagnostic {
     let path = name.value.as_str();
     let known = LIBRARIES.iter().map(|(name, _)| *name);
-    let help = match Suggestions::default()
+    let message = format!("cannot read library `{}`: {reason}", shorten(path));
+    let diagnostic = Diagnostic::new(codes::MISSING_LIBRARY, name.span, message);
+    match Suggestions::default()
         .nearest(path, known.clone())
         .filter(|word| !path.starts_with("cia") || path.len() != word.len())
     {
-        Some(word) => format!("did you mean `{word}`?"),
+        Some(word) => diagnostic.did_you_mean(word),
         None => {
             let known = known.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-            format!("name a built-in library ({known}), or a file relative to this one")
+            diagnostic.help(format!("name a built-in library ({known}), or a file relative to this one"))
         }
-    };
-    let message = format!("cannot read library `{}`: {reason}", shorten(path));
-    Diagnostic::new(codes::MISSING_LIBRARY, name.span, message).help(help)
+    }
 }
 
 #[cfg(all(test, not(feature = "xdd")))]

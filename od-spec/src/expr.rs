@@ -422,11 +422,16 @@ impl<'a, 'l> Parser<'a, 'l> {
             let digits = self.digits(radix).and_then(|digits| u8::from_str_radix(digits, radix).ok());
             sub = digits.ok_or_else(|| self.unexpected_from(start, "a sub-index, 0 to 255"))?;
         }
-        self.places.push(start_of_all..self.at);
-        Ok(EntryRef {
+        let range = start_of_all..self.at;
+        self.places.push(range.clone());
+        let entry = EntryRef {
             device: device.map(ToOwned::to_owned),
             id: EntryId { index: Index(index), sub: SubIndex(sub) },
-        })
+        };
+        if let Some(lookup) = &mut self.lookup {
+            lookup.numbered(&entry, range);
+        }
+        Ok(entry)
     }
 
     fn digits(&mut self, radix: u32) -> Option<&'a str> {

@@ -257,7 +257,7 @@ const PLACE: &str = "[A-Za-z0-9][A-Za-z0-9_-]{0,31}";
 fn key_pattern(kind: KeyKind) -> Option<String> {
     let run = |number: &str| format!(" *{number} *(\\.\\. *{number} *)?");
     Some(match kind {
-        KeyKind::Name => return None,
+        KeyKind::Name | KeyKind::Device => return None,
         KeyKind::DeviceKey => "[a-z0-9][a-z0-9-]{0,31}".to_owned(),
         KeyKind::Place => PLACE.to_owned(),
         KeyKind::Machines => format!("({PLACE}| *[0-9]+ *\\.\\. *[0-9]+ *)"),
@@ -329,7 +329,7 @@ const TEXT: &str = "text";
 /// The name of a shape's definition, if it has one.
 const fn definition(shape: Shape) -> Option<&'static str> {
     Some(match shape {
-        Shape::Text => TEXT,
+        Shape::Text | Shape::NameOf(_) => TEXT,
         Shape::HeaderText => "header-text",
         Shape::Words => "words",
         Shape::YesNo => "yes-or-no",

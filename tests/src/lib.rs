@@ -3,6 +3,7 @@
 pub mod access_cases;
 pub mod c_dictionary;
 pub mod compiler;
+pub mod editor;
 pub mod foreign;
 pub mod fuzz;
 pub mod generate;

@@ -137,12 +137,12 @@ pub fn text_keys() -> BTreeSet<KeyName> {
     }
     fn shape(one: Shape, name: KeyName, seen: &mut BTreeSet<&'static str>, found: &mut BTreeSet<KeyName>) {
         match one {
-            Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) => {
+            Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) | Shape::NameOf(_) => {
                 found.insert(name);
             }
             Shape::Map(table) => keys(table, seen, found),
             Shape::MapOf(kind, inner) => {
-                if kind == KeyKind::Name {
+                if matches!(kind, KeyKind::Name | KeyKind::Device) {
                     found.insert(name);
                 }
                 shape(*inner, name, seen, found);
@@ -204,14 +204,20 @@ fn walk_map(node: &Node, table: &'static Keys, sites: &mut Vec<Site>) {
 
 fn walk(node: &Node, shape: Shape, name: KeyName, sites: &mut Vec<Site>) {
     match shape {
-        Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) => match &node.kind {
-            NodeKind::Map(entries) => entries.iter().for_each(|(_, value)| walk(value, shape, name, sites)),
-            _ => node.text().into_iter().for_each(|text| add(text.value, name, sites)),
-        },
+        Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) | Shape::NameOf(_) => {
+            match &node.kind {
+                NodeKind::Map(entries) => {
+                    for (_, value) in entries {
+                        walk(value, shape, name, sites);
+                    }
+                }
+                _ => node.text().into_iter().for_each(|text| add(text.value, name, sites)),
+            }
+        }
         Shape::Map(table) => walk_map(node, table, sites),
         Shape::MapOf(kind, inner) => {
             for (key, value) in node.entries() {
-                if kind == KeyKind::Name {
+                if matches!(kind, KeyKind::Name | KeyKind::Device) {
                     add(&key.value, name, sites);
                 }
                 walk(value, *inner, name, sites);

@@ -83,13 +83,13 @@ impl<'a> Allowed<'a> {
             }
             let message = format!("found `{}`, expected the code of a rule", shorten(&code.value));
             let known = RULES.iter().map(|rule| rule.code.id);
-            let help =
-                match (code.value.starts_with("OD"), diagnostics.suggestions.nearest(&code.value, known)) {
-                    (false, Some(id)) => format!("did you mean `{id}`?"),
-                    (_, _) => "write a code of `odgen explain all`; what cannot be read cannot be allowed"
-                        .to_owned(),
-                };
-            diagnostics.push(Diagnostic::new(codes::UNKNOWN_WORD, code.span, message).help(help));
+            let diagnostic = Diagnostic::new(codes::UNKNOWN_WORD, code.span, message);
+            let meant = diagnostics.suggestions.nearest(&code.value, known);
+            diagnostics.push(match meant.filter(|_| !code.value.starts_with("OD")) {
+                Some(id) => diagnostic.did_you_mean(id),
+                None => diagnostic
+                    .help("write a code of `odgen explain all`; what cannot be read cannot be allowed"),
+            });
         }
         Self { by_code, used: BTreeSet::new() }
     }

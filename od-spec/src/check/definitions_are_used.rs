@@ -10,7 +10,7 @@ use crate::model::{Author, Dictionary, SignalCarrier, Statement, System, TableCo
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::System(check) };
 
 /// The code of the rule.
-pub(super) const CODE: &Code = &Code {
+pub const CODE: &Code = &Code {
     id: "OD0806",
     severity: Severity::Warning,
     foreign: Severity::Warning,

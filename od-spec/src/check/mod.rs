@@ -97,6 +97,7 @@ pub mod codes {
     pub(crate) use super::cob_ids_are_unrestricted::CODE as BAD_COB_ID;
     pub use super::commands_are_not_downloaded::CODE as IS_COMMAND;
     pub use super::counts_agree::CODE as COUNT_MISMATCH;
+    pub use super::definitions_are_used::CODE as UNUSED_DEFINITION;
     pub(crate) use super::locked_entries_are_not_set::CODE as LOCKED;
     pub use super::names_are_unique::CODE as DUPLICATE_NAME;
     pub use super::set_entries_are_writable::CODE as NOT_WRITABLE;

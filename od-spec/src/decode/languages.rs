@@ -38,7 +38,8 @@ fn in_value(node: &Node, shape: Shape, listed: &[&str], diagnostics: &mut Diagno
                 let meant = diagnostics.suggestions.nearest(&name.value, listed.iter().copied());
                 diagnostics.push(match meant {
                     Some(word) => {
-                        diagnostic.help(format!("add it to `languages:`, or did you mean `{word}`?"))
+                        let help = format!("add it to `languages:`, or did you mean `{word}`?");
+                        diagnostic.help(help).meant(word)
                     }
                     None => diagnostic.help("add the language to `languages:` at the top of the file"),
                 });

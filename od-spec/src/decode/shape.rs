@@ -59,7 +59,8 @@ fn rename(entries: &mut [(Spanned<String>, Node)], keys: &Keys, diagnostics: &mu
                 name.span,
                 format!("the key `{}` is called `{today}` now", name.value),
             )
-            .help(format!("write `{today}:`; the next release does not know the former name")),
+            .help(format!("write `{today}:`; the next release does not know the former name"))
+            .edit(name.span, today),
         };
         diagnostics.push(diagnostic);
         today.clone_into(&mut entries[at].0.value);
@@ -73,17 +74,18 @@ fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &
         name.span,
         format!("{} has no key `{}`", keys.name, shorten(&name.value)),
     );
+    // What has a key and a colon needs no guess at another key.
+    if let Some(pair) = without_blank(&name.value, keys).filter(|_| value.kind == NodeKind::Null) {
+        let help = format!("write `{}`", shorten(&pair));
+        diagnostics.push(diagnostic.label("no blank behind the colon").help(help).edit(name.span, pair));
+        return;
+    }
     let meant = diagnostics.suggestions.nearest(&name.value, known.clone());
     diagnostics.push(match meant {
-        Some(word) => diagnostic.label("unknown").help(format!("did you mean `{word}`?")),
-        None if value.kind == NodeKind::Null => match without_blank(&name.value, keys) {
-            Some(pair) => {
-                diagnostic.label("no blank behind the colon").help(format!("write `{}`", shorten(&pair)))
-            }
-            None => diagnostic
-                .label("a key without a value")
-                .help("inside `{}` put a text that holds a comma in quotes"),
-        },
+        Some(word) => diagnostic.label("unknown").did_you_mean(word),
+        None if value.kind == NodeKind::Null => diagnostic
+            .label("a key without a value")
+            .help("inside `{}` put a text that holds a comma in quotes"),
         None => diagnostic.label("unknown").help(format!(
             "its keys are {}",
             known.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ")
@@ -169,7 +171,7 @@ pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mu
         },
         _ => match node.text() {
             Some(text) => check_scalar(text, shape, diagnostics),
-            None if matches!((shape, &node.kind), (Shape::Text | Shape::HeaderText, NodeKind::Map(_))) => diagnostics.push(
+            None if matches!((shape, &node.kind), (Shape::Text | Shape::HeaderText | Shape::NameOf(_), NodeKind::Map(_))) => diagnostics.push(
                 Diagnostic::new(
                     codes::WRONG_KIND,
                     node.span,
@@ -217,7 +219,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
         let text = name.value.as_str();
         let integer = || scalar::integer(text).ok();
         let fits = match kind {
-            KeyKind::Name => !text.is_empty(),
+            KeyKind::Name | KeyKind::Device => !text.is_empty(),
             KeyKind::DeviceKey => lexical::is_device_key(text),
             KeyKind::Place => lexical::is_place(text),
             KeyKind::Machines => lexical::machines(text).is_some(),
@@ -237,6 +239,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
             let meant = match kind {
                 KeyKind::Indices | KeyKind::ErrorCodes => lexical::with_0x(text),
                 KeyKind::Name
+                | KeyKind::Device
                 | KeyKind::DeviceKey
                 | KeyKind::Place
                 | KeyKind::Machines
@@ -255,6 +258,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 KeyKind::ErrorCodes => lexical::error_codes(text).is_some(),
                 KeyKind::Machines => lexical::machines(text).is_some(),
                 KeyKind::Name
+                | KeyKind::Device
                 | KeyKind::DeviceKey
                 | KeyKind::Place
                 | KeyKind::Language
@@ -264,13 +268,13 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
                 | KeyKind::Number => false,
             };
             let turned = lexical::turned(text).filter(|turned| is_run(turned));
-            let help = match (turned, meant) {
-                (Some(turned), _) => format!("write `{turned}`; a run goes from the smaller to the larger"),
-                (None, Some(meant)) => format!("write `{meant}`"),
-                (None, None) => format!("keys of this map are {}", key_words(kind)),
-            };
             let message = format!("found the key `{}`, expected {}", shorten(text), key_words(kind));
-            diagnostics.push(Diagnostic::new(codes::BAD_KEY, name.span, message).help(help));
+            let diagnostic = Diagnostic::new(codes::BAD_KEY, name.span, message);
+            diagnostics.push(match (turned, meant) {
+                (Some(turned), _) => write_turned(diagnostic, &turned),
+                (None, Some(meant)) => diagnostic.write(&meant),
+                (None, None) => diagnostic.help(format!("keys of this map are {}", key_words(kind))),
+            });
         }
         check(node, value, name.span, diagnostics);
     }
@@ -278,7 +282,7 @@ fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut D
 
 const fn key_words(kind: KeyKind) -> &'static str {
     match kind {
-        KeyKind::Name => "names",
+        KeyKind::Name | KeyKind::Device => "names",
         KeyKind::DeviceKey => "short keys of lower-case letters, digits and `-`, such as `pmc`",
         KeyKind::Place => "names of letters, digits, `-` and `_`, such as `A` or `hall-2`",
         KeyKind::Machines => "names or numbers such as `17`, or runs such as `1..200`",
@@ -318,7 +322,7 @@ const fn expected(shape: Shape) -> &'static str {
         Shape::Pattern => "bits such as `xxxx xxxx x01x 0001`",
         Shape::NumberedName(NumberedName::Parameter) => "a name such as `Receive PDO {pdo} Mapping`",
         Shape::NumberedName(NumberedName::MappedEntry) => "a name such as `Mapping Entry {n}`",
-        Shape::Text | Shape::HeaderText | Shape::Words => "a text",
+        Shape::Text | Shape::HeaderText | Shape::Words | Shape::NameOf(_) => "a text",
         Shape::Map(_) | Shape::MapOf(..) | Shape::ShortOr(..) => "a map",
         Shape::Feature => "a feature such as `emergency` or `digital inputs: 16`",
         Shape::List(_) | Shape::OneOrMore(_) => "a list",
@@ -413,7 +417,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
         _ => {
             let fits = match shape {
                 Shape::NumberedName(_) => false,
-                Shape::Text => !value.trim().is_empty(),
+                Shape::Text | Shape::NameOf(_) => !value.trim().is_empty(),
                 Shape::Date => lexical::date(value).is_some(),
                 Shape::DateTime => lexical::date_time(value).is_some(),
                 Shape::Index => lexical::index(value).is_some(),
@@ -435,34 +439,34 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
                 _ => true,
             };
             if !fits {
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::BAD_NOTATION,
-                        text.span,
-                        format!("found {}, expected {}", quoted(value), expected(shape)),
-                    )
-                    .help(match meant(value, shape) {
-                        Some(help) => help,
-                        None => format!("write {}", expected(shape)),
-                    }),
-                );
+                let message = format!("found {}, expected {}", quoted(value), expected(shape));
+                let diagnostic = Diagnostic::new(codes::BAD_NOTATION, text.span, message);
+                diagnostics.push(with_meant(diagnostic, value, shape));
             }
         }
     }
 }
 
-/// What to write in the place of a reference that cannot be read.
-fn meant(text: &str, shape: Shape) -> Option<String> {
-    if !matches!(shape, Shape::Index | Shape::Entry | Shape::Entries | Shape::ErrorCode) {
-        return None;
+/// Tells what to write in the place of a scalar that cannot be read.
+fn with_meant(diagnostic: Diagnostic, text: &str, shape: Shape) -> Diagnostic {
+    let is_run = matches!(shape, Shape::Entries) && text.contains("..");
+    let turned = lexical::turned(text).filter(|run| is_run && lexical::run_by_index(run).is_some());
+    if let Some(turned) = turned {
+        return write_turned(diagnostic, &turned);
     }
-    if matches!(shape, Shape::Entries) && text.contains("..") {
-        let is_run = |text: &String| lexical::run_by_index(text).is_some();
-        let turned = lexical::turned(text).filter(is_run);
-        let turned = turned.map(|run| format!("write `{run}`; a run goes from the smaller to the larger"));
-        return turned.or_else(|| Some(format!("write `{}`", lexical::run_with_0x(text)?)));
+    let meant = match shape {
+        Shape::Entries if is_run => lexical::run_with_0x(text),
+        Shape::Index | Shape::Entry | Shape::Entries | Shape::ErrorCode => lexical::with_0x(text),
+        _ => None,
+    };
+    match meant {
+        Some(meant) => diagnostic.write(&meant),
+        None => diagnostic.help(format!("write {}", expected(shape))),
     }
-    lexical::with_0x(text).map(|meant| format!("write `{meant}`"))
+}
+
+fn write_turned(diagnostic: Diagnostic, turned: &str) -> Diagnostic {
+    diagnostic.help(format!("write `{turned}`; a run goes from the smaller to the larger")).meant(turned)
 }
 
 /// The part of a scalar that a byte range of its text covers. Exact for plain one-line scalars, else the whole scalar.
@@ -511,7 +515,7 @@ fn unknown_word(text: Spanned<&str>, words: &[&str], diagnostics: &mut Diagnosti
     );
     let meant = diagnostics.suggestions.nearest(text.value, words.iter().copied());
     diagnostics.push(match meant {
-        Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+        Some(word) => diagnostic.did_you_mean(word),
         None => diagnostic.help(format!("write one of {list}")),
     });
 }

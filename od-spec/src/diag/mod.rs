@@ -3,12 +3,14 @@
 mod code;
 pub mod codes;
 mod commissioning;
+mod edit;
 mod nearest;
 pub mod readers;
 pub mod render;
 mod repeated;
 
 pub use code::{Code, Example, Language};
+pub use edit::Edit;
 pub(crate) use nearest::Suggestions;
 pub use nearest::nearest;
 pub(crate) use repeated::Repeated;
@@ -17,6 +19,7 @@ use std::collections::BTreeSet;
 
 use crate::source::Span;
 use crate::visible::{is_hidden, visible};
+use edit::stands_without_quotes;
 use readers::Readers;
 
 /// How serious a [`Diagnostic`] is.
@@ -50,15 +53,6 @@ pub struct Label {
     pub text: String,
 }
 
-/// A change of a source text that puts right what a message is about, without anything being guessed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Edit {
-    /// What is replaced; empty for text that is put in between.
-    pub span: Span,
-    /// What stands there afterwards.
-    pub text: String,
-}
-
 /// One message to the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -75,8 +69,10 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Facts that explain the rule.
     pub notes: Vec<String>,
-    /// The changes that put it right, all together; none where a person has to decide.
+    /// The changes that put it right, all together, without anything being guessed; none where a person has to decide.
     pub edits: Vec<Edit>,
+    /// The change that a person may have meant: what the help asks about.
+    pub meant: Option<Box<Edit>>,
     /// The readers of other people that refuse an EDS or DCF because of this, or are reported to stumble.
     pub minded_by: Readers,
     /// Who stumbles over it, a sentence each; none where the message names them itself.
@@ -117,6 +113,7 @@ impl Diagnostic {
             help: None,
             notes: Vec::new(),
             edits: Vec::new(),
+            meant: None,
             minded_by: Readers::NONE,
             stumbling: Box::default(),
         }
@@ -166,8 +163,29 @@ impl Diagnostic {
         self
     }
 
+    /// Asks whether a word was meant at the primary place.
+    #[must_use]
+    pub(crate) fn did_you_mean(self, word: &str) -> Self {
+        self.help(format!("did you mean `{word}`?")).meant(word)
+    }
+
+    /// Tells what to write at the primary place, as far as anybody can tell what was meant.
+    #[must_use]
+    pub(crate) fn write(self, text: &str) -> Self {
+        self.help(format!("write `{}`", shorten(text))).meant(text)
+    }
+
+    /// What may have been meant at the primary place. What needs quotes is no change: the place may be inside of some, or not.
+    #[must_use]
+    pub(crate) fn meant(mut self, text: &str) -> Self {
+        if let Some(first) = self.labels.first().filter(|_| stands_without_quotes(text)) {
+            self.meant = Some(Box::new(Edit { span: first.span, text: text.to_owned() }));
+        }
+        self
+    }
+
     /// The notes, and who stumbles over it.
-    pub(crate) fn all_notes(&self) -> impl Iterator<Item = String> {
+    pub fn all_notes(&self) -> impl Iterator<Item = String> {
         self.notes.iter().chain(&self.stumbling).cloned()
     }
 
@@ -256,6 +274,7 @@ impl Diagnostics {
     pub(crate) fn reword(&mut self, reworded: impl Fn(&str) -> Option<String>) {
         for diagnostic in &mut self.list {
             diagnostic.edits.clear();
+            diagnostic.meant = None;
             let texts = std::iter::once(&mut diagnostic.message).chain(&mut diagnostic.help);
             let labels = diagnostic.labels.iter_mut().map(|label| &mut label.text);
             for text in texts.chain(&mut diagnostic.notes).chain(labels) {

@@ -29,6 +29,8 @@ pub(crate) trait Lookup {
     fn operand(&mut self, compared: &EntryRef, name: &Named<'_>) -> Option<Operand>;
     /// The bit of an entry.
     fn bit(&mut self, of: &EntryRef, name: &Named<'_>) -> Option<u8>;
+    /// An entry stands there by index, with its device in front of it where one does.
+    fn numbered(&mut self, _entry: &EntryRef, _range: Range<usize>) {}
 }
 
 /// Every name is one; for those who ask how a condition is written, and not what it says.

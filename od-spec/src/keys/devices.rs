@@ -1,7 +1,7 @@
 //! Devices.
 
 use super::errors::ANY_ERROR;
-use super::shape::{Key, KeyKind, Keys, Shape, U8, U32};
+use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U8, U32};
 use super::table::keys;
 
 macro_rules! device_keys {
@@ -20,7 +20,7 @@ macro_rules! device_keys {
             "boot-up-slave": Shape::YesNo => boot_up_slave: Option<Spanned<bool>>, "simple boot-up slave; yes unless given";
             "group-messaging": Shape::YesNo => group_messaging: Option<Spanned<bool>>, "multiplexed PDOs; no unless given";
             "lss": Shape::YesNo => lss: Option<Spanned<bool>>, "LSS slave; no unless given";
-            "dummies": Shape::List(&Shape::Text) => dummies: Vec<Name>, "data types that may stand in an RPDO as placeholders", "[unsigned8, unsigned16]";
+            "dummies": Shape::List(&Shape::NameOf(NameOf::DataType)) => dummies: Vec<Name>, "data types that may stand in an RPDO as placeholders", "[unsigned8, unsigned16]";
             "dynamic-channels": Shape::MapOf(KeyKind::Indices, &Shape::Map(&CHANNEL)) => dynamic_channels: Vec<ChannelDecl>, "indices at which a PLC may create network variables", "{0xA080..0xA0BF: {type: unsigned8, access: ro, offset: 0}}";
             "features": Shape::List(&Shape::Feature) => features: Vec<Spanned<FeatureChoice>>, "features of the used libraries that the device has; one with channels is given their number", "[heartbeat producer, digital inputs: 16]";
             "any-error": Shape::Map(&ANY_ERROR) => any_error: Option<AnyErrorDecl>, "what holds for every error of the device, said once", "{reset: bit 7 of 6040h from 0 to 1}";
@@ -39,7 +39,7 @@ device_keys! { keys
 macro_rules! channel_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "type" required: Shape::Text => type_name: Option<Name>, "data type of the variables", "unsigned8";
+            "type" required: Shape::NameOf(NameOf::DataType) => type_name: Option<Name>, "data type of the variables", "unsigned8";
             "access" required: Shape::Choice(&["ro", "wo", "rw", "rwr", "rww"]) => access: Option<Spanned<Access>>, "access over the bus";
             "offset" required: U32 => offset: Option<Spanned<i128>>, "where the variables begin in the process picture", "0x0040";
             "difference": U32 => difference: Option<Spanned<i128>>, "difference of the addresses of two variables, where these are boolean";

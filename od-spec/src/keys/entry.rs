@@ -1,6 +1,6 @@
 //! Entries.
 
-use super::shape::{Key, KeyKind, Keys, Shape};
+use super::shape::{Key, KeyKind, Keys, NameOf, Shape};
 use super::table::{joined, key_list, keys};
 use crate::model::{Access, Category, PdoMapping, Storage};
 
@@ -23,7 +23,7 @@ macro_rules! entry_keys {
             }
             values {
                 "type": Shape::Type => type_name: String, Type, Entries, "data type, or a named type", "unsigned16";
-                "unit": Shape::Text => unit: String, Unit, Entries, "physical unit, by name", "decicelsius";
+                "unit": Shape::NameOf(NameOf::Unit) => unit: String, Unit, Entries, "physical unit, by name", "decicelsius";
                 "access": Shape::Access => access: AccessRight, Access, Entries, "`ro`, `wo`, `rw`, `rwr`, `rww` or `const`; `rw locked`: writable only when unlocked for service", "rw locked", sub0 "access; `ro` unless given";
                 "pdo": Shape::Choice(PdoMapping::WORDS) => pdo: PdoMapping, Mapping, Entries, "PDOs it may be mapped into; none unless given", sub0 "PDOs it may be mapped into; none unless given";
                 "default": Shape::Default => default: DefaultDecl, Default, Value, "value after factory reset; under `array:` also a list with one for each element; a map by device where they differ", "50.0 °C", sub0 "value; the highest sub-index unless given";

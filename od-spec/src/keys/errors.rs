@@ -1,6 +1,6 @@
 //! Error codes.
 
-use super::shape::{Key, Keys, NAMES, Shape};
+use super::shape::{DEVICES, Key, Keys, NameOf, Shape};
 use super::table::keys;
 use crate::model::ErrorKind;
 
@@ -8,12 +8,12 @@ macro_rules! error_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "name": Shape::Text => name: Option<Name>, "name; `{n}` counts through a range from 1; needed without `from`", "\"Voltage at battery block {n} too low\"";
-            "from": Shape::Text => from: Option<Name>, "library that defines the code; the other keys go before it", "cia402";
-            "devices": NAMES => devices: Option<Vec<Name>>, "devices that report it; all unless given";
+            "from": Shape::NameOf(NameOf::Library) => from: Option<Name>, "library that defines the code; the other keys go before it", "cia402";
+            "devices": DEVICES => devices: Option<Vec<Name>>, "devices that report it; all unless given";
             "priority": Shape::Text => priority: Option<Name>, "priority, as the manual classes it";
             "reaction": Shape::Words => reaction: Words, "what the device does";
             "option-code": Shape::Entry => option_code: Option<Name>, "entry whose value chooses the reaction", "0x605E";
-            "treated-by": NAMES => treated_by: Option<Vec<Name>>, "devices that treat it as `priority`, `reaction` and `option-code` say; all that report it unless given";
+            "treated-by": DEVICES => treated_by: Option<Vec<Name>>, "devices that treat it as `priority`, `reaction` and `option-code` say; all that report it unless given";
             "register": Shape::OneOrMore(&Shape::Choice(ErrorKind::WORDS)) => register: Vec<Spanned<ErrorKind>>, "kinds of error that it sets in 1001h, besides `generic`, which every error sets; that of its class unless given", "[current, temperature]";
             "reset": Shape::Words => reset: Words, "what resets it; what the device's `any-error` says unless given", "switch the device off and on";
             "about": Shape::Words => about: Words, "more about it";

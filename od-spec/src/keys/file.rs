@@ -8,7 +8,7 @@ use super::machines::MACHINE;
 use super::manual::{ERRATUM, SECTION};
 use super::objects::OBJECT;
 use super::pdos::PDOS;
-use super::shape::{Key, KeyKind, Keys, Shape, U32};
+use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U32};
 use super::table::{joined, key_list, keys};
 use super::types::{TYPE, UNIT};
 
@@ -26,8 +26,8 @@ const MAIN_KEYS: &[Key] = key_list! {
     "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
     "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
     "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
-    "uses": Shape::List(&Shape::Text), "libraries of standard objects: `cia301`, `cia302`, `cia401`, `cia402`, or the path of a library file", "[cia301, cia402]";
-    "parts": Shape::List(&Shape::Text), "files that hold more of the sections below, each a part of the specification", "[errata.od.yaml]";
+    "uses": Shape::List(&Shape::NameOf(NameOf::LibraryFile)), "libraries of standard objects: `cia301`, `cia302`, `cia401`, `cia402`, or the path of a library file", "[cia301, cia402]";
+    "parts": Shape::List(&Shape::NameOf(NameOf::File)), "files that hold more of the sections below, each a part of the specification", "[errata.od.yaml]";
     "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
 };
 
@@ -41,7 +41,7 @@ const SECTION_KEYS: &[Key] = key_list! {
     "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
     "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
     "objects": Shape::MapOf(KeyKind::Indices, &Shape::OneOrMore(&Shape::Map(&OBJECT))), "the objects, by index or indices; a list where devices have different ones";
-    "pdos": Shape::MapOf(KeyKind::Name, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
+    "pdos": Shape::MapOf(KeyKind::Device, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
     "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
     "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";
     "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
@@ -52,7 +52,7 @@ const SECTION_KEYS: &[Key] = key_list! {
 /// The first keys of a part.
 const PART_KEYS: &[Key] = key_list! {
     "od-spec" required: Shape::Version, "version of the language; `1`";
-    "part-of" required: Shape::Text, "file of the specification, relative to this one", "pitch.od.yaml";
+    "part-of" required: Shape::NameOf(NameOf::File), "file of the specification, relative to this one", "pitch.od.yaml";
 };
 
 /// Top level of a specification.

@@ -1,6 +1,6 @@
 //! What libraries offer.
 
-use super::shape::{CHANNELS_OF_ELEMENT, INDICES, Key, Keys, Shape};
+use super::shape::{CHANNELS_OF_ELEMENT, INDICES, Key, Keys, NameOf, Shape};
 use super::table::keys;
 
 keys! {
@@ -9,9 +9,9 @@ keys! {
         "about": Shape::Words, "what the device can do with it";
         "implied": Shape::YesNo, "every device has it; no unless given";
         "objects" required: INDICES, "objects it brings", "[0x1003]";
-        "needs": Shape::List(&Shape::Text), "features it cannot be without", "[emergency]";
+        "needs": Shape::List(&Shape::NameOf(NameOf::Feature)), "features it cannot be without", "[emergency]";
         "channels": Shape::Integer(1, CHANNELS_OF_ELEMENT), "channels in each element of its arrays; a device says how many it has: `digital inputs 8-bit: 20`", "8";
-        "channels-of": Shape::Text, "feature that has as many channels, which this one needs; `channels` unless given is that of the other", "digital inputs 8-bit";
+        "channels-of": Shape::NameOf(NameOf::Feature), "feature that has as many channels, which this one needs; `channels` unless given is that of the other", "digital inputs 8-bit";
     }
 }
 

@@ -1,14 +1,14 @@
 //! State machines.
 
-use super::shape::{Key, KeyKind, Keys, NAMES, Shape, U8, U32};
+use super::shape::{DEVICES, Key, KeyKind, Keys, NameOf, Shape, U8, U32};
 use super::table::keys;
 use crate::model::ByDevice;
 
 macro_rules! machine_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "from": Shape::Text => from: Option<Name>, "library that defines a machine of this name; states, transitions and commands of one name or number go before the library's", "cia402";
-            "devices": NAMES => devices: Option<Vec<Name>>, "devices that have it; all unless given";
+            "from": Shape::NameOf(NameOf::Library) => from: Option<Name>, "library that defines a machine of this name; states, transitions and commands of one name or number go before the library's", "cia402";
+            "devices": DEVICES => devices: Option<Vec<Name>>, "devices that have it; all unless given";
             "status": Shape::Entry => status: Option<Name>, "entry that shows the state; needed without `from`", "0x6041";
             "command": Shape::Entry => command: Option<Name>, "entry that takes the commands; needed without `from`", "controlword";
             "states": Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)) => states: Vec<StateDecl>, "states by name";
@@ -42,8 +42,8 @@ state_keys! { keys
 macro_rules! transition_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "from": Shape::OneOrMore(&Shape::Text) => from: Vec<Name>, "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
-            "to": Shape::Text => to: Option<Name>, "state it enters";
+            "from": Shape::OneOrMore(&Shape::NameOf(NameOf::State)) => from: Vec<Name>, "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
+            "to": Shape::NameOf(NameOf::State) => to: Option<Name>, "state it enters";
             "event": Shape::Words => event: Words, "what causes it";
             "action": Shape::Words => action: Words, "what the device does";
             "by-device": Shape::Choice(ByDevice::WORDS) => by_device: Option<Spanned<ByDevice>>, "how the device makes it without a command: `automatic` when what it does in the state is done, `event` when something happens, `never`; `event` where no command causes it, `never` elsewhere", "automatic";

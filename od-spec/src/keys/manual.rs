@@ -1,6 +1,6 @@
 //! The printed manual.
 
-use super::shape::{INDICES, Key, Keys, NAMES, Shape};
+use super::shape::{DEVICES, INDICES, Key, Keys, NameOf, Shape};
 use super::table::keys;
 use crate::model::{Direction, ErratumKind};
 
@@ -8,7 +8,7 @@ macro_rules! erratum_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "at": Shape::OneOrMore(&Shape::Entry) => at: Vec<Name>, "objects or entries it is about", "[0x3004, 0x30FA.3]";
-            "devices": NAMES => devices: Option<Vec<Name>>, "devices it is about; unless given, those that have something of `at`; all without `at`";
+            "devices": DEVICES => devices: Option<Vec<Name>>, "devices it is about; unless given, those that have something of `at`; all without `at`";
             "kind" required: Shape::Choice(ErratumKind::WORDS) => kind: Option<Spanned<ErratumKind>>, "what kind of fact";
             "place" required: Shape::Words => place: Words, "where the manual prints it", "\"4.1.1.5, detail table\"";
             "prints" required: Shape::Words => prints: Words, "what it prints", "3003h";
@@ -47,14 +47,14 @@ keys! {
         "figure": Shape::ShortOr(&Shape::Integer(1, 9999), &FIGURE), "number of the picture that is drawn, as printed", "13";
         "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
         "objects": INDICES, "the objects' entries in detail";
-        "bits": Shape::ShortOr(&Shape::Text, &TABLE_BITS), "bits of a named type", "{type: PMM digital inputs, masks: 16}";
-        "values": Shape::Text, "values of a named type";
-        "errors": Shape::OneOrMore(&Shape::Text), "error codes, or `all`", "[0x2210, 0x3281..0x3288]";
-        "reactions": Shape::OneOrMore(&Shape::Text), "error codes with the device's reactions, or `all`";
-        "states": Shape::Text, "states of a state machine";
-        "transitions": Shape::Text, "transitions of a state machine";
-        "commands": Shape::Text, "commands of a state machine";
-        "ladder": Shape::ShortOr(&Shape::Text, &TABLE_LADDER), "entries of an ordering constraint with their defaults";
+        "bits": Shape::ShortOr(&Shape::NameOf(NameOf::NamedType), &TABLE_BITS), "bits of a named type", "{type: PMM digital inputs, masks: 16}";
+        "values": Shape::NameOf(NameOf::NamedType), "values of a named type";
+        "errors": Shape::OneOrMore(&Shape::NameOf(NameOf::Errors)), "error codes, or `all`", "[0x2210, 0x3281..0x3288]";
+        "reactions": Shape::OneOrMore(&Shape::NameOf(NameOf::Errors)), "error codes with the device's reactions, or `all`";
+        "states": Shape::NameOf(NameOf::Machine), "states of a state machine";
+        "transitions": Shape::NameOf(NameOf::Machine), "transitions of a state machine";
+        "commands": Shape::NameOf(NameOf::Machine), "commands of a state machine";
+        "ladder": Shape::ShortOr(&Shape::NameOf(NameOf::Constraint), &TABLE_LADDER), "entries of an ordering constraint with their defaults";
         "timing": Shape::Map(&TIMING), "a sequence of events, drawn as levels of signals";
         "hysteresis": Shape::OneOrMore(&Shape::Map(&SWITCH)), "what goes on beyond a threshold and off behind it, drawn with the values of the defaults";
         "flow": Shape::OneOrMore(&Shape::Map(&BLOCK)), "blocks, and what goes from one to another, drawn as a block diagram";
@@ -77,7 +77,7 @@ keys! {
 keys! {
     /// `bits:` of a table.
     TABLE_BITS = "a bit table" {
-        "type" required: Shape::Text, "name of the bit field type";
+        "type" required: Shape::NameOf(NameOf::NamedType), "name of the bit field type";
         "masks": Shape::Integer(1, 64), "shows the mask of each bit, too: its width in bits; bits beyond it have none";
     }
 }
@@ -85,7 +85,7 @@ keys! {
 keys! {
     /// `ladder:` of a table.
     TABLE_LADDER = "a ladder" {
-        "constraint" required: Shape::Text, "name of the constraint";
+        "constraint" required: Shape::NameOf(NameOf::Constraint), "name of the constraint";
         "labels": Shape::List(&Shape::Words), "what each of its entries is called there, in the constraint's order", "[lowest voltage, highest voltage]";
     }
 }
@@ -93,7 +93,7 @@ keys! {
 keys! {
     /// `pdos:` of a table.
     TABLE_PDOS = "a PDO table" {
-        "device" required: Shape::Text, "key of the device";
+        "device" required: Shape::NameOf(NameOf::Device), "key of the device";
         "direction" required: Shape::Choice(Direction::WORDS), "direction, seen from the device";
     }
 }
@@ -124,8 +124,8 @@ timing_keys! { keys
 macro_rules! signal_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "type": Shape::Text => named_type: Option<Name>, "bit field type that has the bit", "controlword";
-            "bit": Shape::Text => bit: Option<Name>, "bit or run of bits of the type: its name, also one that it has in a mode of operation only, or its number", "new set-point";
+            "type": Shape::NameOf(NameOf::NamedType) => named_type: Option<Name>, "bit field type that has the bit", "controlword";
+            "bit": Shape::NameOf(NameOf::Bit) => bit: Option<Name>, "bit or run of bits of the type: its name, also one that it has in a mode of operation only, or its number", "new set-point";
             "entry": Shape::Entry => entry: Option<Name>, "entry whose value it is, in place of `type` and `bit`", "0x607A";
             "levels" required: Shape::List(&Shape::Value) => levels: Option<Spanned<Levels>>, "the level before the first step, then that behind each step", "[0, 0, 1, 1, 0]";
         } }
@@ -176,10 +176,10 @@ macro_rules! block_keys {
         $then! { $($head)* {
             "block" required: Shape::Words => name: Words, "what it is; the name by which later blocks know it", "ramp generator";
             "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries or objects whose values it has or that set it up", "[0x6083, 0x6084]";
-            "type": Shape::Text => named_type: Option<Name>, "bit field type that has the bit", "controlword";
-            "bit": Shape::Text => bit: Option<Name>, "bit or run of bits of the type that it is, or that acts on it", "halt";
+            "type": Shape::NameOf(NameOf::NamedType) => named_type: Option<Name>, "bit field type that has the bit", "controlword";
+            "bit": Shape::NameOf(NameOf::Bit) => bit: Option<Name>, "bit or run of bits of the type that it is, or that acts on it", "halt";
             "does": Shape::Words => does: Words, "what it does", "limits the velocity";
-            "from": Shape::OneOrMore(&Shape::ShortOr(&Shape::Text, &INFLOW)) => from: Vec<Spanned<InflowDecl>>, "earlier blocks from which it takes something: an arrow leads from each", "[target position, limits]";
+            "from": Shape::OneOrMore(&Shape::ShortOr(&Shape::NameOf(NameOf::Block), &INFLOW)) => from: Vec<Spanned<InflowDecl>>, "earlier blocks from which it takes something: an arrow leads from each", "[target position, limits]";
         } }
     };
 }
@@ -193,7 +193,7 @@ block_keys! { keys
 keys! {
     /// What a block takes from another.
     INFLOW = "what a block takes from another" {
-        "block" required: Shape::Text, "name of the earlier block", "ramp generator";
+        "block" required: Shape::NameOf(NameOf::Block), "name of the earlier block", "ramp generator";
         "carries": Shape::Words, "what comes from there; stands at the arrow", "set-point";
     }
 }
@@ -233,8 +233,8 @@ macro_rules! span_keys {
         $then! { $($head)* {
             "span" required: Shape::Words => name: Words, "what it is", "position window";
             "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries that say how long it is, or that act there", "0x6067";
-            "from": Shape::Text => from: Option<Name>, "mark where it begins; without it, it has no lower end", "target position";
-            "to": Shape::Text => to: Option<Name>, "mark where it ends; without it, it has no upper end", "upper edge";
+            "from": Shape::NameOf(NameOf::Mark) => from: Option<Name>, "mark where it begins; without it, it has no lower end", "target position";
+            "to": Shape::NameOf(NameOf::Mark) => to: Option<Name>, "mark where it ends; without it, it has no upper end", "upper edge";
             "does": Shape::Words => does: Words, "what holds there", "the target counts as reached";
         } }
     };

@@ -1,14 +1,14 @@
 //! Objects and their shapes.
 
 use super::entry::{ENTRY, NAME_KEYS, SUB0_KEYS, VALUE_KEYS};
-use super::shape::{INDICES, Key, KeyKind, Keys, NAMES, Shape};
+use super::shape::{DEVICES, INDICES, Key, KeyKind, Keys, NameOf, Shape};
 use super::table::{joined, key_list};
 use crate::model::{Outside, Rounding};
 
 /// Keys that only objects have.
 const OBJECT_KEYS: &[Key] = key_list! {
-    "devices": NAMES, "devices that have the object; all unless given", "[pmm, pmc]";
-    "from": Shape::Text, "library that defines the object; the other keys say what differs", "cia301";
+    "devices": DEVICES, "devices that have the object; all unless given", "[pmm, pmc]";
+    "from": Shape::NameOf(NameOf::Library), "library that defines the object; the other keys say what differs", "cia301";
     "like": Shape::Index, "object of the same devices that this one is like; the other keys say what differs", "0x3202";
     "alias": Shape::Entry, "makes it a view of another entry, in a narrower type or another unit, without storage of its own", "0x6064";
     "outside": Shape::Choice(Outside::WORDS), "what an alias gives outside its range; saturate unless given";

@@ -103,6 +103,43 @@ pub enum Shape {
     ShortOr(&'static Shape, &'static Keys),
     /// The name of a feature; behind a colon, how many channels it has, where it has some.
     Feature,
+    /// The name of something that is defined elsewhere.
+    NameOf(NameOf),
+}
+
+/// What a text is the name of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NameOf {
+    /// A unit.
+    Unit,
+    /// An enum or a bit field.
+    NamedType,
+    /// A data type.
+    DataType,
+    /// A library among those that are used.
+    Library,
+    /// A library that is built in, or the path of one.
+    LibraryFile,
+    /// The path of a file of the specification.
+    File,
+    /// A device.
+    Device,
+    /// A feature of a library.
+    Feature,
+    /// A bit or run of bits of the type that is named beside it; its name or its number.
+    Bit,
+    /// A state of the state machine; `start` and `any` are others.
+    State,
+    /// A state machine.
+    Machine,
+    /// A constraint.
+    Constraint,
+    /// An error code, or a run of them; `all` is every one.
+    Errors,
+    /// An earlier block of the diagram.
+    Block,
+    /// A mark of the axis.
+    Mark,
 }
 
 /// What a name with placeholders is the name of.
@@ -119,6 +156,8 @@ pub enum NumberedName {
 pub enum KeyKind {
     /// A name.
     Name,
+    /// The key of a device that is described elsewhere.
+    Device,
     /// A short key of lower-case letters, digits and `-`, which also names the device's files.
     DeviceKey,
     /// A name of letters, digits, `-` and `_`, which also names folders and files.
@@ -164,5 +203,5 @@ pub(super) const CHANNELS_OF_ELEMENT: i128 = 64;
 
 pub(super) const U8: Shape = Shape::Integer(0, 0xFF);
 pub(super) const U32: Shape = Shape::Integer(0, 0xFFFF_FFFF);
-pub(super) const NAMES: Shape = Shape::OneOrMore(&Shape::Text);
+pub(super) const DEVICES: Shape = Shape::OneOrMore(&Shape::NameOf(NameOf::Device));
 pub(super) const INDICES: Shape = Shape::List(&Shape::Index);

@@ -1,6 +1,6 @@
 //! Units, enums and bit fields.
 
-use super::shape::{Key, KeyKind, Keys, Shape};
+use super::shape::{Key, KeyKind, Keys, NameOf, Shape};
 use super::table::keys;
 
 macro_rules! unit_keys {
@@ -25,7 +25,7 @@ unit_keys! { keys
 keys! {
     /// A named type.
     TYPE = "a type" {
-        "base" required: Shape::Text, "data type on the bus", "unsigned8";
+        "base" required: Shape::NameOf(NameOf::DataType), "data type on the bus", "unsigned8";
         "about": Shape::Words, "meaning";
         "values": Shape::MapOf(KeyKind::Integer, &Shape::ShortOr(&Shape::Text, &ENUM_VALUE)), "makes it an enum: names by value", "{0: off, 1: on}";
         "bits": Shape::MapOf(KeyKind::Bits, &Shape::ShortOr(&Shape::Text, &BIT)), "makes it a bit field: names by bit or bits; the short forms `reserved` and `unused` mark bits without meaning", "{0: ready, 1..3: mode, 4..7: reserved}";

@@ -76,7 +76,7 @@ pub(super) fn cell(text: &str) -> String {
 /// What a value looks like, in a few words.
 fn value(shape: Shape) -> String {
     match shape {
-        Shape::Text => "text".to_owned(),
+        Shape::Text | Shape::NameOf(_) => "text".to_owned(),
         Shape::HeaderText => "text, or `\"\"`".to_owned(),
         Shape::Words => "text, or text by language".to_owned(),
         Shape::Choice(words) => one_of(words),
@@ -125,7 +125,7 @@ fn one_of(words: &[&str]) -> String {
 
 const fn key_kind(kind: KeyKind) -> &'static str {
     match kind {
-        KeyKind::Name => "name",
+        KeyKind::Name | KeyKind::Device => "name",
         KeyKind::DeviceKey => "short key of lower-case letters, digits and `-`",
         KeyKind::Language => "language code",
         KeyKind::Indices => "index or indices",

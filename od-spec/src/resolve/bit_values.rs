@@ -126,7 +126,7 @@ pub(super) fn field<'a>(
             );
             let meant = diagnostics.suggestions.nearest(&name.value, fields.iter().flat_map(names));
             diagnostics.push(match meant {
-                Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+                Some(word) => diagnostic.did_you_mean(word),
                 None => diagnostic.help(format!("write the name of a bit, or {instead}")),
             });
             None
@@ -172,16 +172,16 @@ pub(super) fn value_of(field: &BitField, text: &Name, diagnostics: &mut Diagnost
         )
         .label(format!("allowed: 0 to {}", highest(field)))
         .help("correct the value"),
-        (None, meant) => Diagnostic::new(
-            rule_codes::UNKNOWN_ENUM_VALUE,
-            text.span,
-            format!("`{shown}` is no value of `{}`", shorten(&field.name)),
-        )
-        .help(match meant {
-            Some(word) => format!("did you mean `{word}`?"),
-            None if field.values.is_empty() => format!("write a number, 0 to {}", highest(field)),
-            None => format!("write a number, 0 to {}, or one of {}", highest(field), values::list(names())),
-        }),
+        (None, meant) => {
+            let message = format!("`{shown}` is no value of `{}`", shorten(&field.name));
+            let diagnostic = Diagnostic::new(rule_codes::UNKNOWN_ENUM_VALUE, text.span, message);
+            let number = format!("write a number, 0 to {}", highest(field));
+            match meant {
+                Some(word) => diagnostic.did_you_mean(word),
+                None if field.values.is_empty() => diagnostic.help(number),
+                None => diagnostic.help(format!("{number}, or one of {}", values::list(names()))),
+            }
+        }
     });
     None
 }

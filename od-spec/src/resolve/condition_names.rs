@@ -219,10 +219,9 @@ impl Lookup for OfDevice<'_, '_> {
             let meant = self.diagnostics.suggestions.nearest(name.text, names).filter(|_| as_entry.is_none());
             let Some(meant) = meant else { return self.entry(name).map(Operand::Entry) };
             let message = format!("`{}` is no value of `{}`", shorten(name.text), shorten(&entry.name));
-            let help = format!("did you mean `{meant}`?");
             self.diagnostics.push(
                 Diagnostic::new(rule_codes::UNKNOWN_ENUM_VALUE, inside(self.text, &name.range), message)
-                    .help(help),
+                    .did_you_mean(meant),
             );
             return None;
         };

@@ -170,17 +170,15 @@ fn check_known(
         if let Some(key) = &entry.device
             && !devices.has(key)
         {
-            let keys = devices.keys();
-            let help = diagnostics
-                .suggestions
-                .nearest(key, keys)
-                .map_or("name a device of the specification".to_owned(), |word| {
-                    format!("did you mean `{word}`?")
-                });
-            diagnostics.push(
-                Diagnostic::new(codes::UNKNOWN_DEVICE, place, format!("there is no device `{key}`"))
-                    .help(help),
-            );
+            let text = Spanned::new(condition.value.text.as_str(), condition.span);
+            let place = inside(text, &(range.start..range.start + key.len()));
+            let diagnostic =
+                Diagnostic::new(codes::UNKNOWN_DEVICE, place, format!("there is no device `{key}`"));
+            let meant = diagnostics.suggestions.nearest(key, devices.keys());
+            diagnostics.push(match meant {
+                Some(word) => diagnostic.did_you_mean(word),
+                None => diagnostic.help("name a device of the specification"),
+            });
             known = false;
         } else if devices.entry(entry).is_none() {
             if !broken.has(entry.id.index) {

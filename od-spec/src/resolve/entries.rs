@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::bit_values;
 use super::defaults;
-use super::scope::{Scope, unknown};
+use super::scope::{Scope, unknown_or};
 use super::surroundings::{EdsDefaults, Surroundings};
 use super::types::words;
 use super::values::{self, Expected};
@@ -192,11 +192,13 @@ pub(super) fn entry_type(
         let known = named.chain(DataType::ALL.iter().map(|data_type| data_type.name()));
         let elsewhere = DataType::called_elsewhere(&name.value);
         let known = known.filter(|_| elsewhere.is_none());
-        let otherwise = match elsewhere {
-            Some(data_type) => format!("write `{}`", data_type.name()),
-            None => "write a data type such as `unsigned16`, or define the name under `types:`".to_owned(),
+        let otherwise = |diagnostic: Diagnostic| match elsewhere {
+            Some(data_type) => diagnostic.write(data_type.name()),
+            None => {
+                diagnostic.help("write a data type such as `unsigned16`, or define the name under `types:`")
+            }
         };
-        unknown(codes::UNKNOWN_TYPE, name, "type", known, &otherwise, diagnostics);
+        unknown_or(codes::UNKNOWN_TYPE, name, "type", known, otherwise, diagnostics);
     }
     None
 }

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::libraries::{self, Libraries};
-use super::scope::unknown;
+use super::scope::unknown_or;
 use crate::ast::{DeviceDecl, FeatureDecl, Name, Spec};
-use crate::diag::{Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::shipped;
 use crate::source::Spanned;
 
@@ -55,17 +55,18 @@ pub(super) fn of_device<'a>(
                     diagnostics.push(libraries::not_used(codes::UNKNOWN_FEATURE, &name, message, library));
                     continue;
                 }
-                let alike: Vec<String> =
-                    libraries.features_with(&name.value).iter().map(|known| format!("`{known}`")).collect();
-                let otherwise = if libraries.is_empty() {
-                    "add `uses: [cia301]` to the specification; features come from libraries".to_owned()
-                } else if alike.is_empty() {
-                    "`odgen reference` lists the features of the libraries".to_owned()
-                } else {
-                    format!("did you mean {}?", alike.join(" or "))
+                let otherwise = |diagnostic: Diagnostic| match libraries.features_with(&name.value)[..] {
+                    [] if libraries.is_empty() => diagnostic
+                        .help("add `uses: [cia301]` to the specification; features come from libraries"),
+                    [] => diagnostic.help("`odgen reference` lists the features of the libraries"),
+                    [alike] => diagnostic.did_you_mean(alike),
+                    ref alike => {
+                        let alike: Vec<String> = alike.iter().map(|known| format!("`{known}`")).collect();
+                        diagnostic.help(format!("did you mean {}?", alike.join(" or ")))
+                    }
                 };
                 let known = libraries.features();
-                unknown(codes::UNKNOWN_FEATURE, &name, "feature", known, &otherwise, diagnostics);
+                unknown_or(codes::UNKNOWN_FEATURE, &name, "feature", known, otherwise, diagnostics);
             }
         }
     }

@@ -133,7 +133,7 @@ fn objects_in(reference: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Entries of one device by name: `controlword`, `drive data.error mask`.
-pub(super) struct Names<'a> {
+pub(crate) struct Names<'a> {
     /// By name; of one name, in the order in which they were given.
     objects: Vec<&'a Object>,
     /// What can be written, for suggestions.
@@ -143,7 +143,7 @@ pub(super) struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    pub(super) fn new(objects: impl IntoIterator<Item = &'a Object>) -> Self {
+    pub(crate) fn new(objects: impl IntoIterator<Item = &'a Object>) -> Self {
         let mut objects: Vec<&Object> = objects.into_iter().collect();
         objects.sort_by(|one, other| one.name.cmp(&other.name));
         Self { objects, all: OnceCell::new(), indices: OnceCell::new() }
@@ -162,7 +162,7 @@ impl<'a> Names<'a> {
     }
 
     /// The entry of a name.
-    pub(super) fn get(&self, name: &str) -> Option<EntryId> {
+    pub(crate) fn get(&self, name: &str) -> Option<EntryId> {
         let whole = || Some(EntryId { index: self.named(name).next()?.index, sub: SubIndex(0) });
         let member = || {
             name.match_indices('.').find_map(|(dot, _)| {
@@ -231,8 +231,8 @@ fn find(
         let meant = diagnostics.suggestions.nearest(text, known);
         diagnostics.push(match (broken.owners_of_name(text), lexical::with_0x(text), meant) {
             (Some(owners), ..) => diagnostic.help(owners.help()),
-            (None, Some(index), _) => diagnostic.help(format!("did you mean `{index}`?")),
-            (None, None, Some(name)) => diagnostic.help(format!("did you mean `{name}`?")),
+            (None, Some(index), _) => diagnostic.did_you_mean(&index),
+            (None, None, Some(name)) => diagnostic.did_you_mean(name),
             (None, None, None) => {
                 diagnostic.help("write an object's name, `object.entry` for a member, or an index")
             }

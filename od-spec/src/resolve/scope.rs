@@ -72,17 +72,14 @@ impl Scope {
     pub(super) fn unit(&self, name: &Name, diagnostics: &mut Diagnostics) -> Option<Arc<Unit>> {
         let unit = self.units.get(&name.value);
         if unit.is_none() && !self.is_broken(&name.value) {
-            let by_symbol = self.symbols.get(&name.value);
-            unknown(
-                codes::UNKNOWN_UNIT,
-                name,
-                "unit",
-                self.units.keys().map(String::as_str),
-                &by_symbol.map_or("define it under `units:`".to_owned(), |unit| {
-                    format!("that is the symbol of `{}`; write the unit's name", unit.name)
-                }),
-                diagnostics,
-            );
+            let known = self.units.keys().map(String::as_str);
+            let otherwise = |diagnostic: Diagnostic| match self.symbols.get(&name.value) {
+                Some(unit) => diagnostic
+                    .help(format!("that is the symbol of `{}`; write the unit's name", unit.name))
+                    .meant(&unit.name),
+                None => diagnostic.help("define it under `units:`"),
+            };
+            unknown_or(codes::UNKNOWN_UNIT, name, "unit", known, otherwise, diagnostics);
         }
         unit.cloned()
     }
@@ -97,6 +94,18 @@ pub(super) fn unknown<'a>(
     otherwise: &str,
     diagnostics: &mut Diagnostics,
 ) {
+    unknown_or(code, name, what, known, |diagnostic| diagnostic.help(otherwise), diagnostics);
+}
+
+/// [`unknown`], with more to say where no known name is near.
+pub(super) fn unknown_or<'a>(
+    code: &'static Code,
+    name: &Name,
+    what: &str,
+    known: impl IntoIterator<Item = &'a str>,
+    otherwise: impl FnOnce(Diagnostic) -> Diagnostic,
+    diagnostics: &mut Diagnostics,
+) {
     if !diagnostics.is_new(code, name.span) {
         return;
     }
@@ -104,8 +113,8 @@ pub(super) fn unknown<'a>(
         Diagnostic::new(code, name.span, format!("there is no {what} `{}`", shorten(&name.value)));
     let meant = diagnostics.suggestions.nearest(&name.value, known);
     diagnostics.push(match meant {
-        Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
-        None => diagnostic.help(otherwise.to_owned()),
+        Some(word) => diagnostic.did_you_mean(word),
+        None => otherwise(diagnostic),
     });
 }
 

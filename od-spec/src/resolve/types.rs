@@ -19,17 +19,12 @@ pub(super) fn resolve(decl: &TypeDecl, maker: FileId, diagnostics: &mut Diagnost
         let integers =
             DataType::ALL.into_iter().filter(|data_type| data_type.is_integer()).map(DataType::name);
         let meant = diagnostics.suggestions.nearest(&name.value, integers);
-        diagnostics.push(
-            Diagnostic::new(
-                codes::BAD_BASE_TYPE,
-                name.span,
-                format!("`{}` cannot carry values or bits", shorten(&name.value)),
-            )
-            .help(match meant {
-                Some(word) if word != name.value => format!("did you mean `{word}`?"),
-                _ => "write an integer type such as `unsigned16`".to_owned(),
-            }),
-        );
+        let message = format!("`{}` cannot carry values or bits", shorten(&name.value));
+        let diagnostic = Diagnostic::new(codes::BAD_BASE_TYPE, name.span, message);
+        diagnostics.push(match meant {
+            Some(word) if word != name.value => diagnostic.did_you_mean(word),
+            _ => diagnostic.help("write an integer type such as `unsigned16`"),
+        });
         return None;
     };
     let (low, high) = base.range()?;

@@ -123,7 +123,7 @@ fn integer(
                     format!("`{}` is not a value of this enum", shown()),
                 );
                 return Err(Box::new(match suggestions.nearest(text, names.clone()) {
-                    Some(word) => diagnostic.help(format!("did you mean `{word}`?")),
+                    Some(word) => diagnostic.did_you_mean(word),
                     None => diagnostic.help(format!("its values are {}", list(names))),
                 }));
             }
@@ -289,10 +289,7 @@ fn steps<'a>(
     };
     if let Some(decimals) = symbol.strip_prefix(',') {
         let with_dot = format!("{number}.{decimals}");
-        return Err(Box::new(
-            Diagnostic::new(codes::BAD_VALUE, span, "a decimal comma")
-                .help(format!("write `{}`", shorten(&with_dot))),
-        ));
+        return Err(Box::new(Diagnostic::new(codes::BAD_VALUE, span, "a decimal comma").write(&with_dot)));
     }
     let (Some(step), Some(offset)) = (unit.step_in(symbol), unit.offset_in(symbol)) else {
         let base = unit.base_symbol();

@@ -4,6 +4,8 @@
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
 
+mod lenient;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use granit_parser::{Event, Parser, ScalarStyle};
@@ -11,6 +13,8 @@ use granit_parser::{Event, Parser, ScalarStyle};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
 use crate::visible::turning;
+
+pub use lenient::lenient;
 
 /// Deepest nesting that is read.
 const MAX_DEPTH: usize = 64;
@@ -212,7 +216,8 @@ pub(crate) fn parse_as(
 fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
     for (at, c) in turning(text) {
         let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-        diagnostics.push(turned(Span { file: id, start: place(at), end: place(at + c.len_utf8()) }, c));
+        let span = Span { file: id, start: place(at), end: place(at + c.len_utf8()) };
+        diagnostics.push(turned(span, c).edit(span, ""));
     }
 }
 
@@ -357,10 +362,15 @@ impl Builder<'_> {
 
     fn refuse_tag(&mut self, value: Span) {
         let span = self.tag_before(value);
-        self.diagnostics.push(
-            Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
-                .help("remove the tag; the place decides how a value is read"),
-        );
+        let diagnostic = Diagnostic::new(codes::YAML_TAG, span, "YAML tags (`!name`) have no meaning here")
+            .help("remove the tag; the place decides how a value is read");
+        self.diagnostics.push(if span == value {
+            diagnostic
+        } else {
+            let behind = self.text.get(span.end as usize..).unwrap_or_default();
+            let blanks = behind.len() - behind.trim_start_matches(' ').len();
+            diagnostic.edit(self.range(span.start as usize, span.end as usize + blanks), "")
+        });
     }
 
     /// The tag that stands before a value, perhaps with an anchor between them; else the value.

@@ -8,6 +8,7 @@
 
 mod bytes_and_libraries;
 mod cases;
+mod changes;
 mod codes;
 mod commissioning_examples;
 mod other_yaml_reader;

@@ -193,6 +193,8 @@ pub(crate) enum Command {
     Fix(FixArgs),
     /// Lay out specifications: indentation and blanks; comments, order and facts stay
     Fmt(FmtArgs),
+    /// Serve an editor: the Language Server Protocol on standard input and output
+    Lsp(LspArgs),
     /// Write a commented specification to start from
     New(NewArgs),
     /// Talk to nodes on a bus, by an adapter with SLCAN (TCP or serial) or a CAN interface
@@ -225,6 +227,13 @@ pub(crate) enum Command {
         #[arg(value_enum)]
         shell: clap_complete::Shell,
     },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LspArgs {
+    /// Standard input and output; editors say it, and there is nothing else
+    #[arg(long)]
+    pub stdio: bool,
 }
 
 #[derive(Debug, Args)]

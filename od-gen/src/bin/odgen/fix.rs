@@ -7,6 +7,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use od_gen::files::replace;
+use od_gen::line_diff::line_diff;
 use od_spec::diag::{Code, Diagnostic, codes};
 use od_spec::eds::Document;
 use od_spec::encoding::decode;
@@ -16,7 +17,7 @@ use od_spec::{Fixed, fix};
 use similar::{ChangeTag, DiffOp, group_diff_ops};
 
 use super::args::FixArgs;
-use super::line_diff::line_diff;
+
 use super::output::not_written;
 use super::report::{Report, print};
 use super::{ERRORS, SUCCESS};

@@ -20,6 +20,7 @@ mod language;
 mod line_diff;
 mod link;
 mod listing;
+mod lsp;
 mod new;
 mod node;
 mod output;
@@ -80,6 +81,7 @@ fn main() -> ExitCode {
         Command::Import(args) => import::run(&args, &report),
         Command::Fix(args) => fix::run(&args, &report),
         Command::Fmt(args) => fmt::run(&args, directory, &report),
+        Command::Lsp(_) => lsp::run(&report),
         Command::New(args) => new::run(&args, &report),
         Command::Node(args) => node::run(&args, directory, &report),
         Command::Params(args) => params::run(&args, &report),

@@ -37,6 +37,8 @@ pub(crate) enum Part {
     Dbc,
     /// Structured Text, parsed by a parser that others wrote, and evaluated.
     StructuredText,
+    /// `odgen lsp`, asked by a client that others wrote.
+    LanguageServer,
     /// A client that others wrote, against the generated Rust.
     SdoClient,
     Browser,
@@ -82,7 +84,7 @@ pub(crate) enum Readiness {
 }
 
 impl Part {
-    pub(crate) const ALL: [Part; 20] = [
+    pub(crate) const ALL: [Part; 22] = [
         Part::Rust,
         Part::Mutants,
         Part::ReadersSelfTest,
@@ -97,6 +99,7 @@ impl Part {
         Part::Plant,
         Part::Dbc,
         Part::StructuredText,
+        Part::LanguageServer,
         Part::SdoClient,
         Part::Browser,
         Part::Manuals,
@@ -122,6 +125,7 @@ impl Part {
             Part::Plant => "EDS readers: a plant",
             Part::Dbc => "DBC readers",
             Part::StructuredText => "Structured Text",
+            Part::LanguageServer => "language server",
             Part::SdoClient => "SDO client",
             Part::Browser => "documents in a browser",
             Part::Manuals => "manuals on paper",
@@ -147,6 +151,7 @@ impl Part {
             | Part::Plant
             | Part::Dbc
             | Part::StructuredText
+            | Part::LanguageServer
             | Part::SdoClient => Area::Readers,
             Part::Browser | Part::Manuals => Area::Browser,
             Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware | Part::PlainC => Area::Firmware,
@@ -169,6 +174,7 @@ impl Part {
             | Part::Plant
             | Part::Dbc
             | Part::StructuredText
+            | Part::LanguageServer
             | Part::Manuals
             | Part::FirmwareSizes
             | Part::PlainC => Turn::Beside,
@@ -192,6 +198,7 @@ impl Part {
             | Part::Plant
             | Part::Dbc
             | Part::StructuredText
+            | Part::LanguageServer
             | Part::SdoClient => &[Tool::Python],
             Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
             Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
@@ -221,6 +228,7 @@ impl Part {
             | Part::Plant
             | Part::Dbc
             | Part::StructuredText
+            | Part::LanguageServer
             | Part::Browser
             | Part::Manuals
             | Part::FirmwareSizes
@@ -266,6 +274,7 @@ impl Part {
             Part::Plant => readers::plant(runner),
             Part::Dbc => readers::dbc(runner),
             Part::StructuredText => readers::structured_text(runner),
+            Part::LanguageServer => readers::language_server(runner),
             Part::SdoClient => readers::sdo_client(runner),
             Part::Browser => browser::read_documents(runner),
             Part::Manuals => manuals::print(runner),

@@ -172,6 +172,15 @@ pub(crate) fn structured_text(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
 }
 
+/// Sessions of a client that others wrote with `odgen lsp`.
+pub(crate) fn language_server(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let mut command = Command::new(&python);
+    command.arg("tests/readers/lsp_client.py").arg("--odgen");
+    command.arg(std::env::current_exe()?.with_file_name("odgen"));
+    runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
+}
+
 /// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
 /// and `odgen node` against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use od_gen::rust;
-use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input};
+use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input, remark};
 use od_spec::diag::render::Findings;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
-use od_spec::eds::{is_eds, readers};
+use od_spec::eds::is_eds;
 use od_spec::source::SourceMap;
 use od_spec::xdd::is_xdd;
-use od_spec::{Compiled, Strictness, departures};
+use od_spec::{Compiled, Strictness};
 
 use super::inputs::Input;
 use super::policy::{Errors, Policy};
@@ -53,21 +53,21 @@ impl Checked {
 pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked {
     let strictness = if args.strict { Strictness::Standard } else { Strictness::Foreign };
     let mut sources = SourceMap::new();
-    let Compiled { system, mut diagnostics, .. } = compile(input, strictness, &mut sources);
-    let kind = match sources.files().next() {
+    let mut compiled = compile(input, strictness, &mut sources);
+    let root = sources.files().next().map(|(id, _)| id);
+    if let Some(root) = root {
+        remark(&sources, root, &mut compiled);
+    }
+    let Compiled { system, mut diagnostics, .. } = compiled;
+    let kind = match root.map(|root| sources.file(root)) {
         None => Kind::Unknown,
-        Some((id, file)) if is_eds(file.name(), file.text()) => {
-            readers::mark(&sources, id, &mut diagnostics);
-            Kind::Eds
-        }
-        Some((_, file)) if is_xdd(file.name(), file.text()) => Kind::Eds,
+        Some(file) if is_eds(file.name(), file.text()) || is_xdd(file.name(), file.text()) => Kind::Eds,
         Some(_) => Kind::Specification,
     };
     if let Some(system) = &system {
         for device in system.devices.iter().filter(|_| args.rust) {
             let _ = rust::tokens(system, device, &mut diagnostics);
         }
-        diagnostics.append(departures(system));
         diagnostics.sort();
     }
     let errors = match kind {

@@ -6,7 +6,7 @@ use similar::{Algorithm, DiffOp, capture_diff_slices};
 const WINDOW: usize = 64;
 
 /// How to come from one list of lines to the other.
-pub(crate) fn line_diff(old: &[&str], new: &[&str]) -> Vec<DiffOp> {
+pub fn line_diff(old: &[&str], new: &[&str]) -> Vec<DiffOp> {
     let (mut i, mut j) = (0, 0);
     let mut ops = Vec::new();
     loop {

@@ -1,0 +1,174 @@
+//! What an editor shows between the letters: the raw value behind a physical one, where an entry lies in a PDO, the identifier of a PDO.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use lsp_types::{InlayHint, InlayHintLabel, InlayHintTooltip, Position, Range};
+use od_spec::model::{Direction, Pdo, System, Value};
+use od_spec::scalar;
+use od_spec::source::{Span, Spanned};
+use od_spec::yaml::Node;
+use serde_json::Value as Json;
+
+use super::analysis::{Analysis, Kind};
+use super::hover::{Words, fact_of, value_of};
+use super::snapshot::Snapshot;
+
+/// A kind of hint, which a client can do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Hint {
+    /// The raw value behind a physical one.
+    RawValue,
+    /// Byte and bit of an entry in a PDO.
+    PdoPlace,
+    /// The identifier of a PDO.
+    CobId,
+}
+
+impl Hint {
+    const ALL: [Hint; 3] = [Hint::RawValue, Hint::PdoPlace, Hint::CobId];
+
+    /// Its name in the options.
+    const fn name(self) -> &'static str {
+        match self {
+            Hint::RawValue => "raw-values",
+            Hint::PdoPlace => "pdo-places",
+            Hint::CobId => "cob-ids",
+        }
+    }
+
+    /// The hints that a client wants: those that its `initializationOptions` list under `inlayHints`, or all.
+    pub(super) fn wanted(options: Option<&Json>) -> BTreeSet<Hint> {
+        let listed = options.and_then(|options| options.get("inlayHints")).and_then(Json::as_array);
+        let is_wanted = |hint: &Hint| {
+            listed.is_none_or(|listed| listed.iter().any(|name| name.as_str() == Some(hint.name())))
+        };
+        Self::ALL.into_iter().filter(is_wanted).collect()
+    }
+}
+
+/// The hints in a range of a document.
+pub(super) fn hints(snapshot: &Snapshot, range: Range, wanted: &BTreeSet<Hint>) -> Vec<InlayHint> {
+    let Some(good) = snapshot.good.as_ref().filter(|_| snapshot.now.kind == Kind::Specification) else {
+        return Vec::new();
+    };
+    let Some(system) = &good.system else { return Vec::new() };
+    let mut hints = Vec::new();
+    if wanted.contains(&Hint::RawValue) {
+        hints.extend(raw_values(snapshot, good, system));
+    }
+    hints.extend(of_pdos(snapshot, system, wanted));
+    hints.retain(|hint| range.start <= hint.position && hint.position <= range.end);
+    hints.sort_by_key(|hint| hint.position);
+    hints
+}
+
+fn hint(position: Position, label: String, about: &str) -> InlayHint {
+    InlayHint {
+        position,
+        label: InlayHintLabel::String(label),
+        kind: None,
+        text_edits: None,
+        tooltip: Some(InlayHintTooltip::String(about.to_owned())),
+        padding_left: Some(true),
+        padding_right: None,
+        data: None,
+    }
+}
+
+/// The raw values behind values that are written with a unit.
+fn raw_values(snapshot: &Snapshot, good: &Arc<Analysis>, system: &System) -> Vec<InlayHint> {
+    let mut seen: BTreeSet<(Span, String)> = BTreeSet::new();
+    let file = snapshot.now.place(snapshot.file);
+    for device in &system.devices {
+        for (_, _, entry) in device.entries().filter(|(_, _, entry)| entry.unit.is_some()) {
+            for fact in ["default", "min", "max"].into_iter().filter_map(fact_of) {
+                let Some(stated) = entry.facts.get(fact) else { continue };
+                if good.place(stated.span.file) != file {
+                    continue;
+                }
+                let Some(Value::Integer(raw)) = value_of(entry, fact) else { continue };
+                let written = good.sources.text(stated.span).trim_matches(['"', '\'']);
+                // What is a number as it stands is the raw value itself, and lists have several.
+                let is_one = !written.starts_with(['[', '{', '*']) && !written.contains('\n');
+                if is_one && written.contains(' ') && scalar::integer(written).is_err() {
+                    seen.insert((stated.span, raw.to_string()));
+                }
+            }
+        }
+    }
+    // Where one text stands for several raw values, none is the right one.
+    let several = |span: Span| seen.iter().filter(|(other, _)| *other == span).take(2).count() > 1;
+    let single = seen.iter().filter(|(span, _)| !several(*span));
+    single
+        .filter_map(|(span, raw)| {
+            let location = snapshot.location(good, *span)?;
+            Some(hint(location.range.end, raw.clone(), "raw value"))
+        })
+        .collect()
+}
+
+/// What is known about the PDOs of the document as it is now, as far as it is that of the model.
+fn of_pdos(snapshot: &Snapshot, system: &System, wanted: &BTreeSet<Hint>) -> Vec<InlayHint> {
+    let words = Words::of(Some(system)).wording;
+    let mut hints = Vec::new();
+    let sections = snapshot.now.outline(snapshot.file).and_then(|tree| tree.get("pdos"));
+    for (device, node) in sections.map(Node::entries).unwrap_or_default() {
+        let Some(device) = system.device(&device.value) else { continue };
+        for direction in [Direction::Receive, Direction::Transmit] {
+            for (key, node) in node.get(direction.word()).map(Node::entries).unwrap_or_default() {
+                let Some(pdo) = pdo_of(device.pdos_of(direction), key) else { continue };
+                if let Some(cob_id) = pdo.cob_id.as_ref().filter(|_| wanted.contains(&Hint::CobId)) {
+                    let end = snapshot.range(key.span).end;
+                    hints.push(hint(end, words.can_id(cob_id), "CAN-ID"));
+                }
+                if wanted.contains(&Hint::PdoPlace) {
+                    hints.extend(places(snapshot, pdo, node));
+                }
+            }
+        }
+    }
+    hints
+}
+
+fn pdo_of<'a>(mut pdos: impl Iterator<Item = &'a Pdo>, key: &Spanned<String>) -> Option<&'a Pdo> {
+    let number = scalar::integer(&key.value).ok()?;
+    pdos.find(|pdo| i128::from(pdo.number) == number)
+}
+
+/// Where each item of a map begins in the PDO.
+fn places(snapshot: &Snapshot, pdo: &Pdo, node: &Node) -> Vec<InlayHint> {
+    let items = node.get("map").map(Node::items).unwrap_or_default();
+    let lengths: Vec<usize> = items.iter().map(fields_of).collect();
+    // The text says something else than the model at the moment.
+    if lengths.iter().sum::<usize>() != pdo.map.len() {
+        return Vec::new();
+    }
+    let fields: Vec<_> = pdo.fields().collect();
+    let mut at = 0;
+    let mut hints = Vec::new();
+    for (item, length) in items.iter().zip(lengths) {
+        if let Some(field) = fields.get(at) {
+            let bit = if field.bit() == 0 { String::new() } else { format!(".{}", field.bit()) };
+            let end = snapshot.range(item.span).end;
+            hints.push(hint(
+                end,
+                format!("byte {}{bit}", field.byte()),
+                "first byte, and its bit where that is not 0",
+            ));
+        }
+        at += length;
+    }
+    hints
+}
+
+/// How many entries an item of a map is: `0x2021.1..4` is four.
+fn fields_of(item: &Node) -> usize {
+    let run = item.text().and_then(|text| {
+        let (_, subs) = text.value.split_once('.').filter(|(object, _)| object.starts_with("0x"))?;
+        let (first, last) = subs.split_once("..")?;
+        let (first, last) = (scalar::integer(first).ok()?, scalar::integer(last).ok()?);
+        usize::try_from(last - first + 1).ok()
+    });
+    run.unwrap_or(1)
+}

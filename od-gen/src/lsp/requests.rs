@@ -1,0 +1,137 @@
+//! Which function answers which request.
+
+use std::collections::BTreeSet;
+
+use lsp_server::{ErrorCode, Request, ResponseError};
+use lsp_types::request::{
+    CodeActionRequest, Completion, DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest,
+    Formatting, GotoDefinition, HoverRequest, InlayHintRequest, PrepareRenameRequest, RangeFormatting,
+    References, Rename, Request as Method, WorkspaceSymbolRequest,
+};
+use lsp_types::{
+    CompletionList, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse, Position,
+    TextDocumentPositionParams, Uri, WorkspaceSymbolResponse,
+};
+use serde_json::Value;
+
+use super::completion::{self, Insertion};
+use super::inlay::Hint;
+use super::position::Encoding;
+use super::snapshot::Snapshot;
+use super::symbols;
+use super::workspace::Workspace;
+use super::workspace_symbols;
+use super::{code_actions, definition, folding, formatting, hover, inlay, rename};
+
+/// What an answer is made from.
+pub(super) struct Context<'a> {
+    /// What is open.
+    pub workspace: &'a mut Workspace,
+    /// What positions are counted in.
+    pub encoding: Encoding,
+    /// How the client wants completions.
+    pub insertion: Insertion,
+    /// The hints that the client wants.
+    pub hints: &'a BTreeSet<Hint>,
+}
+
+impl Context<'_> {
+    /// What a request about a document is answered from.
+    fn snapshot(&mut self, uri: &Uri) -> Result<Snapshot, ResponseError> {
+        let snapshot = self.workspace.snapshot(uri, self.encoding);
+        snapshot.ok_or_else(|| refusal(ErrorCode::InvalidParams, format!("`{}` is not open", uri.as_str())))
+    }
+
+    /// What a request at a position of a document is answered from.
+    fn at(&mut self, at: &TextDocumentPositionParams) -> Result<(Snapshot, Position), ResponseError> {
+        Ok((self.snapshot(&at.text_document.uri)?, at.position))
+    }
+}
+
+/// An error as an answer.
+pub(super) fn refusal(code: ErrorCode, message: String) -> ResponseError {
+    ResponseError { code: code as i32, message, data: None }
+}
+
+/// What was asked for cannot be done.
+fn failed(reason: String) -> ResponseError {
+    refusal(ErrorCode::RequestFailed, reason)
+}
+
+/// The result of a request, or why there is none.
+pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Value, ResponseError> {
+    let Request { method, params, .. } = request;
+    match method.as_str() {
+        CodeActionRequest::METHOD => on::<CodeActionRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(code_actions::actions(&snapshot, params.range, &params.context)))
+        }),
+        DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
+        }),
+        Completion::METHOD => on::<Completion>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position)?;
+            let items = completion::completion(&snapshot, position, context.insertion);
+            // What is offered hangs on what has been written: an index or a name.
+            Ok(Some(CompletionResponse::List(CompletionList { is_incomplete: true, items })))
+        }),
+        GotoDefinition::METHOD => on::<GotoDefinition>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position_params)?;
+            Ok(Some(GotoDefinitionResponse::Array(definition::definition(&snapshot, position))))
+        }),
+        PrepareRenameRequest::METHOD => on::<PrepareRenameRequest>(params, |params| {
+            let (snapshot, position) = context.at(&params)?;
+            rename::prepare(&snapshot, position).map(Some).map_err(failed)
+        }),
+        Rename::METHOD => on::<Rename>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position)?;
+            rename::rename(&snapshot, position, &params.new_name).map(Some).map_err(failed)
+        }),
+        InlayHintRequest::METHOD => on::<InlayHintRequest>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(inlay::hints(&snapshot, params.range, context.hints)))
+        }),
+        HoverRequest::METHOD => on::<HoverRequest>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position_params)?;
+            Ok(hover::hover(&snapshot, position))
+        }),
+        References::METHOD => on::<References>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position)?;
+            let with_definition = params.context.include_declaration;
+            Ok(Some(definition::references(&snapshot, position, with_definition)))
+        }),
+        DocumentHighlightRequest::METHOD => on::<DocumentHighlightRequest>(params, |params| {
+            let (snapshot, position) = context.at(&params.text_document_position_params)?;
+            Ok(Some(definition::highlights(&snapshot, position)))
+        }),
+        FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(params, |params| {
+            Ok(Some(folding::ranges(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        Formatting::METHOD => on::<Formatting>(params, |params| {
+            Ok(Some(formatting::document(&context.snapshot(&params.text_document.uri)?)))
+        }),
+        RangeFormatting::METHOD => on::<RangeFormatting>(params, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(formatting::range(&snapshot, params.range)))
+        }),
+        WorkspaceSymbolRequest::METHOD => on::<WorkspaceSymbolRequest>(params, |params| {
+            let found =
+                workspace_symbols::find(&params.query, &context.workspace.snapshots(context.encoding));
+            Ok(Some(WorkspaceSymbolResponse::Nested(found)))
+        }),
+        _ => Err(refusal(ErrorCode::MethodNotFound, format!("there is no method `{method}`"))),
+    }
+}
+
+/// Reads the parameters of a request, and writes down its answer.
+fn on<M: Method>(
+    params: Value,
+    answer: impl FnOnce(M::Params) -> Result<M::Result, ResponseError>,
+) -> Result<Value, ResponseError> {
+    let params = serde_json::from_value(params).map_err(|error| {
+        refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `{}`: {error}", M::METHOD))
+    })?;
+    serde_json::to_value(answer(params)?)
+        .map_err(|error| refusal(ErrorCode::InternalError, format!("cannot write the answer: {error}")))
+}

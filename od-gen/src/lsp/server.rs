@@ -1,0 +1,282 @@
+//! The loop: one message after the other.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
+use lsp_types::notification::{
+    DidChangeTextDocument, DidChangeWatchedFiles, DidCloseTextDocument, DidOpenTextDocument,
+    DidSaveTextDocument, Exit as ExitNotification, Initialized, LogMessage, Notification as Method,
+    PublishDiagnostics,
+};
+use lsp_types::request::{Initialize, RegisterCapability, Request as _, Shutdown};
+use lsp_types::{
+    DidChangeTextDocumentParams, DidChangeWatchedFilesRegistrationOptions, FileSystemWatcher, GlobPattern,
+    InitializeParams, LogMessageParams, MessageType, Registration, RegistrationParams,
+};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::capabilities;
+use super::completion::Insertion;
+use super::diagnostics::Published;
+use super::inlay::Hint;
+use super::place::Place;
+use super::position::Encoding;
+use super::requests::{self, Context, refusal};
+use super::workspace::Workspace;
+
+/// How the work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exit {
+    /// The client said `shutdown` before it left.
+    Agreed,
+    /// The client left without it.
+    Sudden,
+}
+
+/// How far client and server are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// Nothing was said yet.
+    Strange,
+    /// They work.
+    Working,
+    /// The client said `shutdown`.
+    Leaving,
+}
+
+/// Serves a client until it leaves. Nothing is written to any file.
+pub fn serve(connection: &Connection) -> Exit {
+    let mut server = Server {
+        connection,
+        phase: Phase::Strange,
+        encoding: Encoding::default(),
+        insertion: Insertion::default(),
+        hints: BTreeSet::new(),
+        workspace: Workspace::default(),
+        published: Published::default(),
+        is_news: false,
+        client_watches: false,
+    };
+    let mut waiting = VecDeque::new();
+    loop {
+        // Everything that came: what is behind may cancel what is before, or change what it is about.
+        waiting.extend(connection.receiver.try_iter());
+        let message = match waiting.pop_front() {
+            Some(message) => message,
+            None if server.look_at_one() => continue,
+            None => match connection.receiver.recv() {
+                Ok(message) => message,
+                Err(_) => return server.exit(),
+            },
+        };
+        match message {
+            Message::Request(request) if is_cancelled(&request.id, &waiting) => {
+                let message = "cancelled by the client".to_owned();
+                server.respond(request.id, Err(refusal(ErrorCode::RequestCanceled, message)));
+            }
+            Message::Request(request) => server.request(request),
+            Message::Notification(notification) if notification.method == ExitNotification::METHOD => {
+                return server.exit();
+            }
+            Message::Notification(notification) => server.notification(notification),
+            // What was asked of the client needs no answer.
+            Message::Response(_) => {}
+        }
+    }
+}
+
+/// Whether a request is cancelled by a message that came behind it.
+fn is_cancelled(id: &RequestId, behind: &VecDeque<Message>) -> bool {
+    behind.iter().any(|message| match message {
+        Message::Notification(Notification { method, params }) if method == "$/cancelRequest" => {
+            let cancelled = params.get("id").cloned().map(serde_json::from_value::<RequestId>);
+            cancelled.is_some_and(|cancelled| cancelled.is_ok_and(|cancelled| cancelled == *id))
+        }
+        _ => false,
+    })
+}
+
+struct Server<'c> {
+    connection: &'c Connection,
+    phase: Phase,
+    encoding: Encoding,
+    insertion: Insertion,
+    hints: BTreeSet<Hint>,
+    workspace: Workspace,
+    published: Published,
+    /// Whether something changed since diagnostics were published.
+    is_news: bool,
+    /// Whether the client tells of files that change on the disk.
+    client_watches: bool,
+}
+
+impl Server<'_> {
+    const fn exit(&self) -> Exit {
+        match self.phase {
+            Phase::Leaving => Exit::Agreed,
+            Phase::Strange | Phase::Working => Exit::Sudden,
+        }
+    }
+
+    fn send(&self, message: impl Into<Message>) {
+        // A client that has gone will be noticed where the next message is read.
+        let _ = self.connection.sender.send(message.into());
+    }
+
+    fn respond(&self, id: RequestId, response_result: Result<Value, ResponseError>) {
+        self.send(Response { id, response_result });
+    }
+
+    fn notify<M: Method>(&self, params: M::Params) {
+        self.send(Notification::new(M::METHOD.to_owned(), params));
+    }
+
+    fn request(&mut self, request: Request) {
+        let id = request.id.clone();
+        let result = match self.phase {
+            Phase::Strange if request.method == Initialize::METHOD => self.initialize(request.params),
+            Phase::Strange => Err(refusal(
+                ErrorCode::ServerNotInitialized,
+                "expected `initialize` before any other request".to_owned(),
+            )),
+            Phase::Working if request.method == Initialize::METHOD => {
+                Err(refusal(ErrorCode::InvalidRequest, "`initialize` came a second time".to_owned()))
+            }
+            Phase::Working if request.method == Shutdown::METHOD => {
+                self.phase = Phase::Leaving;
+                Ok(Value::Null)
+            }
+            Phase::Working => {
+                let mut context = Context {
+                    workspace: &mut self.workspace,
+                    encoding: self.encoding,
+                    insertion: self.insertion,
+                    hints: &self.hints,
+                };
+                requests::answer(request, &mut context)
+            }
+            Phase::Leaving => {
+                Err(refusal(ErrorCode::InvalidRequest, "expected `exit` behind `shutdown`".to_owned()))
+            }
+        };
+        self.respond(id, result);
+    }
+
+    fn initialize(&mut self, params: Value) -> Result<Value, ResponseError> {
+        let client: InitializeParams = serde_json::from_value(params).map_err(|error| {
+            refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `initialize`: {error}"))
+        })?;
+        self.encoding = capabilities::encoding(&client);
+        self.insertion = capabilities::insertion(&client);
+        self.hints = Hint::wanted(client.initialization_options.as_ref());
+        self.phase = Phase::Working;
+        self.client_watches = capabilities::watches_files(&client);
+        serde_json::to_value(capabilities::answer(self.encoding))
+            .map_err(|error| refusal(ErrorCode::InternalError, format!("cannot write the answer: {error}")))
+    }
+
+    /// Asks the client to tell when a library or a part changes on the disk.
+    fn watch_files(&self) {
+        let watcher = FileSystemWatcher {
+            glob_pattern: GlobPattern::String("**/*.{yaml,eds,dcf}".to_owned()),
+            kind: None,
+        };
+        let options = DidChangeWatchedFilesRegistrationOptions { watchers: vec![watcher] };
+        let registration = Registration {
+            id: "files".to_owned(),
+            method: DidChangeWatchedFiles::METHOD.to_owned(),
+            register_options: serde_json::to_value(options).ok(),
+        };
+        let params = RegistrationParams { registrations: vec![registration] };
+        self.send(Request::new(RequestId::from(0), RegisterCapability::METHOD.to_owned(), params));
+    }
+
+    fn notification(&mut self, notification: Notification) {
+        if self.phase != Phase::Working {
+            return;
+        }
+        let Notification { method, params } = notification;
+        self.is_news |= method.starts_with("textDocument/") || method == DidChangeWatchedFiles::METHOD;
+        match method.as_str() {
+            Initialized::METHOD if self.client_watches => self.watch_files(),
+            DidOpenTextDocument::METHOD => {
+                if let Some(opened) = self.read::<<DidOpenTextDocument as Method>::Params>(&method, params) {
+                    self.workspace.open(opened.text_document);
+                }
+            }
+            DidChangeTextDocument::METHOD => {
+                let Some(changed) = self.read::<DidChangeTextDocumentParams>(&method, params) else { return };
+                let document = changed.text_document;
+                let known = self.workspace.change(
+                    &document.uri,
+                    document.version,
+                    changed.content_changes,
+                    self.encoding,
+                );
+                if !known {
+                    self.complain(format!("`{}` changed, and is not open", document.uri.as_str()));
+                }
+            }
+            DidCloseTextDocument::METHOD => {
+                if let Some(closed) = self.read::<<DidCloseTextDocument as Method>::Params>(&method, params) {
+                    self.workspace.close(&closed.text_document.uri);
+                }
+            }
+            DidSaveTextDocument::METHOD => {
+                if let Some(saved) = self.read::<<DidSaveTextDocument as Method>::Params>(&method, params) {
+                    self.workspace.changed(&Place::of_uri(&saved.text_document.uri));
+                }
+            }
+            DidChangeWatchedFiles::METHOD => {
+                if let Some(changed) = self.read::<<DidChangeWatchedFiles as Method>::Params>(&method, params)
+                {
+                    for change in changed.changes {
+                        self.workspace.changed(&Place::of_uri(&change.uri));
+                    }
+                }
+            }
+            // What is not known needs no answer.
+            _ => {}
+        }
+    }
+
+    /// The parameters of a notification; what cannot be read is told in the client's log, as there is no answer.
+    fn read<P: DeserializeOwned>(&self, method: &str, params: Value) -> Option<P> {
+        match serde_json::from_value(params) {
+            Ok(params) => Some(params),
+            Err(error) => {
+                self.complain(format!("cannot read the parameters of `{method}`: {error}"));
+                None
+            }
+        }
+    }
+
+    fn complain(&self, message: String) {
+        self.notify::<LogMessage>(LogMessageParams { typ: MessageType::ERROR, message });
+    }
+
+    /// While nobody asks for anything: analyses one specification that has changed, and says what is new once nothing is stale.
+    /// Whether there was something to do.
+    fn look_at_one(&mut self) -> bool {
+        if let Some(stale) = self.workspace.stale() {
+            self.workspace.analysed(&stale);
+            return true;
+        }
+        let is_news = std::mem::take(&mut self.is_news);
+        if is_news {
+            self.publish();
+        }
+        is_news
+    }
+
+    fn publish(&mut self) {
+        let Self { workspace, published, encoding, .. } = self;
+        let analyses = workspace.analyses();
+        let news =
+            published.update(analyses.iter().map(AsRef::as_ref), |place| workspace.version(place), *encoding);
+        for params in news {
+            self.notify::<PublishDiagnostics>(params);
+        }
+    }
+}

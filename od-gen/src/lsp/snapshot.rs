@@ -1,0 +1,131 @@
+//! What a request is answered from.
+
+use std::sync::Arc;
+
+use lsp_types::{Location, Position, Range, Uri};
+use od_spec::model::System;
+use od_spec::source::{FileId, Span};
+use od_spec::yaml::Node;
+
+use super::analysis::Analysis;
+use super::position::{Encoding, Lines};
+use super::shift::Shift;
+
+/// What a request is answered from: the text of the document as the editor shows it, the specification that it belongs to,
+/// and what was right the last time.
+///
+/// - [`now`](Self::now) is the analysis of the texts of now: its `sources` (root, parts, libraries), its diagnostics, the
+///   syntax tree of each text ([`Analysis::tree`]), and its `system` where nothing is wrong.
+/// - [`good`](Self::good) is the last analysis that gave a model; it is `now` itself where that has one. Its spans belong to
+///   *its own* sources, which are those of an earlier text: [`location`](Self::location) of the right analysis turns them
+///   into places, [`earlier`](Self::earlier) brings a place of the text of now there.
+/// - Files and URIs: [`Analysis::uri`] gives the URI of a file of a span. Built-in libraries have the URI of a read-only copy.
+#[derive(Debug, Clone)]
+pub(super) struct Snapshot {
+    /// The analysis of the texts of now.
+    pub now: Arc<Analysis>,
+    /// The last analysis that gave a model.
+    pub good: Option<Arc<Analysis>>,
+    /// The document that the request is about, in the sources of `now`.
+    pub file: FileId,
+    /// What positions are counted in.
+    pub encoding: Encoding,
+}
+
+impl Snapshot {
+    /// The text of the document.
+    pub(super) fn text(&self) -> &str {
+        self.now.sources.file(self.file).text()
+    }
+
+    /// The lines of the document.
+    pub(super) fn lines(&self) -> &Lines {
+        self.now.lines(self.file)
+    }
+
+    /// The URI of the document.
+    pub(super) fn uri(&self) -> Option<&Uri> {
+        self.now.uri(self.file)
+    }
+
+    /// The syntax tree of the document, if it is YAML.
+    pub(super) fn tree(&self) -> Option<&Node> {
+        self.now.tree(self.file)
+    }
+
+    /// The last model that was right.
+    pub(super) fn system(&self) -> Option<&System> {
+        self.good.as_ref()?.system.as_ref()
+    }
+
+    /// The syntax tree of the document; while it is no YAML, that of the last text that gave a model.
+    pub(super) fn last_tree(&self) -> Option<Tree<'_>> {
+        if let Some(root) = self.tree() {
+            return Some(Tree { root, snapshot: self, shift: None });
+        }
+        let (good, file, _) = self.earlier(0)?;
+        let shift = Shift::between(good.sources.file(file).text(), self.text());
+        Some(Tree { root: good.tree(file)?, snapshot: self, shift: Some(shift) })
+    }
+
+    /// The byte of the document at a position.
+    pub(super) fn offset(&self, position: Position) -> usize {
+        self.lines().offset(self.text(), position, self.encoding)
+    }
+
+    /// The range of a place of the document.
+    pub(super) fn range(&self, span: Span) -> Range {
+        self.now.range(span, self.encoding)
+    }
+
+    /// Where a span of an analysis, `now` or `good`, is. Of an earlier text, where the place is now, if nothing in it changed; of a
+    /// file that is not read while the text is broken, where it was.
+    pub(super) fn location(&self, analysis: &Arc<Analysis>, span: Span) -> Option<Location> {
+        let is_read = |place| self.now.file(place).is_some();
+        let (analysis, span) = if Arc::ptr_eq(analysis, &self.now) || !is_read(analysis.place(span.file)?) {
+            (analysis, span)
+        } else {
+            (&self.now, self.span_now(analysis, span)?)
+        };
+        let uri = analysis.uri(span.file)?.clone();
+        Some(Location { uri, range: analysis.range(span, self.encoding) })
+    }
+
+    /// The document in the last analysis that gave a model, and where a byte of its text of now stood there.
+    pub(super) fn earlier(&self, offset: usize) -> Option<(&Arc<Analysis>, FileId, usize)> {
+        let good = self.good.as_ref()?;
+        let file = good.file(self.now.place(self.file)?)?;
+        let shift = Shift::between(good.sources.file(file).text(), self.text());
+        Some((good, file, shift.earlier(offset)))
+    }
+
+    /// Where a span of an earlier analysis is in the texts of now.
+    fn span_now(&self, earlier: &Analysis, span: Span) -> Option<Span> {
+        let file = self.now.file(earlier.place(span.file)?)?;
+        let shift =
+            Shift::between(earlier.sources.file(span.file).text(), self.now.sources.file(file).text());
+        let range = shift.now(span.start as usize..span.end as usize)?;
+        let byte = |at| u32::try_from(at).ok();
+        Some(Span { file, start: byte(range.start)?, end: byte(range.end)? })
+    }
+}
+
+/// The syntax tree of a document, of now or of an earlier text.
+pub(super) struct Tree<'a> {
+    /// Its root; spans are those of its own text.
+    pub root: &'a Node,
+    snapshot: &'a Snapshot,
+    /// What changed since, of an earlier text.
+    shift: Option<Shift>,
+}
+
+impl Tree<'_> {
+    /// Where a place of the tree is in the text of now; of what changed, what stands there now.
+    pub(super) fn range(&self, span: Span) -> Range {
+        let Some(shift) = self.shift else { return self.snapshot.range(span) };
+        let (start, end) = shift.around(span.start as usize..span.end as usize);
+        let (lines, text) = (self.snapshot.lines(), self.snapshot.text());
+        let position = |at| lines.position(text, at, self.snapshot.encoding);
+        Range { start: position(start), end: position(end) }
+    }
+}

@@ -1,0 +1,156 @@
+//! What is open, and the specifications that it belongs to.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use lsp_types::{TextDocumentContentChangeEvent, TextDocumentItem, Uri};
+
+use super::analysis::Analysis;
+use super::buffer::Buffer;
+use super::copies;
+use super::overlay::{Buffers, whole};
+use super::place::{Place, uri_of};
+use super::position::Encoding;
+use super::snapshot::Snapshot;
+
+/// What is open, and the specifications that it belongs to.
+///
+/// A specification is analysed as long as one of its files is open: a part stands for the specification that it says it is a
+/// part of. What is stale is analysed anew when somebody asks for it.
+#[derive(Debug, Default)]
+pub(super) struct Workspace {
+    buffers: Buffers,
+    projects: BTreeMap<Place, Project>,
+}
+
+/// A specification of which a file is open.
+#[derive(Debug, Default)]
+struct Project {
+    /// What was found last; `None` where something changed since.
+    now: Option<Arc<Analysis>>,
+    /// The last analysis that gave a model.
+    good: Option<Arc<Analysis>>,
+    /// The places that the last analysis asked for.
+    asked: BTreeSet<Place>,
+    /// The open documents that belong to it.
+    members: BTreeSet<Place>,
+}
+
+impl Workspace {
+    /// A document is open in the editor from now on.
+    pub(super) fn open(&mut self, document: TextDocumentItem) {
+        let place = Place::of_uri(&document.uri);
+        let buffer = Buffer { uri: document.uri, version: document.version, text: document.text };
+        self.buffers.insert(place.clone(), buffer);
+        self.changed(&place);
+    }
+
+    /// An open document has another text; `false` if it is not open.
+    pub(super) fn change(
+        &mut self,
+        uri: &Uri,
+        version: i32,
+        changes: Vec<TextDocumentContentChangeEvent>,
+        encoding: Encoding,
+    ) -> bool {
+        let place = Place::of_uri(uri);
+        let Some(buffer) = self.buffers.get_mut(&place) else { return false };
+        buffer.change(changes, encoding);
+        buffer.version = version;
+        self.changed(&place);
+        true
+    }
+
+    /// A document is open no longer: what is in its file counts.
+    pub(super) fn close(&mut self, uri: &Uri) {
+        let place = Place::of_uri(uri);
+        if self.buffers.remove(&place).is_some() {
+            self.changed(&place);
+        }
+    }
+
+    /// What depends on a document is stale, and the document may belong to another specification.
+    pub(super) fn changed(&mut self, place: &Place) {
+        for project in self.projects.values_mut() {
+            if project.asked.contains(place) || project.members.contains(place) {
+                project.now = None;
+            }
+        }
+        // Whether a document is a part may hang on a file that came or went.
+        let mut members: BTreeMap<Place, BTreeSet<Place>> = BTreeMap::new();
+        for open in self.buffers.keys() {
+            members.entry(whole(open, &self.buffers)).or_default().insert(open.clone());
+        }
+        self.projects.retain(|root, _| members.contains_key(root));
+        for (root, members) in members {
+            let project = self.projects.entry(root).or_default();
+            if project.members != members {
+                project.members = members;
+                project.now = None;
+            }
+        }
+    }
+
+    /// A specification with something that changed since it was analysed.
+    pub(super) fn stale(&self) -> Option<Place> {
+        self.projects.iter().find(|(_, project)| project.now.is_none()).map(|(root, _)| root.clone())
+    }
+
+    /// The analysis of a specification as it is now.
+    pub(super) fn analysed(&mut self, root: &Place) -> Option<Arc<Analysis>> {
+        let project = self.projects.get_mut(root)?;
+        if let Some(now) = &project.now {
+            return Some(Arc::clone(now));
+        }
+        let buffers = &self.buffers;
+        let now = Arc::new(Analysis::of(root, project.members.iter(), buffers, |place| uri(place, buffers)));
+        if now.system.is_some() {
+            project.good = Some(Arc::clone(&now));
+        }
+        project.asked.clone_from(&now.asked);
+        project.now = Some(Arc::clone(&now));
+        Some(now)
+    }
+
+    /// What requests about an open document are answered from.
+    pub(super) fn snapshot(&mut self, uri: &Uri, encoding: Encoding) -> Option<Snapshot> {
+        let place = Place::of_uri(uri);
+        let root = self.projects.iter().find(|(_, project)| project.members.contains(&place))?.0.clone();
+        let now = self.analysed(&root)?;
+        let file = now.file(&place)?;
+        let good = self.projects.get(&root)?.good.clone();
+        Some(Snapshot { now, good, file, encoding })
+    }
+
+    /// What requests about everything that is open are answered from: each specification once, by its main file.
+    pub(super) fn snapshots(&mut self, encoding: Encoding) -> Vec<Snapshot> {
+        let roots: Vec<Place> = self.projects.keys().cloned().collect();
+        let snapshot = |root: &Place| {
+            let now = self.analysed(root)?;
+            let (file, good) = (now.file(root)?, self.projects.get(root)?.good.clone());
+            Some(Snapshot { now, good, file, encoding })
+        };
+        roots.iter().filter_map(snapshot).collect()
+    }
+
+    /// The analyses of everything that is open, as they are now.
+    pub(super) fn analyses(&mut self) -> Vec<Arc<Analysis>> {
+        let roots: Vec<Place> = self.projects.keys().cloned().collect();
+        roots.iter().filter_map(|root| self.analysed(root)).collect()
+    }
+
+    /// The version of an open document.
+    pub(super) fn version(&self, place: &Place) -> Option<i32> {
+        self.buffers.get(place).map(|buffer| buffer.version)
+    }
+}
+
+/// How the client calls a place: as it did when it opened it, or by the path.
+fn uri(place: &Place, buffers: &Buffers) -> Option<Uri> {
+    match (buffers.get(place), place) {
+        (Some(buffer), _) => Some(buffer.uri.clone()),
+        (None, Place::File(path)) => uri_of(path),
+        (None, Place::Library(name)) => copies::library(name),
+        (None, Place::Elsewhere(_)) => None,
+    }
+}
