@@ -17,7 +17,6 @@ mod git;
 mod import;
 mod interrupt;
 mod language;
-mod line_diff;
 mod link;
 mod listing;
 mod lsp;
