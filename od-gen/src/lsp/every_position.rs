@@ -37,7 +37,7 @@ fn asked(name: &str, text: &str, every: usize) -> [usize; 4] {
             told[2] += references(&snapshot, at, true).len() + highlights(&snapshot, at).len();
             let _ = prepare(&snapshot, at);
             // Each of these reads the whole text.
-            if line as usize % (every * 8) == 0 {
+            if (line as usize).is_multiple_of(every * 8) {
                 told[3] += completion(&snapshot, at, Insertion::Snippet).len();
             }
         }
