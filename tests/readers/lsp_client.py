@@ -13,12 +13,14 @@ from __future__ import annotations
 import argparse
 import asyncio
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import attrs
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 
 PATIENCE = 120
@@ -187,11 +189,26 @@ async def ask(
         place = lsp.Position(line, character)
         for provider, method, params in asked:
             more = {"context": lsp.ReferenceContext(include_declaration=True)} if "references" in method else {}
-            answer = await getattr(client, method)(params(text_document=document, position=place, **more))
+            try:
+                answer = await getattr(client, method)(params(text_document=document, position=place, **more))
+            except JsonRpcException as refused:
+                # What cannot be renamed is refused with the reason; nothing else is.
+                check.that("rename" in method and bool(refused.message), f"{name}: {provider}: {refused}")
+                continue
             answers.append((f"{provider} at {line + 1}:{character + 1}", answer))
     for what, answer in answers:
         wrong = [found for found in ranges(answer, uri, uri) if not lies_in(lines, found)]
         check.that(not wrong, f"{name}: {what}: {wrong[:1]} lies outside")
+
+
+def of_editors(check: Check) -> None:
+    """The extension for VS Code is JavaScript, as far as there is something that reads it."""
+    extension = Path(__file__).resolve().parents[1] / "editors/vscode"
+    json.loads((extension / "package.json").read_text(encoding="utf-8"))
+    json.loads((extension / "eds.json").read_text(encoding="utf-8"))
+    if node := shutil.which("node"):
+        read = subprocess.run([node, "--check", extension / "extension.js"], capture_output=True, text=True, check=False)
+        check.that(read.returncode == 0, read.stderr)
 
 
 async def run(odgen: Path, specs: list[Path]) -> int:
@@ -208,6 +225,7 @@ async def run(odgen: Path, specs: list[Path]) -> int:
     await client.shutdown_async(None)
     client.exit(None)
     await client.stop()
+    of_editors(check)
     for error in client.errors:
         check.that(False, error)
     for wrong in check.wrong[:40]:

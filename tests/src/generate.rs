@@ -15,6 +15,7 @@ use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, NoFiles, compile};
 
+use crate::editor::{hover, mistyped};
 use crate::{Failure, compile_with_sources, root};
 
 /// The shipped specifications.
@@ -179,6 +180,8 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
     let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
     let text = block(&text, "dbc", &format!("```text\n{}\n```", frames(&system)))?;
+    let in_editor = [mistyped(&spec, "decibar, access", "decibr, access")?, hover(&spec, "set pressure")?];
+    let text = block(&text, "editor", &format!("```text\n{}\n```", in_editor.join("\n\n")))?;
     block(&text, "docs", &tables(&system)?)
 }
 

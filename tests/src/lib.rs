@@ -2,6 +2,7 @@
 
 pub mod access_cases;
 pub mod compiler;
+pub mod editor;
 pub mod foreign;
 pub mod fuzz;
 pub mod generate;

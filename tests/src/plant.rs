@@ -207,7 +207,9 @@ fn walk(node: &Node, shape: Shape, name: KeyName, sites: &mut Vec<Site>) {
         Shape::Text | Shape::HeaderText | Shape::Words | Shape::NumberedName(_) | Shape::NameOf(_) => {
             match &node.kind {
                 NodeKind::Map(entries) => {
-                    entries.iter().for_each(|(_, value)| walk(value, shape, name, sites))
+                    for (_, value) in entries {
+                        walk(value, shape, name, sites);
+                    }
                 }
                 _ => node.text().into_iter().for_each(|text| add(text.value, name, sites)),
             }

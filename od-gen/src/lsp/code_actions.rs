@@ -3,11 +3,12 @@
 use lsp_types::{
     CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, Range, TextEdit, Uri, WorkspaceEdit,
 };
-use od_spec::diag::{Diagnostic, Edit};
+use od_spec::diag::{Diagnostic, Edit, codes};
 use od_spec::fix;
 use od_spec::source::Span;
 
 use super::analysis::Kind;
+use super::departures::left_to_library;
 use super::diagnostics::translated;
 use super::formatting::{between, edits};
 use super::snapshot::Snapshot;
@@ -37,6 +38,7 @@ pub(super) fn actions(
         for diagnostic in snapshot.now.about(snapshot.file) {
             if diagnostic.labels.first().is_some_and(|label| touches(label.span)) {
                 actions.extend(quick_fix(snapshot, uri, diagnostic));
+                actions.extend(of_departures(snapshot, uri, diagnostic));
             }
         }
     }
@@ -69,6 +71,23 @@ fn quick_fix(snapshot: &Snapshot, uri: &Uri, diagnostic: &Diagnostic) -> Option<
         diagnostics: Some(vec![translated(&snapshot.now, diagnostic, snapshot.encoding)]),
         edit: Some(change(uri, edits.iter().map(text_edit).collect())),
         is_preferred: Some(is_sure),
+        ..CodeAction::default()
+    })
+}
+
+/// For an object that departs from its library, what leaves each fact to the library.
+fn of_departures<'a>(
+    snapshot: &'a Snapshot,
+    uri: &'a Uri,
+    diagnostic: &'a Diagnostic,
+) -> impl Iterator<Item = CodeAction> + 'a {
+    let place = diagnostic.labels.first().filter(|_| diagnostic.code == codes::DEPARTURE);
+    let fixes = place.map(|label| left_to_library(snapshot, label.span)).unwrap_or_default();
+    fixes.into_iter().map(|(title, edit)| CodeAction {
+        title,
+        kind: Some(CodeActionKind::QUICKFIX),
+        diagnostics: Some(vec![translated(&snapshot.now, diagnostic, snapshot.encoding)]),
+        edit: Some(change(uri, vec![TextEdit { range: snapshot.range(edit.span), new_text: edit.text }])),
         ..CodeAction::default()
     })
 }

@@ -17,6 +17,7 @@ mod completion;
 mod copies;
 mod cursor;
 mod definition;
+mod departures;
 mod diagnostics;
 #[cfg(test)]
 mod every_position;

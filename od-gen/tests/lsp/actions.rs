@@ -95,3 +95,49 @@ fn what_needs_no_decision_in_an_eds_is_put_right_at_once() {
     assert_eq!(client.request("textDocument/codeAction", &params).unwrap(), json!([]));
     assert_eq!(client.leave(), 0);
 }
+
+/// Whatever the drive says otherwise than its library can be left to the library, one by one.
+#[test]
+fn what_departs_from_a_library_can_be_left_to_it() {
+    const DRIVE: &str = include_str!("../../../od-spec/devices/fullmo-drive.od.yaml");
+    let mut client = Client::new("departures");
+    let parts = ["document", "errata"].map(|part| format!("fullmo-drive.{part}.od.yaml"));
+    for part in &parts {
+        let path = format!("{}/../od-spec/devices/{part}", env!("CARGO_MANIFEST_DIR"));
+        client.directory.write(part, &std::fs::read_to_string(path).unwrap());
+    }
+    client.open("fullmo-drive.od.yaml", DRIVE);
+    let said = client.diagnostics("fullmo-drive.od.yaml", 1);
+    let departing: Vec<&Value> = said.iter().filter(|one| one["code"] == "OD0811").collect();
+    assert!(departing.len() > 20, "{said:?}");
+    let (mut version, mut done) = (1, 0);
+    for one in departing.iter().step_by(4) {
+        let line = u32::try_from(one["range"]["start"]["line"].as_u64().unwrap()).unwrap();
+        for action in actions(&mut client, "fullmo-drive.od.yaml", line) {
+            let title = action["title"].as_str().unwrap();
+            let Some(fact) = title.strip_prefix("Leave to cia402: ") else { continue };
+            let mut changes = edits(&client, &action, "fullmo-drive.od.yaml");
+            changes[0]["text"] = changes[0]["newText"].take();
+            version += 1;
+            client.change("fullmo-drive.od.yaml", version, &changes);
+            let again = client.diagnostics("fullmo-drive.od.yaml", version);
+            assert!(again.iter().all(|one| one["code"] != "OD0104"), "{title}: {again:?}");
+            // The object says the same as its library, or the compiler tells what needs its word.
+            let is_right = again.iter().all(|one| one["severity"] != 1);
+            let still = again.iter().any(|now| {
+                let (now, then) = (now["message"].as_str().unwrap(), one["message"].as_str().unwrap());
+                let departs =
+                    |text: &str| text.split_once(" departs from ").map(|(object, _)| object.to_owned());
+                departs(now) == departs(then)
+                    && now.split_once(": ").is_some_and(|(_, facts)| facts.contains(fact))
+            });
+            assert!(!is_right || !still, "{title}: {again:?}");
+            done += usize::from(is_right);
+            version += 1;
+            client.replace("fullmo-drive.od.yaml", version, DRIVE);
+            client.diagnostics("fullmo-drive.od.yaml", version);
+        }
+    }
+    assert!(done > 3, "{done}");
+    assert_eq!(client.leave(), 0);
+}
