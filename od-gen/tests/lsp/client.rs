@@ -227,6 +227,15 @@ impl Client {
         diagnostics
     }
 
+    /// A request about a document, at a place in it.
+    pub(crate) fn request_at(&mut self, method: &str, name: &str, (line, character): (u32, u32)) -> Value {
+        let params = json!({
+            "textDocument": {"uri": self.uri(name)},
+            "position": {"line": line, "character": character},
+        });
+        self.request(method, &params).unwrap()
+    }
+
     /// A request about a document.
     pub(crate) fn request_about(&mut self, method: &str, name: &str) -> Value {
         let params = json!({"textDocument": {"uri": self.uri(name)}});

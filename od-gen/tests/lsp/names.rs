@@ -61,12 +61,6 @@ pub(crate) fn covered(text: &str, range: &Value) -> String {
     text[offset(&range["start"])..offset(&range["end"])].to_owned()
 }
 
-/// The answer to a request about a place in a document.
-fn at(client: &mut Client, method: &str, name: &str, (line, character): (u32, u32)) -> Value {
-    let position = json!({"line": line, "character": character});
-    client.request(method, &json!({"textDocument": {"uri": client.uri(name)}, "position": position})).unwrap()
-}
-
 /// A session about one text at a time.
 struct Session {
     client: Client,
@@ -88,7 +82,7 @@ impl Session {
         let said = self.client.diagnostics(&name, 1);
         assert!(said.iter().all(|one| one["severity"] != 1), "{said:#?}");
         self.client.replace(&name, 2, &text);
-        (at(&mut self.client, &format!("textDocument/{method}"), &name, position), text)
+        (self.client.request_at(&format!("textDocument/{method}"), &name, position), text)
     }
 
     fn hover(&mut self, from: &str, to: &str) -> (String, String) {
@@ -390,7 +384,7 @@ fn lines_may_end_as_on_windows() {
     let mut client = Client::new("crlf");
     let (text, position) = heater("limits.lowest <", "limits.low‸est <");
     client.open("heater.od.yaml", &text.replace('\n', "\r\n"));
-    let answer = at(&mut client, "textDocument/hover", "heater.od.yaml", position);
+    let answer = client.request_at("textDocument/hover", "heater.od.yaml", position);
     assert!(answer["contents"]["value"].as_str().unwrap().contains("limits.lowest"), "{answer}");
     assert_eq!(answer["range"]["start"]["line"], position.0);
 }
