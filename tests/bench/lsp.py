@@ -112,10 +112,48 @@ def main():
             server.request(method, {"textDocument": {"uri": uri}, **params})
             took.append((time.perf_counter() - started) * 1000)
         show(method, took)
+    at_places(server, uri, args.keys + 2, text)
     print(f"memory: {server.memory()} kB")
     server.request("shutdown", None)
     server.notify("exit", None)
     server.process.wait()
+
+
+def at_places(server, uri, version, text):
+    """What is asked at a place: each time behind a keystroke, so that nothing is known from before."""
+    lines = text.splitlines()
+    places = [number for number, line in enumerate(lines) if "unit: " in line or "type: " in line][::40]
+    start = {"line": 0, "character": 0}
+    whole = {"start": start, "end": {"line": len(lines), "character": 0}}
+    for method, params in [
+        ("textDocument/hover", {}),
+        ("textDocument/definition", {}),
+        ("textDocument/references", {"context": {"includeDeclaration": True}}),
+        ("textDocument/completion", {}),
+        ("textDocument/inlayHint", {"range": whole}),
+    ]:
+        took = []
+        for line in places:
+            column = lines[line].index("unit: " if "unit: " in lines[line] else "type: ") + 7
+            version += 1
+            change = {"range": {"start": start, "end": start}, "text": "#"}
+            document = {"uri": uri, "version": version}
+            started = time.perf_counter()
+            server.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
+            place = {"line": line, "character": column}
+            server.request(method, {"textDocument": {"uri": uri}, "position": place, **params})
+            took.append((time.perf_counter() - started) * 1000)
+            server.diagnostics(uri, version)
+        show(f"keystroke to {method}", took)
+    line = next(number for number, line in enumerate(lines) if line.startswith("  decicelsius:"))
+    took = []
+    for _ in range(5):
+        started = time.perf_counter()
+        place = {"line": line, "character": 4}
+        params = {"textDocument": {"uri": uri}, "position": place, "newName": "tenth of a degree"}
+        server.request("textDocument/rename", params)
+        took.append((time.perf_counter() - started) * 1000)
+    show("textDocument/rename", took)
 
 
 def show(what, took):

@@ -20,6 +20,7 @@ from pathlib import Path
 
 import attrs
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 
 PATIENCE = 120
@@ -188,7 +189,12 @@ async def ask(
         place = lsp.Position(line, character)
         for provider, method, params in asked:
             more = {"context": lsp.ReferenceContext(include_declaration=True)} if "references" in method else {}
-            answer = await getattr(client, method)(params(text_document=document, position=place, **more))
+            try:
+                answer = await getattr(client, method)(params(text_document=document, position=place, **more))
+            except JsonRpcException as refused:
+                # What cannot be renamed is refused with the reason; nothing else is.
+                check.that("rename" in method and bool(refused.message), f"{name}: {provider}: {refused}")
+                continue
             answers.append((f"{provider} at {line + 1}:{character + 1}", answer))
     for what, answer in answers:
         wrong = [found for found in ranges(answer, uri, uri) if not lies_in(lines, found)]

@@ -55,7 +55,11 @@ pub(super) fn whole(place: &Place, buffers: &Buffers) -> Place {
     if !path.as_os_str().as_encoded_bytes().ends_with(b".yaml") {
         return place.clone();
     }
-    let named = bytes_of(place, buffers).ok().and_then(|bytes| part_of(&bytes).map(ToOwned::to_owned));
+    let read = |bytes: &[u8]| part_of(bytes).map(ToOwned::to_owned);
+    let named = match buffers.get(place) {
+        Some(buffer) => read(buffer.text.as_bytes()),
+        None => read_file(path).ok().and_then(|bytes| read(&bytes)),
+    };
     let whole = named
         .map(|name| Place::File(plain(&path.parent().unwrap_or(Path::new("")).join(name))))
         .filter(|whole| buffers.contains_key(whole) || whole.path().is_some_and(Path::is_file));

@@ -45,7 +45,10 @@ impl Walk<'_> {
         let children = match name.value.as_str() {
             "devices" => leaves(SymbolKind::MODULE, &["name", "from"]),
             "units" => leaves(SymbolKind::CONSTANT, &["symbol"]),
-            "types" => members.map(|pair| self.named_type(pair)).collect(),
+            // Those of a plant are machines.
+            "types" if self.snapshot.now.kind == Kind::Specification => {
+                members.map(|pair| self.named_type(pair)).collect()
+            }
             "objects" => members.flat_map(|pair| self.objects(pair)).collect(),
             "pdos" => members.map(|pair| self.pdos(pair)).collect(),
             "errors" => leaves(SymbolKind::EVENT, &["name"]),

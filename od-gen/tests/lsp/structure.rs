@@ -87,6 +87,18 @@ fn sections_of_an_eds_are_symbols_and_fold() {
 }
 
 #[test]
+fn types_of_a_plant_are_no_enums() {
+    let mut client = Client::new("plant-symbols");
+    client.open("house.yaml", "od-plant: 1\ntitle: House\ndevices: {lamp: lamp.od.yaml}\ntypes:\n  hall: {bit-rate: 125}\nsites:\n  north: {title: North, machines: {}}\n");
+    let symbols = client.request_about("textDocument/documentSymbol", "house.yaml");
+    assert_eq!(outline(&symbols), ["devices", "  lamp", "types", "  hall", "sites", "  north"]);
+    let kind = |at: usize| symbols[at]["children"][0]["kind"].as_u64();
+    assert_eq!((kind(0), kind(1)), (Some(2), Some(7)), "a module and a property");
+    assert_eq!(symbols[0]["children"][0]["detail"], "lamp.od.yaml");
+    assert_eq!(client.leave(), 0);
+}
+
+#[test]
 fn everything_that_is_open_is_found_by_number_and_name() {
     let mut client = Client::new("workspace");
     client.open("lamp.od.yaml", LAMP);
