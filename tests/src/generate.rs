@@ -3,13 +3,11 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use od_gen::c;
-use od_gen::dbc;
 use od_gen::diff::{Question, Scope, compare, human};
 use od_gen::docs::{self, Templates};
 use od_gen::files::{left_over, remove};
 use od_gen::rust::{self, Provenance};
-use od_gen::{Artifact, Selection, artifacts};
+use od_gen::{Artifact, Selection, artifacts, c, dbc};
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
@@ -179,6 +177,10 @@ fn readme() -> Result<String, Failure> {
     let text = block(&text, "drive", &format!("```yaml\n{drive}```"))?;
     let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
     let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
+    let c = fs::read_to_string(root().join("tests/readme/valve.c"))?;
+    let text = block(&text, "c", &format!("```c\n{c}```"))?;
+    let entry = c_entry(&system, &Provenance::of(&sources))?;
+    let text = block(&text, "c-entry", &format!("```c\n{entry}\n```"))?;
     let text = block(&text, "canopennode", &format!("```c\n{}\n```", stack(&system, &sources)?))?;
     let text = block(&text, "dbc", &format!("```text\n{}\n```", frames(&system)))?;
     block(&text, "docs", &tables(&system)?)
@@ -204,6 +206,25 @@ fn stack(system: &System, sources: &SourceMap) -> Result<String, Failure> {
         lines("/OD_rules.c", "/* 2000h", "},")?,
     ]
     .join("\n"))
+}
+
+/// A unit, a special value and an entry of the example in plain C.
+fn c_entry(system: &System, provenance: &Provenance) -> Result<String, Failure> {
+    let mut diagnostics = Diagnostics::new();
+    let set = c::artifacts(system, system.devices.iter(), provenance, &[c::Kind::Plain], &mut diagnostics);
+    let part = |path: &str, start: &str| -> Result<String, Failure> {
+        let file = set.iter().find(|artifact| artifact.path == path).ok_or("the example has no such file")?;
+        let text = std::str::from_utf8(&file.bytes)?;
+        let start = text.find(start).ok_or_else(|| format!("{path} lacks {start}"))?;
+        let rest = text.get(start..).unwrap_or_default();
+        Ok(rest.get(..rest.find("\n\n").unwrap_or(rest.len())).unwrap_or_default().to_owned())
+    };
+    Ok([
+        part("c/valve/OD_types.h", "/** decibar")?,
+        part("c/valve/OD_types.h", "/** 2001h actual pressure")?,
+        part("c/valve/valve_od.h", "/**\n * 2000h set pressure")?,
+    ]
+    .join("\n\n"))
 }
 
 /// The PDOs of the example in its DBC.

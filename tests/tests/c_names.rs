@@ -368,3 +368,12 @@ fn functions_read_and_write_what_the_table_says() {
     }
     assert!(count > 800, "{count} functions only");
 }
+
+#[test]
+fn the_example_of_the_readme_compiles() {
+    let directory = directory("README");
+    write("tests/readme/valve.od.yaml", &directory).unwrap();
+    let cc = Compiler::new("cc", &[]);
+    let source = od_tests::root().join("tests/readme/valve.c");
+    cc.object(&source, &directory, "valve", &[]).unwrap();
+}

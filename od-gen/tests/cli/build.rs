@@ -35,6 +35,47 @@ fn build_makes_rust_when_asked() {
 }
 
 #[test]
+fn build_makes_c_when_asked() {
+    let scratch = Scratch::new("c");
+    scratch.file("lamp.od.yaml", LAMP);
+    scratch.file("torch.od.yaml", LAMP.replace("lamp:", "torch:"));
+    // One runtime for all devices, and each kind once.
+    let output =
+        odgen(&scratch.0, &["build", "--c", "plain", "--c", "plain", "lamp.od.yaml", "torch.od.yaml"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let c: Vec<String> = files(&scratch.0.join("generated/c"));
+    assert_eq!(
+        c,
+        [
+            "lamp/OD_types.h",
+            "lamp/lamp_od.c",
+            "lamp/lamp_od.h",
+            "od_runtime.c",
+            "od_runtime.h",
+            "torch/OD_types.h",
+            "torch/torch_od.c",
+            "torch/torch_od.h",
+        ]
+    );
+    let header = fs::read_to_string(scratch.0.join("generated/c/lamp/lamp_od.h")).unwrap();
+    assert!(header.starts_with("/*\n * The object dictionary of `lamp`, from lamp.od.yaml.\n"), "{header}");
+    assert!(header.contains("static inline uint8_t lamp_get_brightness(const lamp_od_t *od)"), "{header}");
+}
+
+#[test]
+fn names_of_two_devices_do_not_meet_in_c() {
+    let scratch = Scratch::new("c-names");
+    let spec = LAMP
+        .replace("devices:\n", "devices:\n  lamp-get: {name: Other, bit-rates: [125]}\n")
+        .replace("objects:\n", "objects:\n  0x2001: {name: get x, type: unsigned8, access: rw, on: [lamp]}\n  0x2002: {name: x, type: unsigned8, access: rw, on: [lamp-get]}\n");
+    scratch.file("lamp.od.yaml", spec);
+    let output = odgen(&scratch.0, &["build", "--c", "plain", "lamp.od.yaml"]);
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(stderr(&output).contains("error[OD0901]: `lamp_get_get_x` would name"), "{}", stderr(&output));
+    assert!(!scratch.0.join("generated").exists());
+}
+
+#[test]
 fn what_cannot_be_rust_writes_nothing_at_all() {
     let scratch = Scratch::new("no-rust");
     let label = "objects:\n  0x2001: {name: label, type: visible-string, access: rw}\n";
