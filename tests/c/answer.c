@@ -70,7 +70,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
     const od_constraint_t *constraint;
     const od_region_t *region;
     uint32_t layout;
-    uint16_t row;
+    uint16_t row = 0U;
     size_t at;
     call_count = 0U;
     /* The fourth byte behind the operation says how the application is: unlocked, and whether it refuses. */
@@ -133,6 +133,9 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
         region = od_stored(&TABLE, sub);
         layout = (region != NULL) ? region->layout : 0U;
         code = od_restore(&TABLE, image, sub, unlocked ? layout : (layout + 1U), data, data_length) ? 0U : 1U;
+        break;
+    case 'C':
+        code = od_correct_stored(&TABLE, image, (uint8_t)index, sub, &row) ? ((uint32_t)row + 1U) : 0U;
         break;
     case 'i':
         value.bytes = image;

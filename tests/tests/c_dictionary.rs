@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, and counts")]
 
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use firmware_glue::Dictionary;
@@ -271,7 +272,7 @@ fn communication_objects() -> String {
     for (index, data_type, default) in
         [(0x1006, 7, "0"), (0x1012, 7, "0x100"), (0x1019, 5, "0"), (0x1017, 6, "0"), (0x100C, 6, "0")]
     {
-        text += &format!("[{index:X}]\n{}", variable(&format!("object {index:X}"), data_type, default));
+        let _ = write!(text, "[{index:X}]\n{}", variable(&format!("object {index:X}"), data_type, default));
     }
     let records: [(u16, &[(u8, &str)]); 9] = [
         (0x1003, &[(7, "0"), (7, "0"), (7, "0")]),
@@ -285,15 +286,19 @@ fn communication_objects() -> String {
         (0x1280, &[(7, "0x80000000"), (7, "0x80000000"), (5, "1")]),
     ];
     for (index, subs) in records {
-        text += &format!(
+        let _ = write!(
+            text,
             "[{index:X}]\nParameterName=object {index:X}\nObjectType=9\nSubNumber={}\n",
             subs.len() + 1
         );
         let count = if index == 0x1003 { "0".to_owned() } else { subs.len().to_string() };
-        text += &format!("[{index:X}sub0]\n{}", variable("number", 5, &count));
+        let _ = write!(text, "[{index:X}sub0]\n{}", variable("number", 5, &count));
         for (sub, (data_type, default)) in (1..).zip(subs) {
-            text +=
-                &format!("[{index:X}sub{sub:X}]\n{}", variable(&format!("part {sub}"), *data_type, default));
+            let _ = write!(
+                text,
+                "[{index:X}sub{sub:X}]\n{}",
+                variable(&format!("part {sub}"), *data_type, default)
+            );
         }
     }
     text

@@ -178,6 +178,13 @@ impl<'t, D: Dictionary<'t>> Reference<D> {
                 let layout = od.layout(storage).wrapping_add(u32::from(!application.unlocked));
                 od.restore(storage, layout, data).map(|()| Vec::new()).map_err(|_| (1, Vec::new()))
             }
+            b'C' => {
+                let storage = STORAGES.get(usize::from(index)).copied().unwrap_or(Storage::No);
+                match od.correct_stored(storage, sub) {
+                    None => Ok(Vec::new()),
+                    Some(entry) => Err((u32::from(od.row(entry)) + 1, Vec::new())),
+                }
+            }
             b'i' => Ok(od.image().to_vec()),
             _ => Err(refused(AbortCode::GENERAL)),
         }

@@ -87,6 +87,11 @@ impl<'t, D: Dictionary<'t>> Trial<D> {
         self.all_values();
         for at in 0..random {
             self.anything();
+            if at % 50 == 49 {
+                let group = u8::try_from(self.below(5)).unwrap_or_default();
+                self.ask(&[b'C', group, 0, 5]);
+                self.ask(b"i");
+            }
             if at % 500 == 499 {
                 self.all_values();
                 let node = self.below(127) + 1;

@@ -151,10 +151,6 @@ fn what_the_stack_does_not_compile_without_is_refused() {
             &format!("has no {index}h ({name}), and CANopenNode does not compile without it"),
         );
     }
-    let sub = |sub: u16| format!("[2000sub{sub:X}]\nParameterName=s{sub}\nDataType=5\nAccessType=rw\n");
-    let whole_range: String = (0..256).map(sub).collect();
-    let full = format!("[2000]\nParameterName=full\nObjectType=9\nSubNumber=256\n{whole_range}");
-    has(&eds(&full), "2000h (full) has 256 entries, and CANopenNode counts to 255");
     has(&eds(&pdo(0x1400, 1)), "RPDO 1 has 1400h and no 1600h");
     has(&eds(&pdo(0x1A00, 1)), "TPDO 1 has 1A00h and no 1800h");
     has(

@@ -18,7 +18,6 @@ pub(super) fn check(device: &Dictionary, objects: &[StackObject<'_>], diagnostic
     findings.needed();
     findings.configured();
     findings.consumers(objects);
-    findings.sub_indices();
     for direction in [Direction::Receive, Direction::Transmit] {
         findings.pdos(direction);
     }
@@ -151,21 +150,6 @@ impl Findings<'_, '_> {
                 "CANopenNode takes 1016h (consumer heartbeat time) as an ARRAY of 1 to 127 elements without a gap".to_owned(),
                 "make it such an ARRAY",
             ),
-        }
-    }
-
-    /// The stack counts the entries of an object in a byte.
-    fn sub_indices(&mut self) {
-        for object in
-            self.device.objects.values().filter(|object| object.entries.len() > usize::from(u8::MAX))
-        {
-            let message = format!(
-                "{} ({}) has {} entries, and CANopenNode counts to 255",
-                object.index,
-                object.name,
-                object.entries.len()
-            );
-            self.tell(codes::STACK_REFUSES, object.span, message, "leave out sub-index FFh, or another one");
         }
     }
 

@@ -111,7 +111,7 @@ fn calls(page: &mut Page<'_, '_>) {
     let id = "uint16_t index, uint8_t sub";
     let data = "const uint8_t *data, size_t length";
     let application = "const od_application_t *application";
-    let calls: [(&str, &str, String, String, &str); 9] = [
+    let calls: [(&str, &str, String, String, &str); 11] = [
         (
             "void",
             "reset",
@@ -125,6 +125,20 @@ fn calls(page: &mut Page<'_, '_>) {
             format!("{write}, uint8_t storage, uint8_t node_id"),
             format!("od_reset_stored(&{table}, od->image, storage, node_id)"),
             "The same for the values of one storage group.",
+        ),
+        (
+            "bool",
+            "restore",
+            format!("{write}, uint8_t storage, uint32_t layout, const uint8_t *bytes, size_t length"),
+            format!("od_restore(&{table}, od->image, storage, layout, bytes, length)"),
+            "Takes back the bytes of a storage group, which `od_stored` of the table tells, if they are of this layout.",
+        ),
+        (
+            "bool",
+            "correct_stored",
+            format!("{write}, uint8_t storage, uint8_t node_id, od_row_t *first"),
+            format!("od_correct_stored(&{table}, od->image, storage, node_id, first)"),
+            "Puts right what a group has that its entries cannot have any more; true, and the first of them, if there was any.",
         ),
         (
             "uint32_t",

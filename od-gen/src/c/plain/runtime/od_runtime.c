@@ -736,6 +736,9 @@ static uint32_t check_value(
 
 /* Rules of communication objects (CiA 301 9.6.3), beyond type and limits. */
 
+/** What a value replaces: the one of now, which a client writes over, or none, as it comes from a memory. */
+typedef enum { REPLACES_PRESENT, REPLACES_NOTHING } replaced_t;
+
 /** An identifier of 11 bits that CiA 301 does not keep for another service (table 35, and 002h to 07Fh since 4.2). */
 static uint32_t check_usable(uint32_t cob_id)
 {
@@ -802,18 +805,21 @@ static uint32_t check_heartbeat(const od_table_t *table, const uint8_t *image, u
 }
 
 /** 1019h: 0 or 2 to 240, and only while no SYNC is produced (1006h is 0). */
-static uint32_t check_counter(const od_table_t *table, const uint8_t *image, uint32_t value)
+static uint32_t check_counter(const od_table_t *table, const uint8_t *image, uint32_t value, replaced_t replaced)
 {
     if ((value == 1U) || (value > 240U)) {
         return OD_ABORT_INVALID_VALUE;
+    }
+    if (replaced == REPLACES_NOTHING) {
+        return OD_OK;
     }
     return (current(table, image, 0x1006U, 0U, 0U) != 0U) ? OD_ABORT_DEVICE_STATE : OD_OK;
 }
 
 static uint32_t check_pdo_communication(
-    const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, uint32_t value)
+    const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, uint32_t value, replaced_t replaced)
 {
-    uint32_t cob_id = current(table, image, index, 1U, NOT_VALID);
+    uint32_t cob_id = (replaced == REPLACES_NOTHING) ? NOT_VALID : current(table, image, index, 1U, NOT_VALID);
     bool is_received = index < TRANSMIT;
     bool is_valid = (cob_id & NOT_VALID) == 0U;
     bool refused = false;
@@ -889,13 +895,14 @@ static uint32_t check_mapped(const od_table_t *table, uint8_t direction, uint32_
  * its entries, only while their number is 0.
  */
 static uint32_t check_pdo_mapping(
-    const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, uint32_t value)
+    const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, uint32_t value, replaced_t replaced)
 {
     uint8_t direction = (index >= TRANSMIT) ? (uint8_t)OD_FLAG_TRANSMIT : (uint8_t)OD_FLAG_RECEIVE;
     uint32_t cob_id = current(table, image, (uint16_t)(index - MAPPING), 1U, NOT_VALID);
     uint32_t sum = 0U;
     uint32_t at;
-    if (((cob_id & NOT_VALID) == 0U) || ((sub != 0U) && (current(table, image, index, 0U, 0U) != 0U))) {
+    if ((replaced == REPLACES_PRESENT)
+        && (((cob_id & NOT_VALID) == 0U) || ((sub != 0U) && (current(table, image, index, 0U, 0U) != 0U)))) {
         return OD_ABORT_UNSUPPORTED_ACCESS;
     }
     if (sub != 0U) {
@@ -927,32 +934,39 @@ static uint32_t check_command(uint32_t value, uint32_t signature, bool *is_comma
 
 /** Checks a value of the right type and within its limits for a communication object. */
 static uint32_t check_communication(
-    const od_table_t *table, const uint8_t *image, od_row_t row, const uint8_t *data, size_t length, bool *is_command)
+    const od_table_t *table,
+    const uint8_t *image,
+    od_row_t row,
+    const uint8_t *data,
+    size_t length,
+    replaced_t replaced,
+    bool *is_command)
 {
     uint16_t index = 0U;
     uint8_t sub = 0U;
+    bool is_present = replaced == REPLACES_PRESENT;
     uint64_t whole = od_get_unsigned(data, length);
     /* None of the objects below has more than 32 bits. */
     uint32_t value = (whole <= NOTHING) ? (uint32_t)whole : (uint32_t)NOTHING;
+    uint32_t now;
     uint32_t before;
     (void)od_id(table, row, &index, &sub);
-    before = current(table, image, index, sub, NOTHING);
+    now = current(table, image, index, sub, NOTHING);
+    /* Of most COB-IDs bit 31 says that there is no message. */
+    before = is_present ? now : NOT_VALID;
     if (index == 0x1003U) {
-        return ((sub == 0U) && (value != 0U)) ? OD_ABORT_INVALID_VALUE : OD_OK;
-    }
-    if ((index == 0x1005U) && (sub == 0U) && ((value & ~before & PRODUCER) != 0U)
-        && !has_number(table, image, 0x1006U, 0U)) {
-        /* Nobody could say how often. */
-        return OD_ABORT_INVALID_VALUE;
+        return (is_present && (sub == 0U) && (value != 0U)) ? OD_ABORT_INVALID_VALUE : OD_OK;
     }
     if (((index == 0x1005U) || (index == 0x1012U)) && (sub == 0U)) {
+        before = is_present ? now : 0U;
+        if ((index == 0x1005U) && ((value & ~before & PRODUCER) != 0U) && !has_number(table, image, 0x1006U, 0U)) {
+            /* Nobody could say how often. */
+            return OD_ABORT_INVALID_VALUE;
+        }
         return check_produced(before, value);
     }
-    if ((index == 0x1010U) && (sub != 0U)) {
-        return check_command(value, SAVE, is_command);
-    }
-    if ((index == 0x1011U) && (sub != 0U)) {
-        return check_command(value, LOAD, is_command);
+    if (((index == 0x1010U) || (index == 0x1011U)) && (sub != 0U)) {
+        return is_present ? check_command(value, (index == 0x1010U) ? SAVE : LOAD, is_command) : OD_OK;
     }
     if (((index == 0x1014U) && (sub == 0U)) || ((index == 0x1028U) && (sub != 0U))) {
         return check_cob_id(before, value);
@@ -961,7 +975,7 @@ static uint32_t check_communication(
         return check_heartbeat(table, image, sub, value);
     }
     if ((index == 0x1019U) && (sub == 0U)) {
-        return check_counter(table, image, value);
+        return check_counter(table, image, value, replaced);
     }
     if ((index == 0x1029U) && (sub != 0U)) {
         return ((value >= 3U) && (value <= 127U)) ? OD_ABORT_INVALID_VALUE : OD_OK;
@@ -975,8 +989,8 @@ static uint32_t check_communication(
     }
     if ((index >= RECEIVE) && (index < (TRANSMIT + (2U * MAPPING)))) {
         return ((((index - RECEIVE) / MAPPING) % 2U) == 0U)
-            ? check_pdo_communication(table, image, index, sub, value)
-            : check_pdo_mapping(table, image, index, sub, value);
+            ? check_pdo_communication(table, image, index, sub, value, replaced)
+            : check_pdo_mapping(table, image, index, sub, value, replaced);
     }
     return OD_OK;
 }
@@ -1155,7 +1169,7 @@ static uint32_t write_row(
         }
     }
     if ((code == OD_OK) && (holder.row < table->first_application_row)) {
-        code = check_communication(table, image, holder.row, data, length, &is_command);
+        code = check_communication(table, image, holder.row, data, length, REPLACES_PRESENT, &is_command);
     }
     if (code == OD_OK) {
         code = check_condition(table, image, found.shared);
@@ -1350,6 +1364,99 @@ bool od_restore(
         image[region->start + at] = bytes[at];
     }
     return true;
+}
+
+/** The bytes of an entry in the image, with what tells the length of a string; false for one that lies elsewhere. */
+static bool place_of(found_t found, uint32_t *start, uint32_t *end)
+{
+    *start = (uint32_t)offset_of(found);
+    *end = *start + found.shared->size + (uint32_t)prefix(found.shared->data_type);
+    return found.shared->place == OD_PLACE_IMAGE;
+}
+
+/** Whether an entry of the image has the value of a factory reset. */
+static bool is_reset(const od_table_t *table, const uint8_t *image, uint32_t start, uint32_t end, uint8_t node_id)
+{
+    uint32_t at;
+    uint16_t number;
+    for (number = 0U; number < table->node_id_count; number++) {
+        const od_node_id_t *place = &table->node_ids[number];
+        if (place->offset == start) {
+            uint8_t expected[8];
+            uint64_t value = od_get_unsigned(&table->factory[start], place->size);
+            od_put_unsigned(expected, 8U, value + node_id);
+            return od_get_unsigned(&image[start], place->size) == od_get_unsigned(expected, place->size);
+        }
+    }
+    for (at = start; at < end; at++) {
+        if (image[at] != table->factory[at]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/** Whether the value of now passes the checks of a write. */
+static bool can_have(const od_table_t *table, const uint8_t *image, found_t found)
+{
+    od_value_t value;
+    bool is_command = false;
+    if ((value_of(table, image, found, &value) != OD_OK)
+        || (check_value(table, found.shared, value.bytes, value.length) != OD_OK)) {
+        return false;
+    }
+    return (found.row >= table->first_application_row)
+        || (check_communication(table, image, found.row, value.bytes, value.length, REPLACES_NOTHING, &is_command)
+            == OD_OK);
+}
+
+/** Puts all values of an object back. */
+static void reset_object(const od_table_t *table, uint8_t *image, uint16_t index, uint8_t node_id)
+{
+    size_t position;
+    od_row_t row;
+    if (position_of(table, index, &position)) {
+        for (row = table->objects[position]; row < table->objects[position + 1U]; row++) {
+            uint32_t start;
+            uint32_t end;
+            if (place_of(found_at(table, row), &start, &end)) {
+                reset_part(table, image, start, end, node_id);
+            }
+        }
+    }
+}
+
+bool od_correct_stored(
+    const od_table_t *table, uint8_t *image, uint8_t storage, uint8_t node_id, od_row_t *first)
+{
+    const od_region_t *region = od_stored(table, storage);
+    bool is_corrected = false;
+    od_row_t row;
+    for (row = 0U; (region != NULL) && (row < table->entry_count); row++) {
+        found_t found = found_at(table, row);
+        uint16_t index = 0U;
+        uint8_t sub;
+        uint32_t start;
+        uint32_t end;
+        if (!place_of(found, &start, &end) || (start < region->start) || (start >= region->end)
+            || can_have(table, image, found) || is_reset(table, image, start, end, node_id)) {
+            continue;
+        }
+        if (!is_corrected) {
+            *first = row;
+        }
+        is_corrected = true;
+        reset_part(table, image, start, end, node_id);
+        (void)od_id(table, row, &index, &sub);
+        if ((index >= RECEIVE) && (index < (TRANSMIT + (2U * MAPPING)))) {
+            /* Half a mapping would give values to entries that they are not for. */
+            bool is_mapping = (((index - RECEIVE) / MAPPING) % 2U) == 1U;
+            uint16_t communication = is_mapping ? (uint16_t)(index - MAPPING) : index;
+            reset_object(table, image, communication, node_id);
+            reset_object(table, image, (uint16_t)(communication + MAPPING), node_id);
+        }
+    }
+    return is_corrected;
 }
 
 /* PDOs. */

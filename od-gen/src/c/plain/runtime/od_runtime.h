@@ -395,7 +395,8 @@ const od_region_t *od_stored(const od_table_t *table, uint8_t storage);
 /**
  * Takes back the bytes of a region, with the number that its layout had when they were saved. False,
  * and nothing changes, if they are not of this layout. The values themselves are not checked: keep a
- * checksum beside them.
+ * checksum beside them, and the node-ID, and let od_correct_stored look at what another firmware may
+ * have saved.
  */
 bool od_restore(
     const od_table_t *table,
@@ -404,6 +405,14 @@ bool od_restore(
     uint32_t layout,
     const uint8_t *bytes,
     size_t length);
+
+/**
+ * Looks at the values of a storage group that came from a memory: what its entry cannot have any more,
+ * as it has other limits in this firmware, gets the value after a factory reset; parameters of a PDO,
+ * all of that PDO. True, and the first such entry, if there was any.
+ */
+bool od_correct_stored(
+    const od_table_t *table, uint8_t *image, uint8_t storage, uint8_t node_id, od_row_t *first);
 
 /* PDOs by their mapping parameters in the image, so that a mapping changed over the bus works, too. */
 
