@@ -9,6 +9,7 @@ mod endurance;
 mod layout;
 mod names;
 mod protocol;
+mod random;
 mod structure;
 
 const PITCH: &str = include_str!("../../../od-spec/devices/pitch-control-system.od.yaml");
