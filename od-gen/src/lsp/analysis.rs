@@ -1,7 +1,7 @@
 //! One document compiled with everything that it names: the same as `odgen check` does with a file.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{LazyLock, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use lsp_types::{Range, Uri};
 use od_spec::diag::{Diagnostic, Diagnostics};
@@ -17,6 +17,7 @@ use od_spec::{Compiled, add_source, compile, is_parameter_file, is_specification
 use super::overlay::{Buffers, Overlay, bytes_of};
 use super::place::Place;
 use super::position::{Encoding, Lines};
+use super::trees;
 use super::unread;
 use crate::source::remark;
 
@@ -84,7 +85,7 @@ struct FileFacts {
     place: Place,
     uri: Option<Uri>,
     lines: OnceLock<Lines>,
-    tree: OnceLock<Option<Node>>,
+    tree: OnceLock<Option<Arc<Node>>>,
     outline: OnceLock<Node>,
 }
 
@@ -203,11 +204,11 @@ impl Analysis {
     pub(super) fn tree(&self, file: FileId) -> Option<&Node> {
         let read = || match self.kind {
             Kind::Specification | Kind::Plant | Kind::Parameters => {
-                yaml::parse(file, self.sources.file(file), &mut Diagnostics::new())
+                trees::tree(file, self.sources.file(file))
             }
             Kind::Eds | Kind::Xdd | Kind::Foreign => None,
         };
-        self.files.get(&file)?.tree.get_or_init(read).as_ref()
+        self.files.get(&file)?.tree.get_or_init(read).as_deref()
     }
 
     /// The syntax tree of a file of a specification; where the text is no YAML, what can be read of it.

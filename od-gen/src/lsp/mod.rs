@@ -36,6 +36,7 @@ mod shift;
 mod snapshot;
 mod symbols;
 mod transport;
+mod trees;
 mod unread;
 mod workspace;
 mod workspace_symbols;
