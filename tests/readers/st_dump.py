@@ -10,6 +10,7 @@ from typing import Any
 from st_machine import BITS, SIGNED, UNSIGNED, WHOLE
 
 EXACT = 1 << 53
+MOST_STEPS = 1 << 50
 CODES = {
     "boolean": 0x01, "integer8": 0x02, "integer16": 0x03, "integer32": 0x04, "unsigned8": 0x05, "unsigned16": 0x06, "unsigned32": 0x07,
     "real32": 0x08, "visible-string": 0x09, "octet-string": 0x0A, "unicode-string": 0x0B, "time-of-day": 0x0C, "time-difference": 0x0D,
@@ -116,8 +117,8 @@ class Quantity:
         is_signed = entry["type"].startswith("integer")
         self.least, self.most = (-(1 << bits - 1), (1 << bits - 1) - 1) if is_signed else (0, (1 << bits) - 1)
         low, high = (entry.get(beside, entry[key]) for key, beside in [("low", "min"), ("high", "max")])
-        self.low = max(self.least if low is None else low, -EXACT if bits > 32 else self.least)
-        self.high = min(self.most if high is None else high, EXACT if bits > 32 else self.most)
+        self.low = max(self.least if low is None else low, -MOST_STEPS if bits > 32 else self.least)
+        self.high = min(self.most if high is None else high, MOST_STEPS if bits > 32 else self.most)
         self.special = {one["value"] for one in entry.get("special", [])}
 
     def value(self, raw: int) -> Fraction:

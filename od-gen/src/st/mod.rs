@@ -65,6 +65,8 @@ pub enum Why {
         /// Its bits.
         bits: u32,
     },
+    /// The PDO carries nothing but placeholders.
+    OnlyPlaceholders,
     /// The PDO carries a REAL.
     RealInBytes,
     /// The numbers of the scale are too large for LREAL to have them exactly.
@@ -87,6 +89,7 @@ impl fmt::Display for LeftOut {
         let what = &self.what;
         match &self.why {
             Why::TooLong { bits } => write!(f, "{what}: it has {bits} bits, more than the 64 of a frame"),
+            Why::OnlyPlaceholders => write!(f, "{what}: it carries nothing but placeholders"),
             Why::RealInBytes => {
                 write!(f, "{what}: it carries a REAL, and tools differ in what converts its bits")
             }

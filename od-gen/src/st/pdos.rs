@@ -75,6 +75,10 @@ pub(super) fn pdos<'a>(device: &mut Device<'a>, left_out: &mut Vec<LeftOut>) -> 
         }
         let name = device.prefixed(&label);
         let fields = fields(device, pdo);
+        if fields.is_empty() {
+            left_out.push(LeftOut { what: format!("{label} of {key}"), why: Why::OnlyPlaceholders });
+            continue;
+        }
         let has_real = fields.iter().any(|field| field.of_type.kind() == Kind::Real);
         let behind = match pdo.direction {
             Direction::Transmit => ["unpack", "in"],
@@ -105,6 +109,9 @@ fn fields<'a>(device: &Device<'a>, pdo: &Pdo) -> Vec<Field<'a>> {
     for field in pdo.fields() {
         let PdoTarget::Entry(id) = field.mapped.target else { continue };
         let bits = u32::from(field.mapped.bits);
+        if bits == 0 {
+            continue;
+        }
         let object = device.dictionary.objects.get(&id.index);
         let entry = object.and_then(|object| Some((object, object.entry(id.sub)?)));
         let words = entry.map_or_else(
@@ -154,7 +161,8 @@ pub(super) fn constants(device: &mut Device<'_>) -> Vec<Group> {
             }
             (Some(cob_id), node) => {
                 if let Some(raw) = cob_id.integer_for(node.unwrap_or_default()) {
-                    add("can_id", "UDINT", format!("16#{:03X}", raw & 0x1FFF_FFFF), Phrase::CanId);
+                    let note = if raw >> 29 & 1 == 1 { Phrase::LongCanId } else { Phrase::CanId };
+                    add("can_id", "UDINT", format!("16#{:03X}", raw & 0x1FFF_FFFF), note);
                 }
             }
             (None, _) => {}

@@ -100,8 +100,8 @@ phrases! {
         "{} in Rohwert, auf den nächsten Schritt gerundet, halbe von der Null weg. FALSE: außerhalb von {} bis {} (roh {} bis {}), ein besonderer Wert oder keine Zahl; raw bleibt, wie es war.";
     /// 64 bits in LREAL.
     Inexact:
-        "LREAL has 53 bits: beyond 9007199254740992 steps the value is the nearest that there is, and none becomes a raw value.",
-        "LREAL hat 53 Bits: jenseits von 9007199254740992 Schritten ist der Wert der nächstliegende, und keiner wird zum Rohwert.";
+        "LREAL has 53 bits: beyond 1125899906842624 steps the value is the nearest that there is, and none becomes a raw value.",
+        "LREAL hat 53 Bits: jenseits von 1125899906842624 Schritten ist der Wert der nächstliegende, und keiner wird zum Rohwert.";
     /// A step that the user sets up.
     Formula:
         "The step is {} by the settings of the device; here it is that of the defaults.",
@@ -122,6 +122,8 @@ phrases! {
     Empty: "Nothing is mapped.", "Nichts ist gemappt.";
     /// COB-ID.
     CanId: "CAN-ID", "CAN-ID";
+    /// COB-ID of 29 bits.
+    LongCanId: "CAN-ID of 29 bits", "CAN-ID mit 29 Bits";
     /// COB-ID without node.
     CanIdBase: "CAN-ID without the node-ID: add it", "CAN-ID ohne die Node-ID: diese addieren";
     /// Length of a frame.

@@ -17,6 +17,8 @@ use super::{LeftOut, Why};
 
 /// Largest whole number up to which LREAL has them all.
 const EXACT: i128 = 1 << 53;
+/// As many steps a value may be to become a raw value: with more of them, what is lost on the way could be half a step.
+const MOST_STEPS: i128 = 1 << 50;
 
 /// A quantity that one or more entries of an object have in common.
 pub(super) struct Quantity<'a> {
@@ -192,7 +194,8 @@ pub(super) fn by_entry<'q, 'a>(quantities: &'q [Quantity<'a>]) -> BTreeMap<Entry
 fn bounds(entry: &Entry, raw: Elementary) -> Option<(i128, i128)> {
     let (least, most) = entry.data_type.range()?;
     let (low, high) = (entry.low.unwrap_or(least).max(least), entry.high.unwrap_or(most).min(most));
-    let (low, high) = if raw.bits() == 64 { (low.max(-EXACT), high.min(EXACT)) } else { (low, high) };
+    let (low, high) =
+        if raw.bits() == 64 { (low.max(-MOST_STEPS), high.min(MOST_STEPS)) } else { (low, high) };
     (low <= high).then_some((low, high))
 }
 

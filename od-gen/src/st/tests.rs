@@ -1,6 +1,7 @@
 //! The printed text; what it does on a controller, tests/readers/st.py evaluates.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
@@ -11,7 +12,8 @@ use super::{Written, write};
 
 fn system(text: &str) -> System {
     let mut sources = SourceMap::new();
-    let root = sources.add("valve.od.yaml", text);
+    let name = if text.starts_with("[DeviceInfo]") { "valve.eds" } else { "valve.od.yaml" };
+    let root = sources.add(name, text);
     let compiled = compile(&mut sources, root, &mut NoFiles);
     compiled
         .system
@@ -105,4 +107,51 @@ fn the_same_specification_gives_the_same_bytes() {
     let system = system(NAMES);
     let first = write(&system, &system.devices[0], None, Some("de"));
     assert_eq!(first, write(&system, &system.devices[0], None, Some("de")));
+}
+
+#[test]
+fn a_pdo_of_placeholders_has_no_structure() {
+    let text = "
+od-spec: 1
+title: Valve
+uses: [cia301]
+devices:
+  valve: {name: Valve, bit-rates: [125], granularity: 8, dummies: [unsigned8], features: [heartbeat producer]}
+objects:
+  0x2000: {name: a, type: unsigned8, access: rw, pdo: receive}
+pdos:
+  valve: {receive: {1: {map: [unsigned8]}, 2: {map: [unsigned8, a]}}}
+";
+    let (written, text) = written(text, Some(5));
+    let told: Vec<String> = written.left_out.iter().map(ToString::to_string).collect();
+    assert_eq!(told, ["RPDO1 of valve: it carries nothing but placeholders"]);
+    assert!(!text.contains("TYPE VALVE_RPDO1 "), "{text}");
+    assert!(text.contains("data[0] := 16#00;\ndata[1] := USINT_TO_BYTE(u1);"), "{text}");
+}
+
+/// What no specification says, and an EDS does: a CAN-ID of 29 bits, nothing of an entry, a part of one, and an entry that there is not.
+#[test]
+fn a_foreign_mapping_is_taken_as_it_is() {
+    let mut text = "[DeviceInfo]\nProductName=Valve\n".to_owned();
+    let var = |section: &str, data_type: u8, value: &str| {
+        format!(
+            "[{section}]\nParameterName=p {section}\nObjectType=7\nDataType={data_type}\nAccessType=rw\nPDOMapping=1\nDefaultValue={value}\n"
+        )
+    };
+    text += &var("2000", 3, "-2");
+    for (index, subs) in [
+        ("1400", &[(5, "2"), (7, "0x20000181"), (5, "255")][..]),
+        ("1600", &[(5, "3"), (7, "0x20000000"), (7, "0x2000000C"), (7, "0x30000010")][..]),
+    ] {
+        let _ = write!(text, "[{index}]\nParameterName=p{index}\nObjectType=9\n");
+        for (sub, (data_type, value)) in subs.iter().enumerate() {
+            text += &var(&format!("{index}sub{sub}"), *data_type, value);
+        }
+    }
+    let (written, text) = written(&text, Some(5));
+    assert_eq!(written.left_out, []);
+    assert!(text.contains("VALVE_RPDO1_CAN_ID : UDINT := 16#181; (* CAN-ID of 29 bits *)"), "{text}");
+    assert!(text.contains("    p_2000 : UINT; (* 2000h p 2000; 12 of 16 bits are mapped *)"), "{text}");
+    assert!(text.contains("    entry : UINT; (* 3000h no entry of the device *)"), "{text}");
+    assert!(text.contains("IF raw.p_2000 > 4095 THEN"), "{text}");
 }
