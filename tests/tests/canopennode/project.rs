@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use od_gen::Provenance;
 use od_gen::c::{self, Kind};
@@ -69,6 +70,9 @@ fn compiled(name: &str, text: &str) -> (System, SourceMap) {
     (system.unwrap_or_else(|| panic!("{}", render(&diagnostics, &sources, Format::Human, false))), sources)
 }
 
+/// Of how many systems there are projects: tests run side by side, and several are about one device.
+static PROJECTS: AtomicUsize = AtomicUsize::new(0);
+
 fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
     let mut diagnostics = Diagnostics::new();
     let set = c::artifacts(
@@ -81,7 +85,11 @@ fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
     let told = render(&diagnostics, sources, Format::Human, false);
     assert!(!diagnostics.has_errors(), "{told}");
     let dump: Json = serde_json::from_slice(&json::dump(system, &[])).unwrap();
-    let folder = root().join("target/canopennode").join(name);
+    let number = PROJECTS.fetch_add(1, Ordering::Relaxed);
+    let folder = root().join(format!("target/canopennode/{number}-{name}"));
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
     for file in &set {
         let path = folder.join(&file.path);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
