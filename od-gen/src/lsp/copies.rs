@@ -13,7 +13,7 @@ use lsp_types::Uri;
 use od_spec::diag::Code;
 use od_spec::{LIBRARIES, explanation};
 
-use super::place::uri_of;
+use super::uri::uri_of;
 use crate::artifact::Artifact;
 use crate::files::{Existing, write_set};
 

@@ -38,6 +38,7 @@ mod symbols;
 mod transport;
 mod trees;
 mod unread;
+mod uri;
 mod workspace;
 mod workspace_symbols;
 

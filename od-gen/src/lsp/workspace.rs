@@ -9,9 +9,10 @@ use super::analysis::Analysis;
 use super::buffer::Buffer;
 use super::copies;
 use super::overlay::{Buffers, whole};
-use super::place::{Place, uri_of};
+use super::place::Place;
 use super::position::Encoding;
 use super::snapshot::Snapshot;
+use super::uri::uri_of;
 
 /// What is open, and the specifications that it belongs to.
 ///

@@ -246,7 +246,7 @@ codes! {
             "sites:\n  Hall: {type: P1, machines: {1..10: {}, 11: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..11: {}}}"
         )]
-    STACK_DIFFERS Warning "OD0855" "something that the stack wants set up":
+    STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
         "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use super::definitions::{Scope, one_or_more};
-use super::references::{At, Collector, scope};
+use super::collector::{At, Collector, scope};
+use super::definitions::one_or_more;
+use super::known::Scope;
 use super::{By, DefinitionId, Kind};
 use crate::decode::lexical;
 use crate::expr::{EntryRef, Lookup, Named, Operand, PLACEHOLDER, without_names};
@@ -59,9 +60,10 @@ impl<'t> Asked<'_, '_, '_, 't> {
         let devices = device.as_ref().map_or(self.devices.as_slice(), |one| one.as_slice());
         let scope = scope(devices);
         let known = self.collector.known;
-        let mut found = self.collector.meant.devices(scope);
-        let meant = found.find_map(|device| Some(device.entry(entry.id)?.named_type.as_ref()?.name.as_str()));
-        let name = meant.or_else(|| known.objects.type_of(known, self.at.file(), entry.id, scope))?;
+        let mut found = self.collector.resolved.devices(scope);
+        let resolved =
+            found.find_map(|device| Some(device.entry(entry.id)?.named_type.as_ref()?.name.as_str()));
+        let name = resolved.or_else(|| known.type_of_entry(self.at.file(), entry.id, scope))?;
         self.collector.type_of(name, self.at.file())
     }
 }
@@ -72,7 +74,7 @@ impl Lookup for Asked<'_, '_, '_, '_> {
         let devices = self.on(name.device, name.range.start);
         self.collector.named_entry(self.at, name.range.clone(), &full, &devices);
         let scope = scope(&devices);
-        let found = self.collector.meant.named(&full, scope).next().map(|(_, id)| id);
+        let found = self.collector.resolved.named(&full, scope).next().map(|(_, id)| id);
         let written = || self.collector.known.objects.named(&full, scope).map(|found| found.first);
         found.or_else(written).or(Some(UNKNOWN))
     }

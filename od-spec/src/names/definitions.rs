@@ -1,8 +1,7 @@
 //! What the texts define, read from their trees alone.
 
-use std::collections::BTreeMap;
-
-use super::objects::Objects;
+use super::known::{Known, Scope};
+use super::objects::{Described, Member};
 use super::{Definition, DefinitionId, Kind, Spelling};
 use crate::decode::lexical;
 use crate::eds::file_name;
@@ -10,102 +9,6 @@ use crate::expr::PLACEHOLDER;
 use crate::model::{Index, SubIndex};
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::{Node, NodeKind};
-
-/// In what a name has to be unique.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Scope {
-    /// In all files together.
-    Everywhere,
-    /// In something that is defined.
-    In(DefinitionId),
-    /// In what is described at a place, which has no name.
-    At(Span),
-}
-
-/// All definitions, and how they are found.
-pub(super) struct Known<'t> {
-    /// The maker's file.
-    pub(super) root: FileId,
-    list: Vec<Definition>,
-    by_name: BTreeMap<(Kind, Scope, &'t str), Vec<DefinitionId>>,
-    /// Error codes from the first to the last.
-    errors: Vec<(u16, u16, DefinitionId)>,
-    pub(super) objects: Objects<'t>,
-}
-
-impl<'t> Known<'t> {
-    pub(super) fn into_list(self) -> Vec<Definition> {
-        self.list
-    }
-
-    pub(super) fn definition(&self, id: DefinitionId) -> &Definition {
-        &self.list[id.0 as usize]
-    }
-
-    pub(super) fn definition_mut(&mut self, id: DefinitionId) -> &mut Definition {
-        &mut self.list[id.0 as usize]
-    }
-
-    /// What has a name, as a text of `file` means it: what it defines itself, or else the maker, or else the first library.
-    pub(super) fn named(&self, kind: Kind, scope: Scope, name: &str, file: FileId) -> Option<DefinitionId> {
-        let all = self.by_name.get(&(kind, scope, name))?;
-        let is_in = |file: FileId| {
-            all.iter().find(move |id| self.definition(**id).span.file.is_one_with(file)).copied()
-        };
-        is_in(file).or_else(|| is_in(self.root)).or_else(|| all.first().copied())
-    }
-
-    /// The file of a library, by the name that `from:` has for it.
-    pub(super) fn library(&self, name: &str) -> Option<FileId> {
-        let first = self.by_name.get(&(Kind::Library, Scope::Everywhere, name))?.first()?;
-        Some(self.definition(*first).span.file)
-    }
-
-    /// All that has a name: a state machine of the maker lies over that of a library.
-    pub(super) fn all_named(&self, kind: Kind, scope: Scope, name: &str) -> Vec<DefinitionId> {
-        self.by_name.get(&(kind, scope, name)).cloned().unwrap_or_default()
-    }
-
-    /// The error codes of a run, as a text of `file` means them.
-    pub(super) fn errors(&self, first: u16, last: u16, file: FileId) -> Vec<DefinitionId> {
-        let found =
-            || self.errors.iter().filter(|(from, to, _)| *from <= last && first <= *to).map(|one| one.2);
-        let of_file = |file: FileId| -> Vec<DefinitionId> {
-            found().filter(|id| self.definition(*id).span.file.is_one_with(file)).collect()
-        };
-        let of_maker = of_file(file);
-        if of_maker.is_empty() { found().collect() } else { of_maker }
-    }
-
-    pub(super) fn add(&mut self, definition: Definition) -> DefinitionId {
-        // There are fewer definitions than bytes.
-        let id = DefinitionId(u32::try_from(self.list.len()).unwrap_or(u32::MAX));
-        self.list.push(definition);
-        id
-    }
-
-    fn add_named(&mut self, kind: Kind, scope: Scope, name: Spanned<&'t str>, key: Span) -> DefinitionId {
-        let owner = match scope {
-            Scope::In(owner) => Some(owner),
-            Scope::Everywhere | Scope::At(_) => None,
-        };
-        let id = self.add(Definition { owner, ..definition(kind, name, key) });
-        self.by_name.entry((kind, scope, name.value)).or_default().push(id);
-        id
-    }
-
-    /// The keys of a section, each of which names something.
-    fn keys(&mut self, kind: Kind, section: Option<&'t Node>) -> Vec<(DefinitionId, &'t Node)> {
-        let entries = section.map(Node::entries).unwrap_or_default();
-        entries
-            .iter()
-            .map(|(name, node)| {
-                let id = self.add_named(kind, Scope::Everywhere, text(name), name.span);
-                (id, node)
-            })
-            .collect()
-    }
-}
 
 /// Something with a name.
 pub(super) fn definition(kind: Kind, name: Spanned<&str>, key: Span) -> Definition {
@@ -121,6 +24,27 @@ pub(super) fn definition(kind: Kind, name: Spanned<&str>, key: Span) -> Definiti
         subs: None,
         devices: None,
     }
+}
+
+/// Adds something that is found by its name.
+fn named<'t>(
+    known: &mut Known<'t>,
+    kind: Kind,
+    scope: Scope,
+    name: Spanned<&'t str>,
+    key: Span,
+) -> DefinitionId {
+    let owner = match scope {
+        Scope::In(owner) => Some(owner),
+        Scope::Everywhere | Scope::At(_) => None,
+    };
+    known.add_named((kind, scope, name.value), Definition { owner, ..definition(kind, name, key) })
+}
+
+/// Adds the keys of a section, each of which names something.
+fn keys<'t>(known: &mut Known<'t>, kind: Kind, section: Option<&'t Node>) -> Vec<(DefinitionId, &'t Node)> {
+    let entries = section.map(Node::entries).unwrap_or_default().iter();
+    entries.map(|(name, node)| (named(known, kind, Scope::Everywhere, text(name), name.span), node)).collect()
 }
 
 fn text(name: &Spanned<String>) -> Spanned<&str> {
@@ -145,34 +69,28 @@ pub(super) fn one_or_more(node: &Node) -> &[Node] {
 
 /// Reads all definitions.
 pub(super) fn collect<'t>(sources: &'t SourceMap, root: FileId, trees: &[(FileId, &'t Node)]) -> Known<'t> {
-    let mut known = Known {
-        root,
-        list: Vec::new(),
-        by_name: BTreeMap::new(),
-        errors: Vec::new(),
-        objects: Objects::default(),
-    };
+    let mut known = Known::new(root);
     for (file, tree) in trees {
         file_itself(sources.file(*file).name(), tree, root, &mut known);
-        known.keys(Kind::Device, tree.get("devices"));
-        known.keys(Kind::Unit, tree.get("units"));
-        for (id, node) in known.keys(Kind::Type, tree.get("types")) {
+        keys(&mut known, Kind::Device, tree.get("devices"));
+        keys(&mut known, Kind::Unit, tree.get("units"));
+        for (id, node) in keys(&mut known, Kind::Type, tree.get("types")) {
             members_of_type(id, node, &mut known);
         }
-        known.keys(Kind::Feature, tree.get("features"));
+        keys(&mut known, Kind::Feature, tree.get("features"));
         objects(tree, &mut known);
         pdos(tree, &mut known);
         errors(tree, &mut known);
-        for (id, node) in known.keys(Kind::Machine, tree.get("state-machines")) {
+        for (id, node) in keys(&mut known, Kind::Machine, tree.get("state-machines")) {
             for (kind, key) in
                 [(Kind::State, "states"), (Kind::Transition, "transitions"), (Kind::Command, "commands")]
             {
                 for (name, _) in node.get(key).map(Node::entries).unwrap_or_default() {
-                    known.add_named(kind, Scope::In(id), text(name), name.span);
+                    named(&mut known, kind, Scope::In(id), text(name), name.span);
                 }
             }
         }
-        known.keys(Kind::Constraint, tree.get("constraints"));
+        keys(&mut known, Kind::Constraint, tree.get("constraints"));
         let sections = tree.get("document").map(Node::items).unwrap_or_default();
         for content in sections.iter().filter_map(|section| section.get("content")).flat_map(Node::items) {
             parts_of_picture(content, &mut known);
@@ -189,10 +107,10 @@ fn file_itself<'t>(name: &'t str, tree: &'t Node, root: FileId, known: &mut Know
     let profile = tree.get("profile").and_then(Node::text);
     let name = Spanned::new(library.unwrap_or_else(|| file_name(name)), start);
     if let Some(profile) = profile.filter(|_| !tree.span.file.is_one_with(root)) {
-        known.add_named(Kind::Library, Scope::Everywhere, profile, profile.span);
+        named(known, Kind::Library, Scope::Everywhere, profile, profile.span);
     }
-    let id = known.add(Definition { spelling: Spelling::Elsewhere, ..definition(Kind::File, name, start) });
-    known.by_name.entry((Kind::File, Scope::Everywhere, name.value)).or_default().push(id);
+    let file = Definition { spelling: Spelling::Elsewhere, ..definition(Kind::File, name, start) };
+    known.add_named((Kind::File, Scope::Everywhere, name.value), file);
 }
 
 fn members_of_type<'t>(owner: DefinitionId, node: &'t Node, known: &mut Known<'t>) {
@@ -202,12 +120,12 @@ fn members_of_type<'t>(owner: DefinitionId, node: &'t Node, known: &mut Known<'t
             !matches!(node.kind, NodeKind::Map(_)) && matches!(name.value, "reserved" | "unused")
         };
         if let Some(name) = short_name(node).filter(|name| !is_usage(name)) {
-            let bit = known.add_named(Kind::Bit, Scope::In(owner), name, bits.span);
+            let bit = named(known, Kind::Bit, Scope::In(owner), name, bits.span);
             values(bit, node, known);
         }
         for (_, node) in node.get("modes").map(Node::entries).unwrap_or_default() {
             if let Some(name) = short_name(node) {
-                known.add_named(Kind::Bit, Scope::In(owner), name, name.span);
+                named(known, Kind::Bit, Scope::In(owner), name, name.span);
             }
         }
     }
@@ -216,7 +134,7 @@ fn members_of_type<'t>(owner: DefinitionId, node: &'t Node, known: &mut Known<'t
 fn values<'t>(owner: DefinitionId, node: &'t Node, known: &mut Known<'t>) {
     for (value, node) in node.get("values").map(Node::entries).unwrap_or_default() {
         if let Some(name) = short_name(node) {
-            known.add_named(Kind::Value, Scope::In(owner), name, value.span);
+            named(known, Kind::Value, Scope::In(owner), name, value.span);
         }
     }
 }
@@ -229,9 +147,88 @@ fn objects<'t>(tree: &'t Node, known: &mut Known<'t>) {
                 NodeKind::List(_) => one.entries().first().map_or(one.span, |(name, _)| name.span),
                 _ => key.span,
             };
-            Objects::add(known, (range.first, range.last), place, one);
+            object(known, (range.first, range.last), place, one);
         }
     }
+}
+
+/// Adds what stands at a key of `objects:`.
+fn object<'t>(known: &mut Known<'t>, (first, last): (Index, Index), place: Span, node: &'t Node) {
+    let devices = node.get("devices").map(one_or_more);
+    let devices: Option<Vec<&str>> =
+        devices.map(|list| list.iter().filter_map(|one| Some(one.text()?.value)).collect());
+    let name = node.get("name").and_then(Node::text);
+    let number = || Spanned::new("", place);
+    let owned = devices.as_ref().map(|list| list.iter().map(|key| (*key).to_owned()).collect());
+    let definition = Definition {
+        indices: Some((first, last)),
+        devices: owned,
+        ..definition(Kind::Object, name.unwrap_or_else(number), place)
+    };
+    let id = known.add(spelt(definition, name.is_some(), || index_text(first, last)));
+    let array = node.get("array");
+    let lists = [node.get("record"), array.and_then(|array| array.get("elements"))];
+    let members = lists.into_iter().flatten().flat_map(Node::entries);
+    let members = members.filter_map(|(key, member)| Some((key, subs(&key.value)?, member)));
+    let mut members: Vec<Member<'_>> = members
+        .map(|(key, range, node)| member(known, id, Spanned::new(&key.value, key.span), range, node))
+        .collect();
+    if let Some(sub0) = node.get("sub0") {
+        let number = Spanned::new("0", sub0.span.part(0, 1));
+        members.push(member(known, id, number, (SubIndex(0), SubIndex(0)), sub0));
+    }
+    let elements = array.map(|array| {
+        let place = array.get("name").map_or_else(|| array.span.part(0, 1), |name| name.span);
+        let all = member(known, id, Spanned::new("elements", place), (SubIndex(1), SubIndex(254)), array);
+        known.definition_mut(all.id).spelling = Spelling::Pattern;
+        all
+    });
+    known.objects.add(Described {
+        first,
+        last,
+        id,
+        file: place.file,
+        devices,
+        from: text_of(node, "from"),
+        name: name.map(|name| name.value),
+        type_name: text_of(node, "type"),
+        members,
+        elements,
+    });
+}
+
+/// The text of a key.
+fn text_of<'t>(node: &'t Node, key: &str) -> Option<&'t str> {
+    node.get(key).and_then(Node::text).map(|text| text.value)
+}
+
+/// Adds what describes entries of an object; without a name, a number stands for it.
+fn member<'t>(
+    known: &mut Known<'t>,
+    owner: DefinitionId,
+    number: Spanned<&str>,
+    (first, last): (SubIndex, SubIndex),
+    node: &'t Node,
+) -> Member<'t> {
+    let name = node.get("name").and_then(Node::text);
+    let entry = Definition {
+        owner: Some(owner),
+        subs: Some((first, last)),
+        ..definition(Kind::Entry, name.unwrap_or(Spanned::new("", number.span)), number.span)
+    };
+    let id = known.add(spelt(entry, name.is_some(), || number.value.to_owned()));
+    Member { first, last, id, name: name.map(|name| name.value), type_name: text_of(node, "type") }
+}
+/// A definition that has its number for a name where none is written.
+fn spelt(definition: Definition, is_named: bool, number: impl FnOnce() -> String) -> Definition {
+    if is_named {
+        return definition;
+    }
+    Definition { name: number(), spelling: Spelling::Elsewhere, ..definition }
+}
+
+fn index_text(first: Index, last: Index) -> String {
+    if first == last { format!("0x{:04X}", first.0) } else { format!("0x{:04X}..0x{:04X}", first.0, last.0) }
 }
 
 fn pdos<'t>(tree: &'t Node, known: &mut Known<'t>) {
@@ -264,8 +261,7 @@ fn errors<'t>(tree: &'t Node, known: &mut Known<'t>) {
                 Definition { spelling: Spelling::Elsewhere, ..definition(Kind::Error, text(key), key.span) }
             }
         };
-        let id = known.add(definition);
-        known.errors.push((codes.first, codes.last, id));
+        known.add_errors((codes.first, codes.last), definition);
     }
 }
 
@@ -279,7 +275,7 @@ fn parts_of_picture<'t>(content: &'t Node, known: &mut Known<'t>) {
     for (kind, words) in blocks.chain(marks) {
         let in_languages = words.entries().iter().filter_map(|(_, text)| text.text());
         for name in words.text().into_iter().chain(in_languages) {
-            known.add_named(kind, scope, name, name.span);
+            named(known, kind, scope, name, name.span);
         }
     }
 }

@@ -5,12 +5,14 @@
 //! something else is wrong, and a compilation that wants none pays nothing for it. What a name of an entry stands for on a
 //! device is asked of the model, by the lookup that compiling uses, as long as there is one.
 
+mod collector;
 mod conditions;
 mod definitions;
-mod meant;
+mod known;
 mod objects;
 mod place;
 mod references;
+mod resolved;
 #[cfg(test)]
 mod tests;
 mod walk;

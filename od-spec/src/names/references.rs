@@ -1,20 +1,17 @@
 //! What the scalars of a text refer to.
 
-use std::collections::BTreeSet;
-use std::ops::Range;
-
+use super::collector::{At, Collector};
 use super::conditions;
-use super::definitions::{Known, Scope};
-use super::meant::Meant;
-use super::objects::Devices;
-use super::walk::{Role, Step, Visitor, devices_of, walk};
+use super::known::{Known, Scope};
+use super::resolved::Resolved;
+use super::walk::{Role, Step, Visitor, walk};
 use super::{By, DefinitionId, Kind, Reference};
-use crate::decode::{inside, lexical};
+use crate::decode::lexical;
 use crate::eds::file_name;
-use crate::expr::{Expr, PLACEHOLDER};
-use crate::keys::{COMMAND, KeyKind, Keys, NameOf, PART, PART_OF, SIGNAL, SPEC, Shape};
-use crate::model::{DataType, EntryId, Index, SubIndex, System};
-use crate::source::{FileId, SourceMap, Span, Spanned};
+use crate::expr::Expr;
+use crate::keys::{COMMAND, KeyKind, NameOf, PART, PART_OF, SIGNAL, SPEC, Shape};
+use crate::model::{DataType, EntryId, SubIndex, System};
+use crate::source::{FileId, SourceMap, Spanned};
 use crate::yaml::Node;
 
 /// Reads all references, by place.
@@ -25,65 +22,15 @@ pub(super) fn collect<'t>(
     known: &Known<'t>,
     system: Option<&System>,
 ) -> Vec<Reference> {
-    let meant = Meant::of(system);
-    let mut all = Collector { sources, known, meant: &meant, found: Vec::new(), seen: BTreeSet::new() };
+    let resolved = Resolved::of(system);
+    let mut all = Collector::new(sources, known, &resolved);
     for (file, tree) in trees {
         let is_part = file.is_one_with(root) && tree.get(PART_OF).is_some();
         walk(tree, if is_part { &PART } else { &SPEC }, &mut all);
     }
-    let mut found = all.found;
+    let mut found = all.into_found();
     found.sort_by_key(|one| (one.span, one.range.start));
     found
-}
-
-/// A scalar, and what leads to it.
-#[derive(Clone, Copy)]
-pub(super) struct At<'p, 't> {
-    pub text: Spanned<&'t str>,
-    pub path: &'p [Step<'t>],
-}
-
-impl<'t> At<'_, 't> {
-    pub(super) fn file(&self) -> FileId {
-        self.text.span.file
-    }
-
-    /// The maps with fixed keys around it, from the inside, each with the key that leads to it.
-    fn maps(&self) -> impl Iterator<Item = (&'t Node, &'static Keys, &'static str)> {
-        self.path.iter().rev().filter_map(|step| match step {
-            Step::Key { map, keys, key, .. } => Some((*map, *keys, key.name)),
-            Step::Data { .. } | Step::Item { .. } => None,
-        })
-    }
-
-    /// The value beside it of a key of the innermost map.
-    pub(super) fn beside(&self, key: &str) -> Option<&'t Node> {
-        self.maps().next().and_then(|(map, ..)| map.get(key))
-    }
-
-    /// The innermost map that a key leads into.
-    fn around(&self, key: &str) -> Option<&'t Node> {
-        self.maps().find(|(_, _, name)| *name == key).map(|(map, ..)| map)
-    }
-
-    /// The keys of the devices that it speaks of; empty for all.
-    pub(super) fn devices(&self) -> Vec<&'t str> {
-        devices_of(self.path)
-    }
-}
-
-/// The devices of a list, of which an empty one means all.
-pub(super) const fn scope<'d>(devices: &'d [&'d str]) -> Devices<'d> {
-    if devices.is_empty() { Devices::All } else { Devices::Only(devices) }
-}
-
-pub(super) struct Collector<'a, 't> {
-    sources: &'a SourceMap,
-    pub(super) known: &'a Known<'t>,
-    pub(super) meant: &'a Meant<'a>,
-    found: Vec<Reference>,
-    /// Scalars that an alias shows a second time.
-    seen: BTreeSet<Span>,
 }
 
 impl<'t> Visitor<'t> for Collector<'_, 't> {
@@ -107,7 +54,7 @@ impl<'t> Collector<'_, 't> {
             Shape::Type => self.type_name(at),
             Shape::Entry | Shape::Entries => self.entry(at),
             Shape::Index => {
-                let before = self.found.len();
+                let before = self.len();
                 let index = lexical::index(at.text.value);
                 let targets = index.map(|index| self.objects(at, index)).unwrap_or_default();
                 self.whole(at, Kind::Object, By::Number, targets);
@@ -207,10 +154,6 @@ impl<'t> Collector<'_, 't> {
         }
     }
 
-    pub(super) fn type_of(&self, name: &str, file: FileId) -> Option<DefinitionId> {
-        self.known.named(Kind::Type, Scope::Everywhere, name, file)
-    }
-
     /// Something of the state machine around: the maker's, or that of the library that it lies over.
     fn of_machine(&mut self, at: At<'_, 't>, kind: Kind, by: By) {
         let machine = at.path.iter().find_map(|step| match step {
@@ -219,8 +162,8 @@ impl<'t> Collector<'_, 't> {
         });
         let machine = machine.unwrap_or_default();
         let machines = self.known.all_named(Kind::Machine, Scope::Everywhere, machine);
-        let own = |id: &&DefinitionId| self.known.definition(**id).span.file.is_one_with(at.file());
-        let in_order = machines.iter().filter(own).chain(machines.iter().filter(|id| !own(id)));
+        let is_in_file = |id: &&DefinitionId| self.known.definition(**id).span.file.is_one_with(at.file());
+        let in_order = machines.iter().filter(is_in_file).chain(machines.iter().filter(|id| !is_in_file(id)));
         let mut found =
             in_order.filter_map(|id| self.known.named(kind, Scope::In(*id), at.text.value, at.file()));
         let found = found.next();
@@ -263,8 +206,8 @@ impl<'t> Collector<'_, 't> {
                 return named(node);
             }
         }
-        let meant = self.meant.type_of_value(at.text.span)?;
-        self.type_of(meant, at.file())
+        let name = self.resolved.type_of_value(at.text.span)?;
+        self.type_of(name, at.file())
     }
 
     /// An entry by index or by name, or a run of entries, or a data type that fills a PDO.
@@ -286,119 +229,5 @@ impl<'t> Collector<'_, 't> {
         } else {
             self.named_entry(at, 0..text.len(), text, &devices);
         }
-    }
-
-    /// An entry by index; `range` is where it stands in the text.
-    pub(super) fn numbered(
-        &mut self,
-        at: At<'_, 't>,
-        (index, sub): (Index, SubIndex),
-        range: Range<usize>,
-        devices: &[&str],
-    ) {
-        self.numbered_run(at, (index, sub, sub), range, devices);
-    }
-
-    fn numbered_run(
-        &mut self,
-        at: At<'_, 't>,
-        (index, first, last): (Index, SubIndex, SubIndex),
-        range: Range<usize>,
-        devices: &[&str],
-    ) {
-        let text = &at.text.value[range.clone()];
-        let object = self.known.objects.object(self.known, at.file(), index, scope(devices));
-        let end = text.find('.').map_or(range.end, |dot| range.start + dot);
-        let before = self.found.len();
-        self.add(at, range.start..end, Kind::Object, By::Number, object);
-        let sub = end + 1..range.end;
-        if sub.start < sub.end {
-            let entries = if at.text.value[sub.clone()].contains(PLACEHOLDER) {
-                Vec::new()
-            } else {
-                self.known.objects.entries(self.known, at.file(), (index, first, last), scope(devices))
-            };
-            self.add(at, sub, Kind::Entry, By::Number, entries);
-        }
-        self.are(before, EntryId { index, sub: first });
-    }
-
-    /// The references that were added since are to an entry.
-    fn are(&mut self, before: usize, id: EntryId) {
-        for reference in self.found.iter_mut().skip(before) {
-            reference.entry = Some(id);
-        }
-    }
-
-    /// An entry by name; `range` is where the name stands in the text.
-    pub(super) fn named_entry(&mut self, at: At<'_, 't>, range: Range<usize>, name: &str, devices: &[&str]) {
-        let written = &at.text.value[range.clone()];
-        let by = if written == name { By::Name } else { By::Pattern };
-        let (mut parts, mut objects, mut entries) = (None, Vec::new(), Vec::new());
-        let (before, mut first) = (self.found.len(), None);
-        for (device, id) in self.meant.named(name, scope(devices)) {
-            first.get_or_insert(id);
-            let key = [device.key.as_str()];
-            let Some(object) = device.objects.get(&id.index) else { continue };
-            parts.get_or_insert(object.name.len().min(name.len()));
-            objects.extend(self.known.objects.object(self.known, at.file(), id.index, Devices::Only(&key)));
-            if object.name.len() < name.len() {
-                let subs = (id.index, id.sub, id.sub);
-                entries.extend(self.known.objects.entries(self.known, at.file(), subs, Devices::Only(&key)));
-            }
-        }
-        if parts.is_none()
-            && let Some(found) = self.known.objects.named(name, scope(devices))
-        {
-            parts = Some(found.object_length);
-            first = Some(found.first);
-            (objects, entries) = (found.objects, found.entries);
-        }
-        for list in [&mut objects, &mut entries] {
-            list.sort_unstable();
-            list.dedup();
-        }
-        // With placeholders written out, parts have other lengths: both are the whole.
-        let object_end = parts.filter(|_| by == By::Name).map_or(range.end, |length| range.start + length);
-        self.add(at, range.start..object_end, Kind::Object, by, objects);
-        if object_end + 1 < range.end || by == By::Pattern && !entries.is_empty() {
-            let entry = if by == By::Name { object_end + 1..range.end } else { range };
-            self.add(at, entry, Kind::Entry, by, entries);
-        }
-        if let Some(id) = first {
-            self.are(before, id);
-        }
-    }
-
-    fn objects(&self, at: At<'_, 't>, index: Index) -> Vec<DefinitionId> {
-        self.known.objects.object(self.known, at.file(), index, scope(&at.devices()))
-    }
-
-    /// Whether the scalar was not looked at before.
-    fn is_new(&mut self, at: At<'_, 't>) -> bool {
-        self.seen.insert(at.text.span)
-    }
-
-    /// The whole scalar refers to something.
-    fn whole(&mut self, at: At<'_, 't>, kind: Kind, by: By, targets: impl IntoIterator<Item = DefinitionId>) {
-        if self.is_new(at) {
-            self.add(at, 0..at.text.value.len(), kind, by, targets.into_iter().collect());
-        }
-    }
-
-    /// A part of the scalar refers to something.
-    pub(super) fn add(
-        &mut self,
-        at: At<'_, 't>,
-        range: Range<usize>,
-        kind: Kind,
-        by: By,
-        targets: Vec<DefinitionId>,
-    ) {
-        let scalar = at.text.span;
-        let part = if range == (0..at.text.value.len()) { scalar } else { inside(at.text, &range) };
-        let is_exact = part == scalar || self.sources.text(part) == &at.text.value[range.clone()];
-        let span = if is_exact { part } else { scalar };
-        self.found.push(Reference { span, scalar, range, kind, by, targets, entry: None });
     }
 }

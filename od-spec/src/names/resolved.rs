@@ -9,13 +9,13 @@ use crate::resolve::NamesOfDevice;
 use crate::source::Span;
 
 /// The devices of a model, each with its names, which are looked up as compiling looks them up.
-pub(super) struct Meant<'a> {
+pub(super) struct Resolved<'a> {
     devices: Vec<(&'a Dictionary, OnceCell<NamesOfDevice<'a>>)>,
     /// The names of the types of values, by the places of the values.
     types: OnceCell<BTreeMap<Span, &'a str>>,
 }
 
-impl<'a> Meant<'a> {
+impl<'a> Resolved<'a> {
     pub(super) fn of(system: Option<&'a System>) -> Self {
         let devices = system.map(|system| system.devices.as_slice()).unwrap_or_default();
         Self {
