@@ -1,12 +1,12 @@
 //! A language server for specifications, EDS, DCF, XDD and XDC files, plants and parameter files.
 //!
 //! [`serve_stdio`] speaks the Language Server Protocol on standard input and output. A client's messages come by a thread
-//! that only reads ([`transport`]); everything else happens in one loop ([`server`]): edits change the open buffers at
+//! that only reads (`transport`); everything else happens in one loop (`server`): edits change the open buffers at
 //! once, a specification is compiled when an answer needs it or when no message waits, so that of edits that come faster
 //! than answers only the last is compiled. There is no incremental engine: a specification is compiled as a whole, in a few
 //! milliseconds, by the same `od_spec::compile` that `odgen check` calls.
 //!
-//! A request is answered by a pure function of a [`Snapshot`](snapshot::Snapshot) and the request's parameters, in a file of
+//! A request is answered by a pure function of a `Snapshot` and the request's parameters, in a file of
 //! its own.
 
 mod analysis;

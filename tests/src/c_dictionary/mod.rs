@@ -42,10 +42,10 @@ pub fn write(path: &str, directory: &Path) -> Result<Written, Failure> {
     write_text(path, text, directory)
 }
 
-/// [`write`], of a text that no file has.
+/// [`write()`], of a text that no file has.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_text(path: &str, text: String, directory: &Path) -> Result<Written, Failure> {
     let mut sources = SourceMap::new();
     let root = sources.add(path, text);

@@ -238,6 +238,17 @@ fn names_that_clash_or_are_words_of_c_are_told_apart() {
     assert!(header.contains("uint8_t aB_1;") && header.contains("uint8_t aB_2;"), "{header}");
 }
 
+#[test]
+fn a_heading_stands_before_something() {
+    let heading = "/* Elements of each ARRAY, without sub-index 0. */";
+    let bare = without(&eds(""), "1016");
+    for (name, text, arrays) in [("array.eds", eds(""), 1), ("no-array.eds", bare, 0)] {
+        let header = of_text(name, &text).file("OD.h");
+        assert_eq!(lines(&header, "#define OD_CNT_ARR_").len(), arrays, "{name}");
+        assert_eq!(lines(&header, heading).len(), arrays, "{name}");
+    }
+}
+
 /// A device that the stack takes without a word, and more objects.
 fn eds(objects: &str) -> String {
     let head = "[DeviceInfo]\nProductName=thing\n";

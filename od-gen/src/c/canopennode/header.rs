@@ -46,12 +46,15 @@ fn counters(text: &mut Text, objects: &[StackObject<'_>]) {
 }
 
 fn elements(text: &mut Text, objects: &[StackObject<'_>]) {
+    let mut arrays =
+        objects.iter().filter_map(|object| Some((object.object.index, object.elements()?))).peekable();
+    if arrays.peek().is_none() {
+        return;
+    }
     text.gap();
     text.comment("Elements of each ARRAY, without sub-index 0.");
-    for object in objects {
-        if let Some(count) = object.elements() {
-            text.define(&format!("OD_CNT_ARR_{:04X}", object.object.index.0), &format!("{count}"));
-        }
+    for (index, count) in arrays {
+        text.define(&format!("OD_CNT_ARR_{:04X}", index.0), &format!("{count}"));
     }
 }
 
