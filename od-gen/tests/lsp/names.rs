@@ -118,6 +118,34 @@ impl Session {
 }
 
 #[test]
+fn hover_tells_what_a_section_of_an_eds_says() {
+    let mut client = Client::new("hover-eds");
+    let eds = include_str!("../../../generated/eds/pmc.eds");
+    client.open("pmc.eds", eds);
+    let mut hover = |header: &str, key: &str| {
+        let lines = || eds.lines().enumerate();
+        let (section, _) = lines().find(|(_, line)| *line == header).unwrap();
+        let (line, text) = lines().skip(section).find(|(_, line)| line.starts_with(key)).unwrap();
+        let position = (u32::try_from(line).unwrap(), 2);
+        let answer = client.request_at("textDocument/hover", "pmc.eds", position);
+        let covers = |end: &str| answer["range"][end].clone();
+        if !answer.is_null() {
+            assert_eq!(covers("start"), json!({"line": line, "character": 0}));
+            assert_eq!(covers("end"), json!({"line": line, "character": text.len()}));
+        }
+        answer["contents"]["value"].as_str().unwrap_or_default().to_owned()
+    };
+    let vendor = "`1018h.1` **Identity object.Vendor-ID**\n- type: UNSIGNED32\n";
+    for key in ["[1018sub1]", "ParameterName=", "DefaultValue="] {
+        assert!(hover("[1018sub1]", key).starts_with(vendor), "{}", hover("[1018sub1]", key));
+    }
+    assert!(hover("[1000]", "AccessType=").starts_with("`1000h` **Device type**\n"));
+    assert!(hover("[1018]", "[1018]").starts_with("`1018h` **Identity object."));
+    assert_eq!(hover("[DeviceInfo]", "VendorName="), "");
+    assert_eq!(hover("[MandatoryObjects]", "1="), "");
+}
+
+#[test]
 fn hover_tells_facts_meanings_and_raw_values() {
     let mut session = Session::new("hover");
     for (from, to, range, told) in [

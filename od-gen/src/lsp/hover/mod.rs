@@ -3,6 +3,7 @@
 mod definition;
 mod entry;
 mod key;
+mod section;
 mod value;
 
 use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Position};
@@ -13,13 +14,22 @@ use od_spec::wording::{Language, Wording};
 
 pub(super) use value::{fact_of, value_of};
 
+use super::analysis;
 use super::cursor::{Cursor, entries_of};
 use super::snapshot::Snapshot;
 
 /// What there is to know, if there is something.
 pub(super) fn hover(snapshot: &Snapshot, position: Position) -> Option<Hover> {
-    let cursor = Cursor::of(snapshot, position)?;
-    let (text, span) = told(&cursor)?;
+    let (text, span) = match snapshot.now.kind {
+        analysis::Kind::Specification => told(&Cursor::of(snapshot, position)?)?,
+        analysis::Kind::Eds => section::of_section(snapshot, position)?,
+        analysis::Kind::Plant
+        | analysis::Kind::Parameters
+        | analysis::Kind::Xdd
+        | analysis::Kind::Foreign => {
+            return None;
+        }
+    };
     let contents = HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value: text });
     Some(Hover { contents, range: Some(snapshot.range(span)) })
 }
