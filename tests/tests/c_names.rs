@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use od_spec::ascii::transliterate;
-use od_tests::c_dictionary::{Compiler, Written, write};
+use od_tests::c_dictionary::{Compiler, Written, write, write_text};
 use serde_json::Value as Json;
 
 const SPECIFICATIONS: [&str; 6] = [
@@ -367,6 +367,24 @@ fn functions_read_and_write_what_the_table_says() {
         }
     }
     assert!(count > 800, "{count} functions only");
+}
+
+/// Names of the runtime, which all dictionaries include, begin as those of a device `od` would.
+#[test]
+fn a_device_may_be_called_as_the_runtime_begins() {
+    let directory = directory("RUNTIME");
+    let spec = "od-spec: 1\ntitle: OD\ndevices: {od: {name: OD, bit-rates: [125]}}\n\
+                types: {flag: {base: unsigned8, values: {0: read, 1: write}}}\nobjects:\n\
+                \x20 0x2000: {name: string, type: flag, access: rw}\n\
+                \x20 0x2001: {name: time, type: unsigned32, access: rw}\n\
+                \x20 0x2002: {name: u8, type: unsigned8, access: rw}\n";
+    let written = write_text("od.od.yaml", spec.to_owned(), &directory).unwrap();
+    let cc = Compiler::new("cc", &[]);
+    for device in written.devices {
+        cc.objects(&directory, &device).unwrap();
+        let types = std::fs::read_to_string(directory.join("c").join(&device).join("OD_types.h")).unwrap();
+        assert!(types.contains("#define DEVICE_OD_FLAG_READ (0U)"), "{types}");
+    }
 }
 
 #[test]

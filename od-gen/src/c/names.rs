@@ -8,9 +8,14 @@ use od_spec::model::Dictionary;
 use super::language::C;
 use crate::plan::{Language, Role, Words};
 
-/// The folder of a device, and what begins its names: `pmc`.
+/// What begins the names of the runtime and of CANopenNode: `od_get_u8`, `OD_ENTRY_H1000`, `ODA_SDO_R`, `CO_CONFIG_EM`.
+const TAKEN: [&str; 5] = ["co", "od", "oda", "odr", "odt"];
+
+/// The folder of a device, and what begins its names: `pmc`; `device_od` of a device `od`, as others have names that begin so.
 pub(super) fn prefix(key: &str) -> String {
-    C.identifier(Role::Type, &Words::of(key)).trim_end_matches('_').to_owned()
+    let name = C.identifier(Role::Type, &Words::of(key)).trim_end_matches('_').to_owned();
+    let first = name.split('_').next().unwrap_or_default();
+    if TAKEN.contains(&first) { format!("device_{name}") } else { name }
 }
 
 /// The names of one device: what kind of thing they are stands behind the device.
@@ -90,6 +95,7 @@ mod tests {
         assert_eq!(names.macro_of(&["LOW", "register_"]), "PMC_LOW_REGISTER");
         assert_eq!(names.function(&["get", "register_"]), "pmc_get_register");
         assert_eq!(names.type_of("drive_state"), "pmc_drive_state_t");
-        assert_eq!((prefix("int").as_str(), prefix("pitch drive 2").as_str()), ("int", "pitch_drive_2"));
+        assert_eq!(["int", "pitch drive 2"].map(prefix), ["int", "pitch_drive_2"]);
+        assert_eq!(["OD", "od-lamp", "odo"].map(prefix), ["device_od", "device_od_lamp", "odo"]);
     }
 }

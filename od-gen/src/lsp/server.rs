@@ -45,7 +45,7 @@ enum Phase {
     Leaving,
 }
 
-/// Serves a client until it leaves. Nothing is written to any file.
+/// Serves a client until it leaves. No file of a user is written; copies of libraries and explanations go to the cache.
 pub fn serve(connection: &Connection) -> Exit {
     let mut server = Server {
         connection,

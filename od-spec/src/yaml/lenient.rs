@@ -250,13 +250,13 @@ impl<'a> Reader<'a> {
         self.blanks();
         let anchor = self.properties();
         let node = if self.is_at_end_of_line() {
-            let here = self.at;
+            let line_end = self.at;
             self.next_line();
             match self.column() {
                 Some(column) if column > parent => self.block(column, parent),
                 Some(column) if column == parent && is_of_key && self.is_item() => self.block(column, parent),
                 _ => {
-                    self.at = here;
+                    self.at = line_end;
                     self.null()
                 }
             }

@@ -1,4 +1,4 @@
-// Starts `odgen lsp` for specifications, EDS and DCF files.
+// Starts `odgen lsp` for specifications, EDS, DCF, XDD and XDC files.
 "use strict";
 
 const { workspace } = require("vscode");

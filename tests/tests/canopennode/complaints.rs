@@ -238,6 +238,40 @@ fn names_that_clash_or_are_words_of_c_are_told_apart() {
     assert!(header.contains("uint8_t aB_1;") && header.contains("uint8_t aB_2;"), "{header}");
 }
 
+/// Files are often called `OD`, and a device of an EDS as its file.
+#[test]
+fn a_device_may_be_called_as_names_of_the_stack_begin() {
+    let text = specification(
+        "  0x2000: {name: state, type: entry, access: rw}\n  0x2001: {name: way, type: rule, access: rw}\n\
+         types:\n  entry: {base: unsigned8, values: {0: x, 1: h2000}}\n  rule: {base: unsigned8, values: {0: listed, 1: locked}}",
+    );
+    let project = of_text("od.od.yaml", &text.replace("{thing: {", "{od: {"));
+    assert_eq!(lines(&project.file("OD_types.h"), "#define OD_").len(), 0);
+    project.run("list_entries.c", &[]);
+}
+
+#[test]
+fn a_device_answers_sdos_without_1200h() {
+    let of = |text: &str| lines(&of_text("sdo.eds", text).file("OD.h"), "(config).CNT_SDO_SRV").concat();
+    assert_eq!(of(&eds("")), "(config).CNT_SDO_SRV = 1; \\");
+    let described = "[1200]\nParameterName=server\nObjectType=9\nSubNumber=3\n\
+        [1200sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+        [1200sub1]\nParameterName=a\nDataType=7\nAccessType=ro\nDefaultValue=$NODEID+0x600\n\
+        [1200sub2]\nParameterName=b\nDataType=7\nAccessType=ro\nDefaultValue=$NODEID+0x580\n";
+    assert_eq!(of(&eds(described)), "(config).CNT_SDO_SRV = OD_CNT_SDO_SRV; \\");
+}
+
+#[test]
+fn a_condition_that_is_too_wide_is_told_where_it_stands() {
+    let text = specification(
+        "  0x2000: {name: wide, type: unsigned64, access: rw}\n  0x2001: {name: kept, type: unsigned8, access: rw, writable-when: 0x2000 < 50}",
+    );
+    let (told, is_made) = told("wide.od.yaml", &text);
+    assert!(told.contains("`0x2000 < 50` needs numbers of more than 64 bits") && !is_made, "{told}");
+    let line = 1 + text.lines().position(|line| line.contains("0x2001")).unwrap();
+    assert!(told.contains(&format!("wide.od.yaml:{line}:3")), "{told}");
+}
+
 #[test]
 fn a_heading_stands_before_something() {
     let heading = "/* Elements of each ARRAY, without sub-index 0. */";

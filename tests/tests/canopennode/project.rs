@@ -101,7 +101,10 @@ fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
     assert_eq!(folders.len(), devices.len());
     let of_device = |device: &Json| {
         let key = device["key"].as_str().unwrap().replace(['-', ' ', '.'], "_").to_lowercase();
-        let path = folders.iter().find(|path| path.ends_with(&format!("/{key}"))).unwrap();
+        let is_of_device = |path: &&&str| {
+            path.rsplit('/').next().is_some_and(|folder| folder.trim_start_matches("device_") == key)
+        };
+        let path = folders.iter().find(is_of_device).unwrap();
         Project { folder: folder.join(path), device: device.clone(), dump: dump.clone(), told: told.clone() }
     };
     devices.iter().map(of_device).collect()

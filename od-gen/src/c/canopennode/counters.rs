@@ -12,6 +12,8 @@ pub(super) struct Counter {
     indices: RangeInclusive<u16>,
 }
 
+const SDO_SERVERS: &str = "SDO_SRV";
+
 /// In the order of the stack's own files.
 pub(super) const COUNTERS: [Counter; 15] = [
     Counter::of("NMT", 0x1000..=0x1000),
@@ -23,7 +25,7 @@ pub(super) const COUNTERS: [Counter; 15] = [
     Counter::of("EM_PROD", 0x1014..=0x1014),
     Counter::of("HB_CONS", 0x1016..=0x1016),
     Counter::of("HB_PROD", 0x1017..=0x1017),
-    Counter::of("SDO_SRV", 0x1200..=0x127F),
+    Counter::of(SDO_SERVERS, 0x1200..=0x127F),
     Counter::of("SDO_CLI", 0x1280..=0x12FF),
     Counter::of("GFC", 0x1300..=0x1300),
     Counter::of("SRDO", 0x1301..=0x1340),
@@ -67,7 +69,7 @@ pub(super) const SETTINGS: [Setting; 40] = {
         Entry(0x1015),
         Elements(0x1003),
         Entry(0x1003),
-        Counter("SDO_SRV"),
+        Counter(SDO_SERVERS),
         Entry(0x1200),
         Counter("SDO_CLI"),
         Entry(0x1280),
@@ -100,13 +102,14 @@ pub(super) const SETTINGS: [Setting; 40] = {
 };
 
 impl Setting {
-    /// The member and its value: `("CNT_NMT", "OD_CNT_NMT")`.
+    /// The member and its value: `("CNT_NMT", "OD_CNT_NMT")`. Every device answers SDOs, also without 1200h.
     pub(super) fn assignment(&self, objects: &[StackObject<'_>]) -> (String, String) {
         let object = |index: u16| objects.iter().find(|object| object.object.index.0 == index);
         let (member, is_there, absent) = match self {
             Self::Counter(name) => {
                 let counter = COUNTERS.iter().find(|counter| counter.name == *name);
-                (format!("CNT_{name}"), counter.is_some_and(|counter| counter.count(objects) > 0), "0")
+                let absent = if *name == SDO_SERVERS { "1" } else { "0" };
+                (format!("CNT_{name}"), counter.is_some_and(|counter| counter.count(objects) > 0), absent)
             }
             Self::Elements(index) => {
                 let elements = object(*index).and_then(StackObject::elements);

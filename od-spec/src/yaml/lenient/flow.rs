@@ -143,9 +143,9 @@ impl Reader<'_> {
                 break;
             }
             // It may go on in the next line.
-            let here = self.at;
+            let line_end = self.at;
             if !self.flow_blanks(parent)
-                || self.at == here
+                || self.at == line_end
                 || self.rest().starts_with([',', ']', '}', ':', '#', '{', '[', '"'])
             {
                 break;

@@ -70,7 +70,7 @@ impl Reader<'_> {
         let is_folded = header.starts_with('>');
         self.at += header.len();
         let (mut lines, mut end) = (Vec::new(), self.at);
-        let mut own = None;
+        let mut block_indent = None;
         while let Some(length) = self.rest().find('\n') {
             let next = Reader { at: self.at + length + 1, anchors: BTreeMap::new(), ..*self };
             let line = next.line();
@@ -82,10 +82,10 @@ impl Reader<'_> {
                 lines.push("");
             } else {
                 let width = usize::try_from(indent(line)).unwrap_or(0);
-                if own.is_none() {
+                if block_indent.is_none() {
                     start = next.at + width;
                 }
-                let width = *own.get_or_insert(width);
+                let width = *block_indent.get_or_insert(width);
                 let blanks = line.len() - line.trim_start().len();
                 lines.push(line.get(width.min(blanks)..).unwrap_or_default());
                 end = next.at + line.trim_end().len();
