@@ -33,6 +33,7 @@ from st_machine import Controller, Fault, text_of
 
 NODE = 5
 LIMIT = 40  # differences that are shown
+LEAST_CHECKS, LEAST_FAULTS = 2000, 4  # of a device; with fewer, something was left out
 LONGEST = 120
 # Where an item of a file ends; a list of constants is one.
 LIST = "VAR_GLOBAL CONSTANT\n"
@@ -324,12 +325,11 @@ def main() -> int:
                         frames = check_frames(check, arguments.odgen, arguments.frames, spec, device, parsed)
                 except Fault as fault:
                     check.that(False, f"{device.key}: {fault}")
-                show(device.key, check, f"{frames} frames, " if frames else "", 2000)
+                show(device.key, check, f"{frames} frames, " if frames else "", LEAST_CHECKS)
                 if spec in arguments.faults:
                     check = Check()
                     count = check_faults(check, arguments.odgen, spec, device, parsed)
-                    # Each is planted and found, and so is none where none is.
-                    show(device.key, check, f"{count} planted faults, ", 2 * max(count, 1) + 2)
+                    show(device.key, check, f"{count} planted faults, ", 2 * LEAST_FAULTS)
     return 0 if is_right else 1
 
 

@@ -90,6 +90,23 @@ mod tests {
     use super::*;
 
     #[test]
+    fn macros_of_the_runtimes_begin_as_no_device_does() {
+        let headers =
+            [include_str!("plain/runtime/od_runtime.h"), include_str!("canopennode/runtime/OD_extension.h")];
+        let macros = headers.iter().flat_map(|header| header.lines()).filter_map(|line| {
+            line.trim_start()
+                .strip_prefix("#define ")?
+                .split(|c: char| !c.is_alphanumeric() && c != '_')
+                .next()
+        });
+        let macros: Vec<&str> = macros.collect();
+        assert!(macros.len() > 20, "{macros:?}");
+        for name in macros {
+            assert!(prefix(name).starts_with("device_"), "{name}");
+        }
+    }
+
+    #[test]
     fn a_device_and_a_kind_stand_before_every_name() {
         let names = Names { lower: "pmc".to_owned(), upper: "PMC".to_owned() };
         assert_eq!(names.macro_of(&["LOW", "register_"]), "PMC_LOW_REGISTER");

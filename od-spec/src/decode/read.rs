@@ -41,11 +41,7 @@ impl<'a> Reader<'a> {
 
     /// The values of a list, or the one value that stands in its place.
     pub(super) fn items(self, key: &str) -> impl Iterator<Item = Self> {
-        let nodes = match self.node.get(key) {
-            Some(Node { kind: NodeKind::List(items), .. }) => items.as_slice(),
-            Some(node) => std::slice::from_ref(node),
-            None => &[],
-        };
+        let nodes = self.node.get(key).map(Node::one_or_more).unwrap_or_default();
         nodes.iter().map(move |node| self.at(node))
     }
 

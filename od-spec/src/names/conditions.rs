@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::collector::{At, Collector, scope};
-use super::definitions::one_or_more;
 use super::known::Scope;
 use super::{By, DefinitionId, Kind};
 use crate::decode::lexical;
@@ -48,7 +47,7 @@ impl<'t> Asked<'_, '_, '_, 't> {
         if !name.contains(PLACEHOLDER) {
             return name.to_owned();
         }
-        let numbers = self.at.beside("n").map(one_or_more).unwrap_or_default();
+        let numbers = self.at.beside("n").map(Node::one_or_more).unwrap_or_default();
         let first = numbers.iter().find_map(|node| lexical::numbers(Node::text(node)?.value));
         name.replace(PLACEHOLDER, &first.map_or(0, |range| range.first).to_string())
     }

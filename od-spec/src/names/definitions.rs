@@ -59,14 +59,6 @@ pub(super) fn short_name(node: &Node) -> Option<Spanned<&str>> {
     }
 }
 
-/// The items of a list, or the one thing that stands there without one.
-pub(super) fn one_or_more(node: &Node) -> &[Node] {
-    match &node.kind {
-        NodeKind::List(items) => items,
-        _ => std::slice::from_ref(node),
-    }
-}
-
 /// Reads all definitions.
 pub(super) fn collect<'t>(sources: &'t SourceMap, root: FileId, trees: &[(FileId, &'t Node)]) -> Known<'t> {
     let mut known = Known::new(root);
@@ -142,7 +134,7 @@ fn values<'t>(owner: DefinitionId, node: &'t Node, known: &mut Known<'t>) {
 fn objects<'t>(tree: &'t Node, known: &mut Known<'t>) {
     for (key, node) in tree.get("objects").map(Node::entries).unwrap_or_default() {
         let Some(range) = lexical::indices(&key.value) else { continue };
-        for one in one_or_more(node) {
+        for one in node.one_or_more() {
             let place = match &node.kind {
                 NodeKind::List(_) => one.entries().first().map_or(one.span, |(name, _)| name.span),
                 _ => key.span,
@@ -154,7 +146,7 @@ fn objects<'t>(tree: &'t Node, known: &mut Known<'t>) {
 
 /// Adds what stands at a key of `objects:`.
 fn object<'t>(known: &mut Known<'t>, (first, last): (Index, Index), place: Span, node: &'t Node) {
-    let devices = node.get("devices").map(one_or_more);
+    let devices = node.get("devices").map(Node::one_or_more);
     let devices: Option<Vec<&str>> =
         devices.map(|list| list.iter().filter_map(|one| Some(one.text()?.value)).collect());
     let name = node.get("name").and_then(Node::text);
@@ -268,9 +260,10 @@ fn errors<'t>(tree: &'t Node, known: &mut Known<'t>) {
 /// Blocks and marks, whose names are unique in their picture, in whichever language.
 fn parts_of_picture<'t>(content: &'t Node, known: &mut Known<'t>) {
     let scope = Scope::At(content.span);
-    let blocks = content.get("flow").map(one_or_more).unwrap_or_default();
+    let blocks = content.get("flow").map(Node::one_or_more).unwrap_or_default();
     let blocks = blocks.iter().filter_map(|block| Some((Kind::Block, block.get("block")?)));
-    let marks = content.get("axis").and_then(|axis| axis.get("marks")).map(one_or_more).unwrap_or_default();
+    let marks =
+        content.get("axis").and_then(|axis| axis.get("marks")).map(Node::one_or_more).unwrap_or_default();
     let marks = marks.iter().filter_map(|mark| Some((Kind::Mark, mark.get("mark")?)));
     for (kind, words) in blocks.chain(marks) {
         let in_languages = words.entries().iter().filter_map(|(_, text)| text.text());

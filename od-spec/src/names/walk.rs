@@ -1,6 +1,5 @@
 //! Every scalar of a syntax tree, with the keys that lead to it.
 
-use super::definitions::one_or_more;
 use crate::keys::{Key, KeyKind, Keys, Shape, name_today};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
@@ -45,7 +44,7 @@ pub(super) fn devices_of<'t>(path: &[Step<'t>]) -> Vec<&'t str> {
             Step::Key { map, keys, .. } => {
                 let has = keys.get("devices").is_some_and(|key| !matches!(key.shape, Shape::MapOf(..)));
                 if let Some(devices) = map.get("devices").filter(|_| has) {
-                    return one_or_more(devices).iter().filter_map(|one| Some(one.text()?.value)).collect();
+                    return devices.one_or_more().iter().filter_map(|one| Some(one.text()?.value)).collect();
                 }
             }
             Step::Data { .. } | Step::Item { .. } => {}

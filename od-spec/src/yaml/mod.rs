@@ -96,6 +96,14 @@ impl Node {
         }
     }
 
+    /// The items of a list, or the one thing that stands there without one.
+    pub fn one_or_more(&self) -> &[Node] {
+        match &self.kind {
+            NodeKind::List(items) => items,
+            _ => std::slice::from_ref(self),
+        }
+    }
+
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&Node> {
         self.entries().iter().find(|(name, _)| name.value == key).map(|(_, node)| node)

@@ -1,6 +1,6 @@
 //! The rules of a device as rows: what the extension of each object asks before a value is written.
 
-use od_spec::model::{DataType, EntryId, Family};
+use od_spec::model::{DataType, EntryId, Family, SubIndex};
 
 use super::cell::Cell;
 use super::objects::{Memory, Slot, StackObject};
@@ -112,6 +112,14 @@ pub(super) const fn has_extension_of_stack(index: u16) -> bool {
 }
 
 impl<'o, 'a> Rules<'o, 'a> {
+    /// The first entry that can be written under a condition, by the row of the condition.
+    pub(super) fn first_under(&self, condition: usize) -> Option<EntryId> {
+        self.objects.iter().find_map(|RuledObject { object, rules }| {
+            let row = rules.iter().find(|row| usize::from(row.rule.condition) == condition)?;
+            Some(EntryId { index: object.object.index, sub: SubIndex(row.first) })
+        })
+    }
+
     pub(super) fn of(plan: &Plan<'_>, objects: &'o [StackObject<'a>]) -> Self {
         let mut rules = Self::default();
         for object in objects {

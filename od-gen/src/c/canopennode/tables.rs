@@ -1,7 +1,7 @@
 //! `OD_rules.c`: the rows of the rules.
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::{DataType, Entry, EntryId, Outside, Rounding, Value};
+use od_spec::model::{DataType, EntryId, Fact, Outside, Rounding, Value};
 
 use super::super::conditions::{self, Entries};
 use super::super::literal::Integer;
@@ -85,10 +85,8 @@ fn conditions(text: &mut Text, plan: &Plan<'_>, rules: &Rules<'_, '_>, diagnosti
                 "`{}` needs numbers of more than 64 bits, which C does not have everywhere",
                 condition.text
             );
-            let is_under =
-                |entry: &Entry| entry.writable_when.as_ref().is_some_and(|when| when.text == condition.text);
-            let entry = plan.device.entries().map(|(.., entry)| entry).find(|entry| is_under(entry));
-            let place = entry.map_or(plan.device.span, |entry| entry.span);
+            let entry = rules.first_under(at).and_then(|id| plan.device.entry(id));
+            let place = entry.map_or(plan.device.span, |entry| entry.place(Fact::WriteCondition));
             diagnostics.push(
                 Diagnostic::new(codes::NOT_IN_FIRMWARE, place, message)
                     .help("use narrower types, or a simpler fraction in the units of the entries"),
