@@ -1,9 +1,9 @@
 //! Blocks and arrows of a block diagram in layers: the order of each layer and where its places begin, with few crossings and short ways.
 
-use super::picture_label::DrawnLine;
+use crate::diagrams::label::DrawnLine;
 
 /// Around everything.
-pub(super) const MARGIN: i64 = 6;
+pub(crate) const MARGIN: i64 = 6;
 /// Between two blocks of a layer.
 const GAP: i64 = 14;
 /// Where an arrow passes a layer.
@@ -12,7 +12,7 @@ const PASSAGE: i64 = 8;
 const NEAR: i64 = 6;
 
 /// A block with the texts of its language.
-pub(super) struct DrawnBlock {
+pub(crate) struct DrawnBlock {
     /// What it is.
     pub name: String,
     /// Entries and bits.
@@ -22,7 +22,7 @@ pub(super) struct DrawnBlock {
 }
 
 /// A place in a layer: a block, or the passage of arrows from a block to later layers.
-pub(super) struct Item {
+pub(crate) struct Item {
     pub layer: usize,
     /// Its extent across the way.
     pub size: i64,
@@ -33,20 +33,20 @@ pub(super) struct Item {
 }
 
 impl Item {
-    pub(super) const fn middle(&self) -> i64 {
+    pub(crate) const fn middle(&self) -> i64 {
         self.start + self.size / 2
     }
 }
 
 /// From a place to one of the next layer.
 #[derive(Clone, Copy)]
-pub(super) struct Link {
+pub(crate) struct Link {
     pub from: usize,
     pub to: usize,
 }
 
 /// Places and links of a diagram. The first items are the blocks, in their order.
-pub(super) struct Graph {
+pub(crate) struct Graph {
     pub items: Vec<Item>,
     pub links: Vec<Link>,
     /// The places of each layer, in order.
@@ -71,7 +71,7 @@ fn layers_of(blocks: &[DrawnBlock]) -> Vec<usize> {
 }
 
 impl Graph {
-    pub(super) fn of(blocks: &[DrawnBlock], sizes: &[i64]) -> Self {
+    pub(crate) fn of(blocks: &[DrawnBlock], sizes: &[i64]) -> Self {
         let of_blocks = layers_of(blocks);
         let items = of_blocks.iter().zip(sizes).enumerate();
         let items = items.map(|(block, (layer, size))| Item { layer: *layer, size: *size, start: 0, block });
@@ -134,7 +134,7 @@ impl Graph {
     }
 
     /// Orders the layers so that few lines cross.
-    pub(super) fn order(&mut self) {
+    pub(crate) fn order(&mut self) {
         let mut best = (self.crossings(), self.layers.clone());
         for round in 0..8 {
             let is_down = round % 2 == 0;
@@ -178,7 +178,7 @@ impl Graph {
     }
 
     /// Where each link ends, from the start of the item there.
-    pub(super) fn ports(&self) -> Vec<i64> {
+    pub(crate) fn ports(&self) -> Vec<i64> {
         let positions = self.positions();
         let mut ports = vec![0; self.links.len()];
         for (at, item) in self.items.iter().enumerate() {
@@ -192,7 +192,7 @@ impl Graph {
     }
 
     /// The same, moved a little to where lines become straight.
-    pub(super) fn straightened(&self, mut ports: Vec<i64>) -> Vec<i64> {
+    pub(crate) fn straightened(&self, mut ports: Vec<i64>) -> Vec<i64> {
         for (link, port) in self.links.iter().zip(&mut ports) {
             let (from, to) = (&self.items[link.from], &self.items[link.to]);
             let straight = from.middle() - to.start;
@@ -205,7 +205,7 @@ impl Graph {
     }
 
     /// Gives every item its place across the way: as near as the order allows to where its lines are straight.
-    pub(super) fn place(&mut self) {
+    pub(crate) fn place(&mut self) {
         let ports = self.ports();
         for layer in 0..self.layers.len() {
             self.settle(layer, |_, _| None);

@@ -4,6 +4,8 @@
 //! `device.EXT` once per device, `appendix.EXT` once per appendix, and any other file once, under its own name. Files whose
 //! name begins with `_` are only included by others.
 
+pub(crate) mod markdown;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
@@ -13,7 +15,6 @@ use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior, context};
 
-use crate::markdown;
 use crate::view::Context;
 
 /// A format that this crate has templates for.
@@ -40,7 +41,7 @@ impl Format {
 
 macro_rules! files {
     ($($path:literal),+ $(,)?) => {
-        &[$((file_name($path), include_str!(concat!("../templates/", $path)))),+]
+        &[$((file_name($path), include_str!(concat!("../../templates/", $path)))),+]
     };
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::model::{Dictionary, Document, Figure, Index, Section, System, Table, TableContent, TableId};
 
-use crate::cell::slug;
+use crate::view::cell::slug;
 
 /// Names of pages that chapters leave to others.
 const PAGES: [&str; 10] = [

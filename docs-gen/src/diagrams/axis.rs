@@ -5,7 +5,7 @@
 
 use od_spec::model::AxisReach;
 
-use super::picture_label::{DrawnLine, LINE, Lines, height_of, label, length, placed};
+use crate::diagrams::label::{DrawnLine, LINE, Lines, height_of, label, length, placed};
 use crate::view::{AxisMarkPicture, AxisPicture, AxisSpanPicture};
 
 /// A wider picture is tried with narrower texts.
@@ -22,7 +22,7 @@ const TICK: i64 = 6;
 const ROW: i64 = 14;
 
 /// A mark with the texts of its language.
-pub(super) struct DrawnMark {
+pub(crate) struct DrawnMark {
     /// What is there.
     pub name: String,
     /// Its entries.
@@ -30,7 +30,7 @@ pub(super) struct DrawnMark {
 }
 
 /// A span with the texts of its language.
-pub(super) struct DrawnSpan {
+pub(crate) struct DrawnSpan {
     /// What it is.
     pub name: String,
     /// Its entries.
@@ -114,7 +114,7 @@ fn rows(spans: &[(AxisReach, Label)], scale: &Scale) -> Vec<usize> {
 }
 
 /// The picture of an axis whose texts are those of a language.
-pub(super) fn picture(marks: &[DrawnMark], spans: &[DrawnSpan]) -> AxisPicture {
+pub(crate) fn picture(marks: &[DrawnMark], spans: &[DrawnSpan]) -> AxisPicture {
     let mut drawn = AxisPicture::default();
     for limit in LIMITS {
         drawn = with_lines_of(limit, marks, spans);
@@ -179,8 +179,8 @@ fn with_lines_of(limit: usize, marks: &[DrawnMark], spans: &[DrawnSpan]) -> Axis
 
 #[cfg(test)]
 mod tests {
-    use super::super::timing_picture::room;
     use super::*;
+    use crate::diagrams::timing::room;
     use crate::view::PictureLine;
 
     fn drawn() -> AxisPicture {

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use od_spec::model::{self, Devices, Index, Prose, ProseKind, TableId, Text};
 
-use crate::outline::{ChapterPlan, section_anchor};
 use crate::source::Source;
+use crate::source::outline::{ChapterPlan, section_anchor};
 use crate::view::{Cell, Chapter, Content, Section, Table};
 
 impl Source<'_> {

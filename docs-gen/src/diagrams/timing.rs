@@ -26,7 +26,7 @@ const POINT: u32 = 4;
 
 /// A level between two steps, as it is drawn.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum DrawnLevel {
+pub(crate) enum DrawnLevel {
     /// A bit that is 0.
     Low,
     /// A bit that is 1.
@@ -37,7 +37,7 @@ pub(super) enum DrawnLevel {
 
 impl DrawnLevel {
     /// The level in words.
-    pub(super) fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         match self {
             Self::Low => "0",
             Self::High => "1",
@@ -47,7 +47,7 @@ impl DrawnLevel {
 }
 
 /// A signal with the texts of its language.
-pub(super) struct DrawnSignal {
+pub(crate) struct DrawnSignal {
     /// Its name; may be empty.
     pub name: String,
     /// Where it stands: `controlword, Bit 4` or `607Ah`.
@@ -60,7 +60,7 @@ pub(super) struct DrawnSignal {
 
 impl DrawnSignal {
     /// Place and name in one line.
-    pub(super) fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         if self.name.is_empty() { self.place.clone() } else { format!("{}: {}", self.place, self.name) }
     }
 }
@@ -85,7 +85,7 @@ fn runs(levels: &[DrawnLevel]) -> Vec<Run<'_>> {
 }
 
 /// Room for a text.
-pub(super) fn room(text: &str) -> u32 {
+pub(crate) fn room(text: &str) -> u32 {
     u32::try_from(text.chars().count().min(LONGEST)).unwrap_or(u32::MAX / 16) * CHARACTER
 }
 
@@ -115,7 +115,7 @@ impl Scale {
 }
 
 /// The picture of a sequence whose signals and events have the texts of a language.
-pub(super) fn picture(timing: &Timing, signals: Vec<DrawnSignal>, events: Vec<String>) -> TimingPicture {
+pub(crate) fn picture(timing: &Timing, signals: Vec<DrawnSignal>, events: Vec<String>) -> TimingPicture {
     let scale = Scale::of(&signals);
     let last = u32::try_from(timing.steps.len()).unwrap_or_default();
     let marks = (1..).zip(events).map(|(number, event)| TimingMark { number, x: scale.step(number), event });

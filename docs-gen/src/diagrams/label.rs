@@ -1,18 +1,18 @@
 //! Labels in pictures: a name and entries, each in as many lines as it needs, with a place for a finger where it leads somewhere.
 
-use super::timing_picture::room;
+use crate::diagrams::timing::room;
 use crate::view::{PictureLine, PictureLink, Target};
 
 /// Height of a line.
-pub(super) const LINE: i64 = 14;
+pub(crate) const LINE: i64 = 14;
 /// From the upper edge of a line to where its letters stand.
-pub(super) const ASCENT: i64 = 11;
+pub(crate) const ASCENT: i64 = 11;
 /// Height and width of the smallest thing that a finger hits.
 const FINGER: i64 = 24;
 
 /// A line that may lead somewhere.
 #[derive(Clone)]
-pub(super) struct DrawnLine {
+pub(crate) struct DrawnLine {
     /// The text.
     pub text: String,
     /// Where it leads.
@@ -21,7 +21,7 @@ pub(super) struct DrawnLine {
 
 /// The lines of a label: the name or one of its entries.
 #[derive(Clone)]
-pub(super) struct Lines {
+pub(crate) struct Lines {
     texts: Vec<String>,
     is_name: bool,
     target: Option<Target>,
@@ -53,7 +53,7 @@ impl Lines {
 }
 
 /// A text in lines of at most so many characters; a word stays whole.
-pub(super) fn wrapped(text: &str, limit: usize) -> Vec<String> {
+pub(crate) fn wrapped(text: &str, limit: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
@@ -68,7 +68,7 @@ pub(super) fn wrapped(text: &str, limit: usize) -> Vec<String> {
 }
 
 /// A name and its entries as the lines of a label, with the width that they need.
-pub(super) fn label(name: &str, lines: &[DrawnLine], limit: usize) -> (Vec<Lines>, i64) {
+pub(crate) fn label(name: &str, lines: &[DrawnLine], limit: usize) -> (Vec<Lines>, i64) {
     let lines = lines.iter().map(|line| Lines::of(&line.text, limit, false, line.target.clone()));
     let all: Vec<Lines> = std::iter::once(Lines::of(name, limit, true, None)).chain(lines).collect();
     let width = all.iter().map(Lines::width).max().unwrap_or_default();
@@ -76,12 +76,12 @@ pub(super) fn label(name: &str, lines: &[DrawnLine], limit: usize) -> (Vec<Lines
 }
 
 /// The height of a label.
-pub(super) fn height_of(label: &[Lines]) -> i64 {
+pub(crate) fn height_of(label: &[Lines]) -> i64 {
     label.iter().map(|lines| lines.height() + 2 * lines.beside()).sum()
 }
 
 /// The lines of a label around `x`, the first at `y`.
-pub(super) fn placed(label: Vec<Lines>, x: i64, mut y: i64) -> Vec<PictureLine> {
+pub(crate) fn placed(label: Vec<Lines>, x: i64, mut y: i64) -> Vec<PictureLine> {
     let mut placed = Vec::new();
     for lines in label {
         let (width, height, beside) = (lines.width().max(FINGER), lines.height(), lines.beside());
@@ -110,6 +110,6 @@ pub(super) fn placed(label: Vec<Lines>, x: i64, mut y: i64) -> Vec<PictureLine> 
 }
 
 /// A length of a picture.
-pub(super) fn length(value: i64) -> u32 {
+pub(crate) fn length(value: i64) -> u32 {
     u32::try_from(value).unwrap_or_default()
 }

@@ -1,7 +1,7 @@
 //! Layouts of random diagrams: boxes are apart, arrows lead from block to block around all others, texts are inside.
 
-use super::super::picture_label::DrawnLine;
 use super::*;
+use crate::diagrams::label::DrawnLine;
 
 /// Numbers that look random and are the same in every run.
 struct Random(u64);

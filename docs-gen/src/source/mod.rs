@@ -1,5 +1,13 @@
 //! The model in front of the printer: chosen devices, language, what refers to what, and links.
 
+pub(crate) mod conditions;
+pub(crate) mod indices;
+pub(crate) mod mentions;
+mod numbers;
+pub(crate) mod outline;
+pub(crate) mod series;
+pub(crate) mod uses;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
@@ -11,13 +19,13 @@ use od_spec::model::{
 };
 use od_spec::wording::Wording;
 
-use crate::cell::{entry_anchor, object_anchor, slug};
-use crate::indices::{self, Written};
 use crate::language::{Language, Word};
-use crate::mentions::Numbers;
 use crate::options::Options;
-use crate::outline::Outline;
-use crate::series::title;
+use crate::source::indices::Written;
+use crate::source::mentions::Numbers;
+use crate::source::outline::Outline;
+use crate::source::series::title;
+use crate::view::cell::{entry_anchor, object_anchor, slug};
 use crate::view::{Cell, Target};
 
 /// What would otherwise be searched for again and again.

@@ -45,7 +45,7 @@ impl Source<'_> {
                     &Devices::one(&device.key),
                     object.index,
                     name,
-                    crate::cell::object_anchor(object.index),
+                    crate::view::cell::object_anchor(object.index),
                 );
                 self.warn(&mut list, device, &object.warning, || place.clone());
                 for entry in &object.entries {
@@ -78,7 +78,7 @@ impl Source<'_> {
             &Devices::one(&device.key),
             id.index,
             format!("{id} {name}"),
-            crate::cell::entry_anchor(id),
+            crate::view::cell::entry_anchor(id),
         )
     }
 }

@@ -5,7 +5,7 @@
 
 use od_spec::model::{Ratio, SwitchPoints, SwitchSide};
 
-use super::timing_picture::room;
+use crate::diagrams::timing::room;
 use crate::view::{Align, HysteresisPicture, PictureText, SwitchPicture, Target};
 
 /// Width between the lowest and the highest value.
@@ -16,7 +16,7 @@ const PITCH: u32 = 74;
 const LINES: (u32, u32) = (16, 44);
 
 /// A switch with the texts of its language.
-pub(super) struct DrawnSwitch {
+pub(crate) struct DrawnSwitch {
     /// What goes on.
     pub what: String,
     /// On which side of the first value it does.
@@ -76,7 +76,7 @@ impl Scale {
 }
 
 /// The picture; nothing where the values are too large to be computed exactly.
-pub(super) fn picture(switches: &[DrawnSwitch]) -> Option<HysteresisPicture> {
+pub(crate) fn picture(switches: &[DrawnSwitch]) -> Option<HysteresisPicture> {
     let scale = Scale::of(switches)?;
     let drawn: Option<Vec<SwitchPicture>> =
         (0..).zip(switches).map(|(row, one)| switch(row, one, &scale)).collect();

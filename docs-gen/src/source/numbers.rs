@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
-use crate::mentions::{self, Numbered};
 use crate::source::Source;
+use crate::source::mentions::{self, Numbered};
 use crate::view::{Cell, Target};
 
 impl Source<'_> {

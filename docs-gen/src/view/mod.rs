@@ -2,6 +2,8 @@
 //!
 //! A table is data: columns, and rows of cells. A template only decides how a table looks, so that every format shows the same.
 
+pub(crate) mod cell;
+pub(crate) mod long_list;
 mod pictures;
 
 use std::collections::BTreeMap;
@@ -15,7 +17,7 @@ pub use pictures::{
     TimingSignal,
 };
 
-pub use crate::long_list::LongList;
+pub use crate::view::long_list::LongList;
 
 /// Version of the format; raised when a template would have to change.
 pub(crate) const FORMAT: u32 = 1;

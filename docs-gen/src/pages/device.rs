@@ -7,15 +7,15 @@ use od_spec::model::{
     Storage, SystemSource, TypeKind, Value,
 };
 
-use crate::cell::{entry_anchor, object_anchor, slug};
 use crate::language::Word;
-use crate::long_list::LongList;
-use crate::outline::section_anchor;
 use crate::source::Source;
+use crate::source::outline::section_anchor;
+use crate::source::uses::Uses;
 use crate::tables::Columns;
 use crate::tables::bits::types_of;
 use crate::tables::overview::among;
-use crate::uses::Uses;
+use crate::view::cell::{entry_anchor, object_anchor, slug};
+use crate::view::long_list::LongList;
 use crate::view::{
     Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, PdoView, Place, Row, Table,
 };

@@ -58,7 +58,7 @@ impl Way<'_> {
 }
 
 /// A state machine, with the bits of its states as text, and the code of the command that takes a transition.
-pub(super) fn picture(
+pub(crate) fn picture(
     machine: &StateMachine,
     patterns: &[String],
     status: Option<Target>,

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use od_spec::model::{Dictionary, Index, Object, Role, TableContent};
 
-use crate::cell::object_anchor;
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::object_anchor;
 use crate::view::{GroupView, ObjectName};
 
 /// A chapter with more objects than this is divided into its sections, so that a group stays about as long as a screen.

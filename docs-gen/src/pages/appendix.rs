@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{Devices, Dictionary, Entry, EntryId, ErratumPlace, Role, Storage, SubIndex, Unit};
 
-use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
 use crate::source::Source;
 use crate::tables::Columns;
 use crate::tables::overview::among;
+use crate::view::cell::{entry_anchor, object_anchor};
 use crate::view::{Appendix, Cell, DeviceView, ErratumView, Row, Table};
 
 /// An appendix before its words are chosen.

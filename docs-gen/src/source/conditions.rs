@@ -3,10 +3,10 @@
 use od_spec::expr::{ArithmeticOp, CompareOp, EntryRef, Expr, Term};
 use od_spec::model::{Devices, Dictionary, Ratio, TypeKind};
 
-use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::Cell;
+use crate::view::cell::entry_anchor;
 
 impl<'a> Source<'a> {
     /// The device of an entry that a condition names: the one it says, or else one that is shown.

@@ -8,8 +8,8 @@ use od_spec::model::{
 };
 
 use crate::language::Word;
-use crate::series;
 use crate::source::Source;
+use crate::source::series;
 use crate::tables::pdos;
 use crate::view::{Cell, Used};
 

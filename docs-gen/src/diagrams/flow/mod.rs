@@ -5,9 +5,11 @@
 //! layers has a place of its own in each of them, so that no arrow crosses a block; between two layers it turns in a lane.
 //! Everything is computed along the way of the arrows (`along`) and across it; only at the end these become `x` and `y`.
 
-use super::flow_graph::{DrawnBlock, Graph, MARGIN};
-use super::picture_label::{ASCENT, LINE, Lines, height_of, label, length, placed};
-use super::timing_picture::room;
+pub(crate) mod graph;
+
+use crate::diagrams::flow::graph::{DrawnBlock, Graph, MARGIN};
+use crate::diagrams::label::{ASCENT, LINE, Lines, height_of, label, length, placed};
+use crate::diagrams::timing::room;
 use crate::view::{Align, FlowArrow, FlowBox, FlowPicture, PictureText};
 
 /// A wider picture is tried from top to bottom: on paper it would be too small to be read.
@@ -282,7 +284,7 @@ impl Layout {
 }
 
 /// The picture of blocks whose texts are those of a language.
-pub(super) fn picture(blocks: &[DrawnBlock]) -> FlowPicture {
+pub(crate) fn picture(blocks: &[DrawnBlock]) -> FlowPicture {
     let ways = [Way::Right, Way::Down];
     let mut narrowest: Option<Layout> = None;
     for (way, limit) in ways.into_iter().flat_map(|way| LIMITS.map(|limit| (way, limit))) {
@@ -299,5 +301,4 @@ pub(super) fn picture(blocks: &[DrawnBlock]) -> FlowPicture {
 }
 
 #[cfg(test)]
-#[path = "flow_picture_tests.rs"]
 mod tests;
