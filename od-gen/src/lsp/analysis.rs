@@ -19,7 +19,7 @@ use super::place::Place;
 use super::position::{Encoding, Lines};
 use super::trees;
 use super::unread;
-use crate::source::remark;
+use od_readers::remark;
 
 /// What a document is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use lsp_types::Uri;
+use od_reference::explanation;
+use od_spec::LIBRARIES;
 use od_spec::diag::Code;
-use od_spec::{LIBRARIES, explanation};
 
 use super::uri::uri_of;
 use crate::artifact::Artifact;

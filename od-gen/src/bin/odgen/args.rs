@@ -12,8 +12,8 @@ mod st;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use od_spec::diag::readers::Reader;
 use od_spec::diag::render;
-use od_spec::eds::readers::Reader;
 
 pub(crate) use bus::{DecodeArgs, NodesArgs, ServeArgs};
 pub(crate) use concise::{ConciseArgs, ConciseCommand, ConciseFormat, ConciseShowArgs};

@@ -89,7 +89,7 @@ fn main() -> ExitCode {
         Command::St(args) => st::run(&args, directory, &report),
         Command::Explain { code } => explain(&code),
         Command::Library { name } => library(name.as_deref(), &report),
-        Command::Reference => report::print(&od_spec::reference()),
+        Command::Reference => report::print(&od_reference::reference()),
         Command::Schema(args) => schema(&args, &report),
         Command::Completions { shell } => {
             let mut text = Vec::new();
@@ -130,10 +130,10 @@ fn schema(args: &args::SchemaArgs, report: &report::Report) -> u8 {
     if let Some(files) = &args.plant {
         return plant::schema(files, report);
     }
-    let Some(spec) = &args.params else { return report::print(&od_spec::json_schema()) };
+    let Some(spec) = &args.params else { return report::print(&od_reference::json_schema()) };
     let Some(system) = report.compile(spec) else { return ERRORS };
     match report.device_or_only(&system, args.device.as_deref()) {
-        Ok(device) => report::print_json(od_spec::parameter_schema(&system, device).as_bytes()),
+        Ok(device) => report::print_json(od_reference::parameter_schema(&system, device).as_bytes()),
         Err(code) => code,
     }
 }
@@ -162,7 +162,7 @@ fn explain(id: &str) -> u8 {
             "{code} ({}): {}\n\n{}",
             code.severity.word(),
             code.title,
-            od_spec::explanation(code)
+            od_reference::explanation(code)
         )),
         None => {
             let id = visible(id);

@@ -10,7 +10,7 @@ use od_spec::yaml::{Node, parse};
 use od_spec::{Loader, compile};
 
 use crate::lsp::analysis::Analysis;
-use crate::source::remark;
+use od_readers::remark;
 
 /// Gives texts by their names.
 struct Texts(BTreeMap<String, String>);

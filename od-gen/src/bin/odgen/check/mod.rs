@@ -8,6 +8,7 @@ mod summary;
 
 use std::path::Path;
 
+use od_reference::explanation;
 use od_spec::diag::render::{Findings, sarif};
 
 use self::checked::{Checked, check};
@@ -61,7 +62,8 @@ pub(crate) fn run(args: &CheckArgs, format: CheckFormat, directory: &Path, repor
         CheckFormat::Human => report.write(&total.text()),
         CheckFormat::Sarif => {
             let findings: Vec<Findings<'_>> = document.iter().map(Checked::findings).collect();
-            written = written.max(print_json(sarif(env!("CARGO_PKG_VERSION"), &findings).as_bytes()));
+            written =
+                written.max(print_json(sarif(env!("CARGO_PKG_VERSION"), explanation, &findings).as_bytes()));
         }
         CheckFormat::Short | CheckFormat::Json | CheckFormat::Github => {}
     }

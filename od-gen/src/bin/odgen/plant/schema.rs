@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use od_gen::source::{FileLoader, open};
+use od_reference::{plant_schema, plant_schema_of};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::plant::{is_plant, plant};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{plant_schema, plant_schema_of};
 
 use crate::ERRORS;
 use crate::report::{Report, print_json, shown};
