@@ -74,14 +74,14 @@ fn without_heartbeat() -> Diagnostics {
 /// What is said about an EDS or DCF that is an example, with the text.
 pub(crate) fn eds_example(example: &Example) -> (Diagnostics, SourceMap) {
     let mut sources = SourceMap::new();
-    let file = sources.add(example.language.file_name(), example.whole(example.before));
+    let file = sources.add(example.language.file_name(), example.language.whole(example.before));
     let compiled = compile_as(Strictness::Standard, &mut sources, file, &mut NoFiles);
     (compiled.diagnostics, sources)
 }
 
 /// What is said about the example of a code, with the settings that it gives as comments.
 fn example(example: &Example) -> BTreeSet<&'static Code> {
-    let text = example.whole(example.before);
+    let text = example.language.whole(example.before);
     match example.language {
         Language::Specification => {}
         Language::Eds | Language::Dcf => return codes(&eds_example(example).0),

@@ -74,7 +74,7 @@ fn of_concise(text: &str) -> (Diagnostics, SourceMap) {
 }
 
 fn said(example: &Example, text: &str) -> Option<(Diagnostics, SourceMap)> {
-    let whole = example.whole(text);
+    let whole = example.language.whole(text);
     match example.language {
         Language::Specification | Language::Eds | Language::Dcf => None,
         Language::Parameters => Some(of_parameters(&whole)),
