@@ -120,25 +120,6 @@ fn an_output_directory_that_cannot_be_written_leaves_the_old_files() {
 }
 
 #[test]
-fn a_full_disk_leaves_the_old_files() {
-    let scratch = Scratch::new("full");
-    scratch.file("lamp.od.yaml", LAMP);
-    assert_eq!(code(&odgen(&scratch.0, &["build", "lamp.od.yaml", "--out", "out"])), 0);
-    let before = fs::read(scratch.0.join("out/lamp.json")).unwrap();
-    scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
-    // A limit on the size of written files stands for the full disk: the EDS fits, the JSON does not.
-    let limited = format!(
-        "ulimit -f 10; trap '' XFSZ; exec {} build lamp.od.yaml --out out",
-        env!("CARGO_BIN_EXE_odgen")
-    );
-    let output = Command::new("bash").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
-    assert_eq!(code(&output), 1, "{}", stdout(&output));
-    assert!(stderr(&output).contains("error[OD0709]"), "{}", stderr(&output));
-    assert_eq!(fs::read(scratch.0.join("out/lamp.json")).unwrap(), before);
-    assert_eq!(files(&scratch.0.join("out")), ["eds/lamp.eds", "lamp.json"]);
-}
-
-#[test]
 fn two_devices_of_one_key_are_refused() {
     let scratch = Scratch::new("clash");
     scratch.file("a.od.yaml", LAMP);
