@@ -9,6 +9,7 @@ mod cell;
 mod chapters;
 mod conditions;
 mod device;
+mod files;
 mod groups;
 mod indices;
 mod language;
@@ -30,6 +31,7 @@ mod warnings;
 
 use od_spec::model::System;
 
+pub use files::{artifacts, dump_context, options};
 pub use language::LANGUAGES;
 pub use markdown::escape as escape_markdown;
 pub use options::Options;
