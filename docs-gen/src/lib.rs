@@ -5,6 +5,7 @@
 //! a directory of a user's own templates can replace or join them.
 
 mod diagrams;
+mod files;
 mod language;
 mod options;
 mod pages;
@@ -17,6 +18,7 @@ pub mod view;
 
 use od_spec::model::System;
 
+pub use files::{artifacts, dump_context, options};
 pub use language::LANGUAGES;
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::c;
+use od_c as c;
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::{Code, Diagnostics, Example, Language, Severity, codes as known};
 use od_spec::source::SourceMap;
@@ -13,7 +13,7 @@ use crate::bytes_and_libraries::{LAMP, compiled_with};
 use crate::settings::{HEATER, assigned};
 use crate::{cases, codes, parameter_files, parts, plants, run};
 
-#[path = "../../../od-gen/tests/cli/provoked.rs"]
+#[path = "../../../od-gen/cli/tests/cli/provoked.rs"]
 mod command_line;
 
 /// Something that provokes a code and is no specification by itself.

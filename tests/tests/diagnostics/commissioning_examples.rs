@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::concise;
+use od_formats::concise;
 use od_spec::diag::{Diagnostics, Example, Language};
 use od_spec::plant::{Settled, plant};
 use od_spec::source::SourceMap;
