@@ -21,7 +21,6 @@ mod outline;
 mod printed;
 mod series;
 mod source;
-mod synonyms;
 mod tables;
 mod templates;
 mod uses;
@@ -30,7 +29,6 @@ mod warnings;
 
 use od_spec::model::System;
 
-pub use language::LANGUAGES;
 pub use markdown::escape as escape_markdown;
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
