@@ -15,10 +15,10 @@ use od_spec::visible::{printable, visible, visible_json};
 use od_spec::xdd::is_xdd;
 use od_spec::{Commissioning, Compiled};
 
-use super::args::Color;
-use super::listing::{Most, for_people};
-use super::progress::Audience;
-use super::{ERRORS, SUCCESS, USAGE};
+use crate::exit::{ERRORS, SUCCESS, USAGE};
+use crate::listing::{Most, for_people};
+use crate::messages::Color;
+use crate::progress::Audience;
 
 /// Writes diagnostics the way the user asked for.
 pub(crate) struct Report {
