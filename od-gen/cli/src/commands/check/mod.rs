@@ -9,7 +9,7 @@ mod summary;
 
 use std::path::Path;
 
-use od_spec::diag::render::{Findings, sarif};
+use od_formats::findings::{Findings, sarif};
 
 use self::checked::{Checked, check};
 use self::inputs::Input;
