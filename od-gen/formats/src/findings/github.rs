@@ -1,11 +1,16 @@
 //! Workflow commands of GitHub Actions: `::error file=drive.eds,line=3,col=7,title=…::…`.
 
-use crate::diag::{Diagnostic, Severity};
-use crate::source::SourceMap;
-use crate::visible::visible;
+use od_spec::diag::{Diagnostic, Diagnostics, Severity};
+use od_spec::source::SourceMap;
+use od_spec::visible::visible;
+
+/// One workflow command for each message, in a line of its own; it shows the message beside the source line.
+pub fn github(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
+    diagnostics.iter().map(|diagnostic| command(diagnostic, sources) + "\n").collect()
+}
 
 /// A message as one command, in one line.
-pub(super) fn command(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+fn command(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let word = match diagnostic.severity() {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -38,7 +43,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::{Diagnostic, codes};
+    use od_spec::diag::codes;
 
     #[test]
     fn what_ends_a_line_or_a_value_is_escaped() {

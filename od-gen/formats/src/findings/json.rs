@@ -2,12 +2,17 @@
 
 use std::fmt::Write as _;
 
-use crate::diag::{Diagnostic, Edit};
-use crate::source::{SourceMap, Span};
-use crate::visible::is_hidden;
+use od_spec::diag::{Diagnostic, Diagnostics, Edit};
+use od_spec::source::{SourceMap, Span};
+use od_spec::visible::is_hidden;
+
+/// One object for each message, in a line of its own.
+pub fn json(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
+    diagnostics.iter().map(|diagnostic| object(diagnostic, sources) + "\n").collect()
+}
 
 /// A message as one object in one line.
-pub(super) fn json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+fn object(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let labels = diagnostic.labels.iter().map(|label| marked(label.span, &label.text, sources));
     let notes = diagnostic.notes.iter().map(|note| quote(note));
     let edits = diagnostic.edits.iter().map(|Edit { span, text }| marked(*span, text, sources));

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use od_spec::diag::{Code, Diagnostic, Diagnostics, Label, Severity};
+use od_spec::source::{FileId, SourceMap, Span};
+
 use super::json::quote;
-use crate::diag::{Code, Diagnostic, Diagnostics, Label, Severity};
-use crate::source::{FileId, SourceMap, Span};
 
 /// What was found in one file, and in the libraries that it uses.
 #[derive(Debug, Clone, Copy)]
