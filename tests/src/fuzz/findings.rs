@@ -1,6 +1,7 @@
 //! What is demanded of findings, whatever text they are about: their places, and how they read in every format.
 
 use od_formats::findings::{Findings, github, json, sarif};
+use od_reference::explanation;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::source::{SourceMap, Span};
@@ -16,7 +17,7 @@ pub(super) fn wrong(
     let [human, short] =
         [Format::Human, Format::Short].map(|format| render(diagnostics, sources, format, false));
     let (json, github) = (json(diagnostics, sources), github(diagnostics, sources));
-    let document = sarif("0.0.0", &[Findings { name, diagnostics, sources }]);
+    let document = sarif("0.0.0", explanation, &[Findings { name, diagnostics, sources }]);
     let mut wrong = places(diagnostics, sources);
     for (format, text) in
         [("human", &human), ("short", &short), ("json", &json), ("github", &github), ("sarif", &document)]

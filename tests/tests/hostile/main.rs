@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 
 use od_diff::{self as diff, Question, Scope, compare};
 use od_formats::findings::{self, Findings, sarif};
+use od_reference::explanation;
 use od_spec::diag::codes;
 use od_spec::diag::render::{Format, render};
 use od_spec::source::SourceMap;
@@ -33,7 +34,7 @@ const LIBRARIES: [KeyName; 8] = [
 fn check_messages(sources: &SourceMap, compiled: &Compiled, complaints: &mut Vec<String>) {
     let all = &compiled.diagnostics;
     let findings = Findings { name: "\u{9b}2J", diagnostics: all, sources };
-    let mut texts = vec![("SARIF", sarif("1", &[findings]))];
+    let mut texts = vec![("SARIF", sarif("1", explanation, &[findings]))];
     texts.push(("human", render(all, sources, Format::Human, false)));
     texts.push(("short", render(all, sources, Format::Short, false)));
     texts.push(("JSON", findings::json(all, sources)));

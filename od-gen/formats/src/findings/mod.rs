@@ -32,7 +32,11 @@ mod tests {
             assert!(!text.contains(|c: char| is_hidden(c) && c != '\n'), "{text:?}");
             assert_eq!(commands(&text), expected, "{text}");
         }
-        let text = sarif("1", &[Findings { name: HOSTILE, diagnostics: &diagnostics, sources: &sources }]);
+        let text = sarif(
+            "1",
+            |_| String::new(),
+            &[Findings { name: HOSTILE, diagnostics: &diagnostics, sources: &sources }],
+        );
         assert!(!text.trim_end().contains(is_hidden), "{text}");
     }
 }
