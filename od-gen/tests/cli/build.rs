@@ -128,10 +128,10 @@ fn a_full_disk_leaves_the_old_files() {
     scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
     // A limit on the size of written files stands for the full disk: the EDS fits, the JSON does not.
     let limited = format!(
-        "ulimit -f 10; trap '' XFSZ; exec {} build lamp.od.yaml --out out",
+        "ulimit -f 20; trap '' XFSZ; exec {} build lamp.od.yaml --out out",
         env!("CARGO_BIN_EXE_odgen")
     );
-    let output = Command::new("bash").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
+    let output = Command::new("sh").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
     assert_eq!(code(&output), 1, "{}", stdout(&output));
     assert!(stderr(&output).contains("error[OD0709]"), "{}", stderr(&output));
     assert_eq!(fs::read(scratch.0.join("out/lamp.json")).unwrap(), before);
