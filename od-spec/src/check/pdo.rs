@@ -2,6 +2,7 @@
 
 use super::subject::Subject;
 use super::subject::entry_id;
+use crate::diag::{Code, Diagnostic};
 use crate::model::{DataType, Entry, EntryId, Fact, Index, Mapped, Pdo, PdoTarget, Value};
 use crate::source::Span;
 
@@ -35,6 +36,11 @@ pub(super) struct Parameter<'a> {
 }
 
 impl Parameter<'_> {
+    /// A finding about its value.
+    pub(super) fn finding(&self, code: &'static Code, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(code, self.place, message).about((self.id, Fact::Default))
+    }
+
     /// The raw value. In a specification only a COB-ID can depend on the node-ID.
     pub(super) fn raw(&self) -> i128 {
         let raw = match self.node {

@@ -53,6 +53,7 @@
 
 mod bits;
 mod facts;
+mod file_keys;
 mod language;
 mod number;
 mod range;
@@ -60,6 +61,7 @@ mod range;
 mod tests;
 mod value;
 
+pub(crate) use file_keys::{FileFormat, Key};
 pub use language::{Language, Word};
 pub use number::Radix;
 pub use range::Limits;
