@@ -288,7 +288,7 @@ fn told(written: &Specification) -> Vec<Told<'_>> {
 }
 
 /// The lamp with each fault alone, and with all of them.
-pub fn broken() -> Vec<(&'static str, System)> {
+pub(super) fn broken() -> Vec<(&'static str, System)> {
     let mut all = lamp();
     let mut broken: Vec<_> = FAULTS
         .iter()

@@ -22,6 +22,7 @@ fn other(c: char) -> char {
     }
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "it is told so")]
 fn otherwise(text: String) -> String {
     text.chars().map(other).collect()
 }

@@ -80,8 +80,8 @@ pub struct Diagnostic {
     pub meant: Option<Box<Edit>>,
     /// The readers of other people that refuse an EDS or DCF because of this, or are reported to stumble.
     pub minded_by: Readers,
-    /// Who stumbles over it, a sentence each; none where the message names them itself.
-    pub(crate) stumbling: Box<[String]>,
+    /// Whether it is said who stumbles over it; not where the message names them itself.
+    pub(crate) tells_readers: bool,
 }
 
 /// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
@@ -139,7 +139,7 @@ impl Diagnostic {
             edits: Vec::new(),
             meant: None,
             minded_by: Readers::NONE,
-            stumbling: Box::default(),
+            tells_readers: false,
         }
     }
 
@@ -216,7 +216,8 @@ impl Diagnostic {
 
     /// The notes, and who stumbles over it.
     pub fn all_notes(&self) -> impl Iterator<Item = String> {
-        self.notes.iter().chain(&self.stumbling).cloned()
+        let readers = if self.tells_readers { self.minded_by.sentences() } else { Vec::new() };
+        self.notes.iter().cloned().chain(readers)
     }
 
     /// How serious it is.
@@ -239,7 +240,7 @@ impl PartialEq for Diagnostic {
             edits,
             meant,
             minded_by,
-            stumbling,
+            tells_readers,
         } = self;
         *code == other.code
             && *severity == other.severity
@@ -250,7 +251,7 @@ impl PartialEq for Diagnostic {
             && *edits == other.edits
             && *meant == other.meant
             && *minded_by == other.minded_by
-            && *stumbling == other.stumbling
+            && *tells_readers == other.tells_readers
     }
 }
 

@@ -53,9 +53,9 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
         }
     }
     let untold = all.into_iter().filter(|one| !told.contains(&(one.reader, one.cause, one.what)));
-    diagnostics.as_mut_slice().iter_mut().for_each(tell);
+    diagnostics.as_mut_slice().iter_mut().for_each(|one| one.tells_readers = true);
     let reported = both_ways(source.text(), file).map(|mut note| {
-        tell(&mut note);
+        note.tells_readers = true;
         note
     });
     // What is only about readers names them in its message.
@@ -63,11 +63,6 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
         diagnostics.push(note);
     }
     diagnostics.sort();
-}
-
-/// Says in words who stumbles.
-fn tell(diagnostic: &mut Diagnostic) {
-    diagnostic.stumbling = diagnostic.minded_by.sentences().into();
 }
 
 /// One note for all places at which readers refuse the same.
