@@ -37,7 +37,7 @@ pub(in crate::check) struct Parameter<'a> {
 
 impl Parameter<'_> {
     /// A finding about its value.
-    pub(super) fn finding(&self, code: &'static Code, message: impl Into<String>) -> Diagnostic {
+    pub(in crate::check) fn finding(&self, code: &'static Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, self.place, message).about((self.id, Fact::Default))
     }
 
