@@ -1,10 +1,10 @@
 //! A command that has a default is marked as one that tools do not write.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::{Findings, others};
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Entry, EntryId, Fact, Index};
 use crate::wording::Key;
 

@@ -1,10 +1,10 @@
 //! A default value is of an entry that can be read.
 
-use crate::diag::{Code, Example, Repeated, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Repeated, Severity};
 use crate::model::{Entry, Fact};
 use crate::wording::Key;
 

@@ -1,11 +1,11 @@
 //! The COB-IDs of PDOs, SYNC, TIME, EMCY and SDO channels are 11-bit identifiers that no other service has for itself, on every node.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::pdo::parameters::{NO_REMOTE_FRAMES, NOT_VALID, Parameter};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 

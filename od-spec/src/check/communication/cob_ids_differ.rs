@@ -3,13 +3,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::diag::{About, Code, Diagnostic, Example, Severity};
-use crate::model::{Direction, Fact, Index, Object, Value};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::pdo::parameters::{NOT_VALID, Parameter, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{About, Code, Diagnostic, Example, Severity};
+use crate::model::{Direction, Fact, Index, Object, Value};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };

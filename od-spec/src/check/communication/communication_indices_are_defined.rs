@@ -1,10 +1,10 @@
 //! An object from 1000h to 11FFh is one that CiA 301 or CiA 302 defines.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::is_from_library;
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };

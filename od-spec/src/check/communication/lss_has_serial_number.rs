@@ -1,10 +1,10 @@
 //! LSS needs the serial number, 1018h.4.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Index, SubIndex};
 use crate::wording::Key;
 

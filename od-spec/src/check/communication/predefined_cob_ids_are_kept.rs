@@ -1,10 +1,10 @@
 //! EMCY and the first SDO channel of a type have the identifiers of the pre-defined connection set.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::pdo::parameters::{NO_REMOTE_FRAMES, NOT_VALID};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Index, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

@@ -1,11 +1,11 @@
 //! A device whose PDOs wait for SYNC knows SYNC, and one that produces it knows how often.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::pdo::parameters::title;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

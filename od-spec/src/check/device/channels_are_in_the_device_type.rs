@@ -1,10 +1,10 @@
 //! The device type of an I/O module tells which kinds of channels it has.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
 use crate::wording::Key;
 

@@ -1,11 +1,11 @@
 //! 1000h and 1018h say what vendor and device say.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::check::subject::entry_id;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, SystemSource, Value};
 use crate::wording::Key;
 use crate::wording::format_value;

@@ -1,11 +1,11 @@
 //! The modes that 6060h takes and 6502h lists are the same.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::drives::modes::{Axis, MODES, axes};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Author, EntryId, Fact, SubIndex, SystemSource, TypeKind};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

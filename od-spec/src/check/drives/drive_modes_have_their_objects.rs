@@ -1,11 +1,11 @@
 //! A drive has the objects of the modes that it says it has.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::drives::modes::{MODES, Mode, axes};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 

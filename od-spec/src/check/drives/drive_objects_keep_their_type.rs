@@ -1,6 +1,5 @@
 //! The objects of a drive have the shape, the data types and the access that CiA 402 gives them.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::device::device_type_is_kept::axes_of_drives;
 use crate::check::findings::{Findings, others};
 use crate::check::help::Help;
@@ -8,6 +7,7 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard::continued;
 use crate::check::standard_objects::from_library::{CIA402, says_itself};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Access, Entry, EntryId, Fact, Index, Object};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

@@ -1,12 +1,12 @@
 //! Names can be written into an EDS that every tool reads alike.
 
 use crate::ascii::{in_ascii, transliterate};
-use crate::diag::{About, Code, Diagnostic, Example, Severity, shorten};
-use crate::model::{Dictionary, EntryId, Fact, SystemSource};
 use crate::check::findings::Findings;
 use crate::check::names::texts_fit_eds::unfit;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{About, Code, Diagnostic, Example, Severity, shorten};
+use crate::model::{Dictionary, EntryId, Fact, SystemSource};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };

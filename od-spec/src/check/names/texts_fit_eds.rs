@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Entry, Fact, Value};
 use crate::wording::Key;
 

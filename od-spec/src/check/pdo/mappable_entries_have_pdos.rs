@@ -1,10 +1,10 @@
 //! What can be mapped has a PDO to be mapped into.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Direction, Fact, Index};
 use crate::wording::Key;
 

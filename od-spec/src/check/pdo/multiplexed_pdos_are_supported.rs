@@ -1,11 +1,11 @@
 //! A multiplexed PDO belongs to a device that says it has such, is event-driven, and only one names its source.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::pdo::parameters::{Parameter, SOURCE_ADDRESS, is_multiplexed, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Direction, Pdo};
 use crate::wording::Key;
 

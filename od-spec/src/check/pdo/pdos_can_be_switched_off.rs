@@ -1,10 +1,10 @@
 //! A PDO whose mapping can be changed can be switched off for that.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::pdo::parameters::title;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

@@ -1,13 +1,13 @@
 //! The first four PDOs of a direction start on the identifiers of the pre-defined connection set, and the others do not exist
 //! at first.
 
-use crate::diag::{Code, Example, Repeated, Severity};
 use crate::check::communication::cob_ids_are_unrestricted::is_restricted;
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::pdo::parameters::{NO_REMOTE_FRAMES, NOT_VALID, Parameter, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Repeated, Severity};
 use crate::model::{Direction, Pdo};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

@@ -1,11 +1,11 @@
 //! Placeholders stand in RPDOs, and are of types that the device accepts there.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::pdo::parameters::{placeholder, target, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::Direction;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };

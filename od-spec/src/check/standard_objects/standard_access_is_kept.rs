@@ -1,11 +1,11 @@
 //! The objects of CiA 301 can be read, written and mapped as it says, also where a device writes them in full or takes them
 //! from the library and says otherwise.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::{CIA301, help, says_itself};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Access, Entry, EntryId, Fact, Object, PdoMapping, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };

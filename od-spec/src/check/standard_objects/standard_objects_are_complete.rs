@@ -1,10 +1,10 @@
 //! The objects of CiA 301 have the sub-indices that it demands, none that it does not know, and a mapping has no gap.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::is_from_library;
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Category, Object, ObjectKind, Role, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };

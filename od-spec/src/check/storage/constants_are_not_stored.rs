@@ -1,10 +1,10 @@
 //! A constant is not stored: it never changes.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Access, Fact, Storage};
 use crate::wording::Key;
 

@@ -1,11 +1,11 @@
 //! What is stored has a command that stores it: 1010h.2, .3 or .4.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::check::subject::entry_id;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Storage};
 use crate::wording::{Notation, Wording};
 

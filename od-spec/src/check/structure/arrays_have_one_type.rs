@@ -1,10 +1,10 @@
 //! All elements of an ARRAY have one data type.
 
-use crate::diag::{Code, Example, Severity};
-use crate::model::{EntryId, Fact, ObjectKind};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
+use crate::model::{EntryId, Fact, ObjectKind};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 

@@ -1,12 +1,12 @@
 //! Sub-index 0 of an array or record tells a number that nothing changes.
 
-use crate::diag::{Code, Example, Severity};
-use crate::model::{EntryId, Fact, Object, PdoMapping, Role, SubIndex};
-use crate::wording::Key;
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
+use crate::model::{EntryId, Fact, Object, PdoMapping, Role, SubIndex};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
 

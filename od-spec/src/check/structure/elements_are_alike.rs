@@ -1,10 +1,10 @@
 //! The elements of an ARRAY are alike: in access, in PDO mapping, and in having a default value or none.
 
-use crate::diag::{Code, Example, Repeated, Severity};
-use crate::model::{Entry, EntryId, Fact, Object, ObjectKind, PdoMapping};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Repeated, Severity};
+use crate::model::{Entry, EntryId, Fact, Object, ObjectKind, PdoMapping};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 

@@ -1,9 +1,9 @@
 //! The low limit of an entry is not above the high one.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Value};
 use crate::wording::format_value;
 

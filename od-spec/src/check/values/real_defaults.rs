@@ -1,10 +1,10 @@
 //! Tools disagree about how a REAL value is written in an EDS.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Value};
 use crate::wording::Key;
 

@@ -1,10 +1,10 @@
 //! A REAL holds the number that is written.
 
-use crate::diag::{Code, Example, Severity, shorten};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity, shorten};
 use crate::model::{DataType, Fact, Value};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };

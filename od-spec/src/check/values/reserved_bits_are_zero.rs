@@ -1,11 +1,11 @@
 //! Values leave reserved bits at 0.
 
-use crate::diag::{Code, Example, Severity};
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::is_from_library;
 use crate::check::subject::Subject;
+use crate::diag::{Code, Example, Severity};
 use crate::model::{BitUsage, Entry, EntryId, Fact, TypeKind};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
