@@ -21,6 +21,7 @@ use crate::resolve::{self, Resolved};
 use crate::source::{FileId, SourceFile, SourceMap, Span, Spanned};
 use crate::standard;
 use crate::visible::straight;
+use crate::wording::FileFormat;
 use crate::xdd;
 use crate::yaml;
 use crate::yaml::gaps;
@@ -74,7 +75,8 @@ pub fn compile_as(
 ) -> Compiled {
     let file = sources.file(root);
     if xdd::is_xdd(file.name(), file.text()) {
-        compile_xdd(standard::rules(&check::RULES), sources, root, strictness)
+        let rules = check::Rules { format: FileFormat::Xdd, ..standard::rules(&check::RULES) };
+        compile_xdd(rules, sources, root, strictness)
     } else if eds::is_eds(file.name(), file.text()) {
         compile_eds(standard::rules(&check::RULES), sources, root, strictness)
     } else if let Some(diagnostic) = no_specification(file, sources.whole(root)) {
@@ -128,7 +130,7 @@ fn compile_eds(
     let text = straight(file.text());
     let document = eds::Document::scan(root, &text);
     let name = eds::file_name(file.name());
-    let facts = FileFacts { name, encoding: file.encoding() };
+    let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, eds::is_dcf(name), facts);
     eds::check::document(&view, &mut diagnostics);
     let read = read(&view, file.name(), &mut diagnostics);
@@ -150,12 +152,12 @@ fn compile_xdd(
         return Compiled::refused(diagnostics);
     };
     let name = eds::file_name(file.name());
-    let facts = FileFacts { name, encoding: file.encoding() };
+    let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, xdd::is_xdc(name), facts);
     let mut read = read(&view, file.name(), &mut diagnostics);
     texts.add_to(&mut read.spec);
     let mut compiled = resolved(rules, read, strictness, diagnostics);
-    compiled.diagnostics.reword(xdd::in_words_of_xdd);
+    compiled.diagnostics.without_edits();
     compiled
 }
 

@@ -77,7 +77,7 @@ pub fn fix(name: &str, bytes: &[u8]) -> Fixed {
     let mut fixed = rounds(name, text, encoding, findings);
     // A mark in front of the text, or two bytes for each character, are no part of the text.
     if fixed.text().is_ascii() && fixed.encoding != Encoding::Ascii {
-        let mark = fixed.left.iter().find(|one| one.code.id == BYTE_ORDER_MARK.id);
+        let mark = fixed.left.iter().find(|one| one.code == BYTE_ORDER_MARK);
         fixed.changes.extend(mark.map(|one| Change { place: 0..0, code: one.code }));
         fixed.changes.sort_by_key(|change| (change.place.start, change.code));
         fixed.encoding = Encoding::Ascii;

@@ -21,7 +21,7 @@ use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
-use od_spec::{Compiled, Loader, compile};
+use od_spec::{Compiled, Loader, compile, rule_codes};
 
 /// Why a task failed.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -48,7 +48,8 @@ pub fn cases(all: u32) -> u32 {
 /// in an array of those that are written, and list modes of operation without all objects of CiA 402.
 pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
     let is_note = diagnostic.severity() == Severity::Note;
-    is_note && ["OD0821", "OD0822"].contains(&diagnostic.code.id) || diagnostic.code.id == "OD0839"
+    let of_manuals = [rule_codes::NO_VENDOR_NUMBER, rule_codes::UNLIKE_ELEMENTS];
+    is_note && of_manuals.contains(&diagnostic.code) || diagnostic.code == rule_codes::MODE_WITHOUT_OBJECTS
 }
 
 /// Compiles a file of the workspace that is expected to be without a message, but for notes.

@@ -3,14 +3,16 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::diag::{Diagnostic, Diagnostics, Severity};
+use od_spec::diag::codes::XDD_LEFT_OUT;
+use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
+use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT};
 use od_spec::eds::{Document, Owner};
 use od_spec::model::{Dictionary, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
 use od_spec::xdd::is_xdd;
-use od_spec::{Commissioning, Compiled, assign};
+use od_spec::{Commissioning, Compiled, assign, rule_codes};
 
 use crate::yaml::{self, Options, Place, Repair};
 
@@ -30,7 +32,7 @@ pub struct Imported {
 
 /// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
 /// place.
-const WITHOUT_PLACE: [&str; 5] = ["EDS401", "EDS415", "EDS427", "EDS512", "XDD207"];
+const WITHOUT_PLACE: [&Code; 5] = [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, XDD_LEFT_OUT];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -77,7 +79,7 @@ pub fn import(
     for finding in &compiled.diagnostics {
         let Some(label) = finding.labels.first() else { continue };
         let line = file.line_col(label.span.start).line;
-        if WITHOUT_PLACE.contains(&finding.code.id) {
+        if WITHOUT_PLACE.contains(&finding.code) {
             without_place.push(format!("line {line}: {}", finding.message));
         } else if changes_what_is_read(finding) || loses_a_link(&document, finding) {
             let text = format!("line {line}: {} ({})", finding.message, finding.code.id);
@@ -112,17 +114,18 @@ fn usual<'t>(remarks: &[(Option<Place>, &'t str)], device: &Dictionary) -> BTree
 
 /// Whether a finding means that the specification says something else than the letters of the file.
 fn changes_what_is_read(finding: &Diagnostic) -> bool {
-    let about_facts =
-        ["EDS40", "EDS41", "EDS5", "OD", "XDD2"].iter().any(|prefix| finding.code.id.starts_with(prefix));
-    let is_about_name = ["OD0303", "OD0318"].contains(&finding.code.id);
-    about_facts && !is_about_name && finding.code.severity == Severity::Error && finding.edits.is_empty()
+    let is_about_name = [rule_codes::DUPLICATE_NAME, rule_codes::NAME_NOT_FOR_EDS].contains(&finding.code);
+    finding.code.is_about_facts()
+        && !is_about_name
+        && finding.code.severity == Severity::Error
+        && finding.edits.is_empty()
 }
 
 /// Whether a finding is about an entry of object links that is no index. In a list of objects it says nothing that the
 /// objects do not.
 fn loses_a_link(document: &Document<'_>, finding: &Diagnostic) -> bool {
     let place = finding.labels.first().map(|label| label.span);
-    finding.code.id == "EDS304" && place.is_some_and(|place| document.owner(place) != Owner::File)
+    finding.code == NO_INDEX && place.is_some_and(|place| document.owner(place) != Owner::File)
 }
 
 /// Where a specification speaks of what a section is about; `None` for the file as a whole, and for what is left out.

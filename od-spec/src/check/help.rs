@@ -18,11 +18,12 @@ pub(super) struct Help<'t> {
 
 impl Subject<'_> {
     /// The help for the reader of a finding about this subject.
-    pub(super) const fn help<'t>(&self, help: Help<'t>) -> &'t str {
-        match (self.node, self.system.source) {
+    pub(super) fn help(&self, help: Help<'_>) -> String {
+        let text = match (self.node, self.system.source) {
             (Some(_), _) => help.setting,
             (None, SystemSource::Specification) => help.specification,
             (None, SystemSource::Eds) => help.eds,
-        }
+        };
+        text.to_owned()
     }
 }

@@ -5,6 +5,7 @@ use super::standard::Standard;
 use super::subject::Subject;
 use crate::diag::Code;
 use crate::model::System;
+use crate::wording::FileFormat;
 
 /// A rule: what it is about, when it can say something, and how it looks.
 pub(crate) struct Rule {
@@ -53,4 +54,6 @@ pub(crate) struct Rules<'a> {
     pub list: &'a [&'a Rule],
     /// What CiA 301 says.
     pub standard: Standard,
+    /// How the file that they are applied to is written, where it is no specification.
+    pub format: FileFormat,
 }

@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
 use super::standard::Standard;
-use crate::diag::Diagnostic;
+use crate::diag::{Code, Diagnostic};
 use crate::model::{
     Author, Dictionary, Entry, EntryId, EntryRef, Fact, Held, Index, Object, Ratio, SubIndex, System, Value,
     Values,
 };
 use crate::source::{FileId, Span};
+use crate::wording::FileFormat;
 
 /// One device under the rules.
 #[derive(Clone, Copy)]
@@ -22,6 +23,8 @@ pub(crate) struct Subject<'a> {
     pub node: Option<u8>,
     /// What CiA 301 says about objects.
     pub standard: Standard,
+    /// How the file of the device is written, where it is no specification.
+    pub format: FileFormat,
 }
 
 impl<'a> Subject<'a> {
@@ -83,6 +86,28 @@ impl<'a> Subject<'a> {
         let subject = *self;
         let set = self.device.entries().filter(|(.., entry)| entry.is_set());
         set.map(move |(id, _, entry)| (id, entry, subject.place(entry, Fact::Default)))
+    }
+
+    /// A finding about a fact of an entry.
+    pub(super) fn finding(
+        &self,
+        code: &'static Code,
+        id: EntryId,
+        entry: &Entry,
+        fact: Fact,
+        message: impl Into<String>,
+    ) -> Diagnostic {
+        Diagnostic::new(code, self.place(entry, fact), message).about((id, fact))
+    }
+
+    /// A finding about an object.
+    pub(super) fn object_finding(
+        &self,
+        code: &'static Code,
+        object: &Object,
+        message: impl Into<String>,
+    ) -> Diagnostic {
+        Diagnostic::new(code, self.object_place(object), message).about(object.index)
     }
 
     /// The files in which settings stand; none for a type.

@@ -146,6 +146,13 @@ fn whole_specification(text: &str) -> String {
     whole
 }
 
+impl Code {
+    /// Whether it is about what a text says of a device, and not about how it is written: the series of codes differ in that.
+    pub fn is_about_facts(&self) -> bool {
+        ["EDS40", "EDS41", "EDS5", "OD", "XDD2"].iter().any(|series| self.id.starts_with(series))
+    }
+}
+
 impl PartialEq for Code {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id

@@ -1,5 +1,6 @@
 //! What the compiler has to say to the user: data only; [`render`] turns it into text.
 
+mod about;
 mod code;
 pub mod codes;
 mod commissioning;
@@ -9,12 +10,14 @@ pub mod readers;
 pub mod render;
 mod repeated;
 
+pub use about::About;
 pub use code::{Code, Example, Language};
 pub use edit::Edit;
 pub(crate) use nearest::Suggestions;
 pub use nearest::nearest;
 pub(crate) use repeated::Repeated;
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 use crate::source::Span;
@@ -54,11 +57,13 @@ pub struct Label {
 }
 
 /// One message to the user.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Diagnostic {
     /// Stable code, such as `OD0301`.
     pub code: &'static Code,
+    /// What of a dictionary it is about; `None` for a file, a line, or a device as a whole.
+    pub about: Option<About>,
     /// How serious it is here: what its code says, unless the text is held to another standard.
     pub severity: Severity,
     /// What is wrong, in one line.
@@ -75,8 +80,8 @@ pub struct Diagnostic {
     pub meant: Option<Box<Edit>>,
     /// The readers of other people that refuse an EDS or DCF because of this, or are reported to stumble.
     pub minded_by: Readers,
-    /// Who stumbles over it, a sentence each; none where the message names them itself.
-    pub(crate) stumbling: Box<[String]>,
+    /// Whether it is said who stumbles over it; not where the message names them itself.
+    pub(crate) tells_readers: bool,
 }
 
 /// Brings a text into a message: one line of at most 60 characters, without control characters and backticks.
@@ -86,6 +91,24 @@ pub(crate) fn shorten(text: &str) -> String {
     let one_line: String = text.chars().take(keep).map(|c| if c == '`' { '\'' } else { c }).collect();
     let rest = if keep == 60 { "" } else { "..." };
     self::one_line(one_line) + rest
+}
+
+thread_local! {
+    static WORDS: Cell<fn(String) -> String> = const { Cell::new(std::convert::identity) };
+}
+
+/// Words all messages that this thread makes meanwhile otherwise. So a test sees that people read them, and no program.
+#[doc(hidden)]
+pub fn worded_otherwise<T>(words: fn(String) -> String, run: impl FnOnce() -> T) -> T {
+    WORDS.set(words);
+    let result = run();
+    WORDS.set(std::convert::identity);
+    result
+}
+
+/// A text of a message.
+fn worded(text: impl Into<String>) -> String {
+    WORDS.get()(one_line(text))
 }
 
 /// Names and values of a specification may hold anything; a message is one line.
@@ -107,16 +130,23 @@ impl Diagnostic {
     pub fn without_place(code: &'static Code, message: impl Into<String>) -> Self {
         Self {
             code,
+            about: None,
             severity: code.severity,
-            message: one_line(message),
+            message: worded(message),
             labels: Vec::new(),
             help: None,
             notes: Vec::new(),
             edits: Vec::new(),
             meant: None,
             minded_by: Readers::NONE,
-            stumbling: Box::default(),
+            tells_readers: false,
         }
+    }
+
+    /// What of a dictionary it is about.
+    #[must_use]
+    pub(crate) fn about(self, about: impl Into<About>) -> Self {
+        Self { about: Some(about.into()), ..self }
     }
 
     /// The same about a place.
@@ -130,7 +160,7 @@ impl Diagnostic {
     #[must_use]
     pub fn label(mut self, text: impl Into<String>) -> Self {
         if let Some(first) = self.labels.first_mut() {
-            first.text = one_line(text);
+            first.text = worded(text);
         }
         self
     }
@@ -138,21 +168,21 @@ impl Diagnostic {
     /// A further place.
     #[must_use]
     pub fn with(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.labels.push(Label { span, text: one_line(text) });
+        self.labels.push(Label { span, text: worded(text) });
         self
     }
 
     /// What to do.
     #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Self {
-        self.help = Some(one_line(text));
+        self.help = Some(worded(text));
         self
     }
 
     /// An explaining fact.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {
-        self.notes.push(one_line(text));
+        self.notes.push(worded(text));
         self
     }
 
@@ -186,12 +216,13 @@ impl Diagnostic {
 
     /// The notes, and who stumbles over it.
     pub fn all_notes(&self) -> impl Iterator<Item = String> {
-        self.notes.iter().chain(&self.stumbling).cloned()
+        let readers = if self.tells_readers { self.minded_by.sentences() } else { Vec::new() };
+        self.notes.iter().cloned().chain(readers)
     }
 
     /// Says in words who stumbles over it.
     pub fn tell_readers(&mut self) {
-        self.stumbling = self.minded_by.sentences().into();
+        self.tells_readers = true;
     }
 
     /// How serious it is.
@@ -200,10 +231,43 @@ impl Diagnostic {
     }
 }
 
+/// Two messages are the same where the user reads the same: a mistake in what stands for many things is one.
+impl PartialEq for Diagnostic {
+    fn eq(&self, other: &Self) -> bool {
+        let Self {
+            about: _,
+            code,
+            severity,
+            message,
+            labels,
+            help,
+            notes,
+            edits,
+            meant,
+            minded_by,
+            tells_readers,
+        } = self;
+        *code == other.code
+            && *severity == other.severity
+            && *message == other.message
+            && *labels == other.labels
+            && *help == other.help
+            && *notes == other.notes
+            && *edits == other.edits
+            && *meant == other.meant
+            && *minded_by == other.minded_by
+            && *tells_readers == other.tells_readers
+    }
+}
+
+impl Eq for Diagnostic {}
+
 /// The messages of one run.
 #[derive(Debug, Clone, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// What the messages that come are about, where they do not say it themselves.
+    about: Option<About>,
     /// Errors that were added or said again.
     errors: usize,
     /// What was said of a place that stands for many things.
@@ -215,14 +279,21 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// No messages.
     pub const fn new() -> Self {
-        Self { list: Vec::new(), errors: 0, said: BTreeSet::new(), suggestions: Suggestions::new() }
+        Self {
+            list: Vec::new(),
+            about: None,
+            errors: 0,
+            said: BTreeSet::new(),
+            suggestions: Suggestions::new(),
+        }
     }
 
     /// Adds a message, unless it was said just now: what stands for many things, such as a run of objects, is wrong for each of them.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
         /// So many mistakes of one thing are remembered.
         const REMEMBERED: usize = 4;
         self.errors += usize::from(diagnostic.severity == Severity::Error);
+        diagnostic.about = diagnostic.about.or(self.about);
         if !self.list.iter().rev().take(REMEMBERED).any(|said| *said == diagnostic) {
             self.list.push(diagnostic);
         }
@@ -274,19 +345,17 @@ impl Diagnostics {
         self
     }
 
-    /// Words what was said about a text in another notation, and takes the changes away that are in the one it was said in.
+    /// What the messages that come are about, where they do not say it themselves.
+    pub(crate) const fn now_about(&mut self, about: Option<About>) {
+        self.about = about;
+    }
+
+    /// Takes the changes away: they are in another notation than the file.
     #[cfg(feature = "xdd")]
-    pub(crate) fn reword(&mut self, reworded: impl Fn(&str) -> Option<String>) {
+    pub(crate) fn without_edits(&mut self) {
         for diagnostic in &mut self.list {
             diagnostic.edits.clear();
             diagnostic.meant = None;
-            let texts = std::iter::once(&mut diagnostic.message).chain(&mut diagnostic.help);
-            let labels = diagnostic.labels.iter_mut().map(|label| &mut label.text);
-            for text in texts.chain(&mut diagnostic.notes).chain(labels) {
-                if let Some(new) = reworded(text) {
-                    *text = new;
-                }
-            }
         }
     }
 

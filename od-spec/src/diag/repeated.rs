@@ -1,8 +1,6 @@
 //! One finding for what a file does on many lines.
 
-use std::fmt::Write as _;
-
-use super::{Diagnostic, Diagnostics, Edit};
+use super::{Diagnostic, Diagnostics, Edit, worded};
 use crate::source::Span;
 
 /// A finding that may hold for many places of a file. It is said once, at the first of them, with what puts all of them
@@ -44,7 +42,7 @@ impl Repeated {
         let (_, mut diagnostic) = self.first?;
         if self.places > 1 {
             let more = self.places - 1;
-            let _ = write!(diagnostic.message, "; {more} more {} like this", counted(places, more));
+            diagnostic.message += &worded(format!("; {more} more {} like this", counted(places, more)));
         }
         diagnostic.edits.extend(self.edits);
         Some(diagnostic)

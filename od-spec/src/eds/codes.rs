@@ -1,13 +1,14 @@
 //! What reading an EDS or DCF can say about its objects and values. The code of a rule over the text alone stands with the
 //! rule.
 
+pub use super::check::{LINKS_OF_NOTHING, NO_INDEX};
 use crate::diag::{Code, Severity};
 
 macro_rules! codes {
     ($($name:ident $severity:ident $foreign:ident $id:literal $clause:literal $title:literal: $explanation:literal)+) => {
         $(
             #[doc = $title]
-            pub(crate) const $name: &Code = &Code {
+            pub const $name: &Code = &Code {
                 id: $id,
                 severity: Severity::$severity,
                 foreign: Severity::$foreign,

@@ -5,7 +5,7 @@
 //! read, mended, compared and written back before anybody has understood it.
 
 pub(crate) mod check;
-pub(crate) mod codes;
+pub mod codes;
 pub(crate) mod dates;
 mod document;
 pub(crate) mod example;

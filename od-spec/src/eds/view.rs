@@ -8,6 +8,7 @@ use super::names::{ElementList, List, ModuleTopic, Topic, topic};
 use crate::encoding::Encoding;
 use crate::model::Index;
 use crate::source::{FileId, Span, Spanned};
+use crate::wording::FileFormat;
 
 /// What is known about a file beside its text.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +17,8 @@ pub(crate) struct FileFacts<'d> {
     pub name: &'d str,
     /// How its characters are stored.
     pub encoding: Encoding,
+    /// How it is written.
+    pub format: FileFormat,
 }
 
 /// What a document holds.

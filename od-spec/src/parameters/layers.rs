@@ -10,7 +10,7 @@ use crate::ast::SettingDecl;
 use crate::check;
 use crate::commissioning::ParameterValues;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{Dictionary, EntryId, System};
+use crate::model::{Dictionary, EntryId, Fact, System};
 use crate::source::Span;
 use crate::standard;
 
@@ -181,6 +181,7 @@ fn unlocked(device: &Dictionary, layers: &[&Layer], diagnostics: &mut Diagnostic
             let message = format!("{id} ({}) is not locked", entry.name);
             diagnostics.push(
                 Diagnostic::new(codes::NOTHING_TO_UNLOCK, name.span, message)
+                    .about((id, Fact::Access))
                     .help("remove it, or name the entry whose lock is meant"),
             );
             continue;

@@ -204,6 +204,7 @@ fn completed(decl: &EntryDecl, target: &Target<'_>, diagnostics: &mut Diagnostic
                 right.span,
                 format!("{id} is `{}`: its alias cannot be {lacking}", of_target.word()),
             )
+            .about((id, Fact::Access))
             .with(entry.span, "the target")
             .help("remove `access:`; an alias follows its target"),
         );

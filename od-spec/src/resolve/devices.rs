@@ -216,6 +216,7 @@ impl Builder<'_> {
     fn plain_objects(&mut self, declared: &BTreeMap<Index, Declared<'_>>, diagnostics: &mut Diagnostics) {
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_none()) {
             let before = diagnostics.errors_found();
+            diagnostics.now_about(Some((*index).into()));
             if let Some(object) = objects::resolve(one, self.around, diagnostics) {
                 self.objects.insert(*index, object);
             }
@@ -224,6 +225,7 @@ impl Builder<'_> {
                 self.broken.add(*index, one.decl.entry.name.as_ref());
             }
         }
+        diagnostics.now_about(None);
     }
 
     /// Fills in what the device itself decides: 1000h, 1008h, 1018h.

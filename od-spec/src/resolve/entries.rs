@@ -12,8 +12,8 @@ use crate::ast::{BitErrorDecl, BitRange, ConditionDecl, DefaultDecl, EntryDecl, 
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, Expr, Fact, Family, NamedType, PdoMapping,
-    RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
+    Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, EntryId, Expr, Fact, Family, NamedType,
+    PdoMapping, RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
 };
 use crate::source::Spanned;
 
@@ -25,6 +25,8 @@ pub(super) fn resolve(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Entry> {
+    let id = around.index.map(|index| EntryId { index, sub });
+    diagnostics.now_about(id.map(Into::into));
     let decl = &*defaults::of_device(decl, around, diagnostics);
     let EntryType { data_type, named_type } = entry_type(decl, around.scope, diagnostics)?;
     let Some(access) = &decl.access else {

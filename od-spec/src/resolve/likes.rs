@@ -164,7 +164,7 @@ fn circle(chain: &[&ObjectDecl], first: &ObjectDecl) -> Diagnostic {
         let message = format!("{index} is like itself, by way of {}{more}", others.join(", "));
         (message, "describe one of these objects in full")
     };
-    let diagnostic = Diagnostic::new(codes::LIKE_ITSELF, like(first), message).help(help);
+    let diagnostic = Diagnostic::new(codes::LIKE_ITSELF, like(first), message).about(index).help(help);
     let diagnostic =
         if all.len() == 1 { diagnostic.with(first.index.span, "the object") } else { diagnostic };
     all.iter().skip(1).take(SHOWN).fold(diagnostic, |diagnostic, decl| {

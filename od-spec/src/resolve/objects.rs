@@ -60,6 +60,7 @@ pub(super) fn resolve(
             (kind, vec![entry])
         }
     };
+    diagnostics.now_about(Some(decl.index.value.into()));
     Some(Object {
         index: decl.index.value,
         name: name.value.clone(),

@@ -66,7 +66,7 @@ pub(super) fn read(text: Option<&Name>, step: Step, diagnostics: &mut Diagnostic
             Diagnostic::new(codes::BAD_VALUE, text.span, "a time cannot depend on the node-ID")
                 .help("write a time such as `10 ms`")
         }
-        Err(diagnostic) if diagnostic.code.id == rule_codes::VALUE_DOES_NOT_FIT.id => {
+        Err(diagnostic) if diagnostic.code == rule_codes::VALUE_DOES_NOT_FIT => {
             let (shortest, longest) = (unit.show(0), unit.show(u16::MAX.into()));
             Diagnostic::new(
                 rule_codes::VALUE_DOES_NOT_FIT,

@@ -69,6 +69,7 @@ pub(super) fn resolve(
 fn stands_twice(decl: &PdoDecl, index: Index, object: Span) -> Diagnostic {
     let pdo = format!("{} {}", decl.direction.pdo(), decl.number.value);
     Diagnostic::new(codes::PDO_DESCRIBED_TWICE, object, format!("{index} is a parameter object of {pdo}"))
+        .about(index)
         .label("written in full")
         .with(decl.number.span, "the PDO, of which its parameter objects are made")
         .help(format!("remove the object, or {pdo} from `pdos:`; a PDO has one description"))
@@ -251,6 +252,7 @@ fn in_run(
         let message = format!("{index} has no {several} {}", shorten(&missing.join(", ")));
         diagnostics.push(
             Diagnostic::new(codes::UNKNOWN_ENTRY, place, message)
+                .about(index)
                 .with(object.span, "the object")
                 .help("correct the run, or name the entries one by one"),
         );

@@ -7,7 +7,9 @@ use super::types::words;
 use crate::ast::{Name, SwitchDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::limits::SWITCHES;
-use crate::model::{Dictionary, EntryId, Ratio, Switch, SwitchBack, SwitchPoints, SwitchSide, Text, Unit};
+use crate::model::{
+    Dictionary, EntryId, Fact, Ratio, Switch, SwitchBack, SwitchPoints, SwitchSide, Text, Unit,
+};
 use crate::source::{Span, Spanned};
 
 /// A switch with the places of what it names.
@@ -175,6 +177,7 @@ fn unit_of<'d>(
         let message = format!("{id} has no {what} on `{}`", device.key);
         diagnostics.push(
             Diagnostic::new(codes::NO_HYSTERESIS, name.span, message)
+                .about(id)
                 .help("name an entry with a unit and a default, from which the values are taken"),
         );
         return None;
@@ -192,6 +195,7 @@ fn differ(
     let message = format!("{id} is in `{symbol}`, {other} in `{other_symbol}`");
     diagnostics.push(
         Diagnostic::new(codes::UNITS_DIFFER, place, message)
+            .about((id, Fact::Unit))
             .with(other_place, format!("this one is in `{other_symbol}`"))
             .help(help),
     );

@@ -42,6 +42,7 @@ impl<'a> Varied<'a> {
             let message = format!("{index} is another object on `{second}` than on `{first}`");
             diagnostics.push(
                 Diagnostic::new(codes::DIFFERENT_OBJECTS, place, message)
+                    .about(index)
                     .with(one.index.span, format!("on `{first}`"))
                     .with(other.index.span, format!("on `{second}`"))
                     .help(help),

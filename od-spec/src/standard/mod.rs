@@ -14,6 +14,7 @@ use crate::library::shipped::LIBRARIES;
 use crate::model::{Dictionary, Index, Object};
 use crate::resolve;
 use crate::source::SourceMap;
+use crate::wording::FileFormat;
 use crate::yaml;
 
 /// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
@@ -87,7 +88,7 @@ fn of_drives(index: Index) -> Option<&'static Object> {
 
 /// All rules or some of them, with this standard to hold objects against.
 pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
-    Rules { list, standard: Standard { object, is_in_library, of_drives } }
+    Rules { list, standard: Standard { object, is_in_library, of_drives }, format: FileFormat::Eds }
 }
 
 #[cfg(test)]

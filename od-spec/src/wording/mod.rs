@@ -53,6 +53,7 @@
 
 mod bits;
 mod facts;
+mod file_keys;
 mod language;
 mod number;
 mod range;
@@ -61,6 +62,7 @@ mod tests;
 mod value;
 
 pub use facts::Word;
+pub(crate) use file_keys::{FileFormat, Key};
 pub use language::{Language, Line, Texts, filled};
 pub use number::Radix;
 pub use range::Limits;

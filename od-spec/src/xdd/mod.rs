@@ -20,13 +20,9 @@ mod parameters;
 mod tree;
 #[cfg(feature = "xdd")]
 mod types;
-#[cfg(feature = "xdd")]
-mod words;
 
 #[cfg(feature = "xdd")]
 pub(crate) use languages::Texts;
-#[cfg(feature = "xdd")]
-pub(crate) use words::in_words_of_xdd;
 
 #[cfg(feature = "xdd")]
 use crate::diag::Diagnostics;

@@ -1,10 +1,11 @@
 //! Changes of a model so that the language takes it: the least that removes what a message is about.
 
-use od_spec::diag::Diagnostic;
+use od_spec::diag::{Code, Diagnostic};
 use od_spec::model::{
     Dictionary, Entry, EntryId, Fact, Index, Mapped, ObjectKind, PdoMapping, Role, Storage, SubIndex, System,
     Text, Value,
 };
+use od_spec::rule_codes;
 use od_spec::wording::format_value;
 
 use super::emit::Written;
@@ -69,7 +70,7 @@ impl Draft {
         match (fact, Role::of(id.index)) {
             (Fact::Name, _) => self.rename_entry(id),
             (Fact::Default, Role::PdoMapping) => self.mend_mapping(id, error),
-            (Fact::Type, _) if error.code.id == "OD0315" => self.make_record(id.index),
+            (Fact::Type, _) if error.code == rule_codes::MIXED_TYPES => self.make_record(id.index),
             _ => self.drop_fact(id, fact).or_else(|| self.mend_entry(id, error)),
         }
     }
@@ -94,15 +95,21 @@ impl Draft {
             Fact::About,
             Fact::Access,
         ];
-        let likely: &[Fact] = match error.code.id {
-            "OD0416" | "OD0417" | "OD0502" => &[Fact::Mapping],
-            "OD0407" => &[Fact::LowLimit],
-            "OD0414" => &[Fact::Access],
-            "OD0415" => &[Fact::Storage],
-            "OD0303" | "OD0318" => return self.rename_entry(id),
-            _ => &[Fact::Default],
-        };
-        let repair = likely.iter().chain(&ORDER).find_map(|fact| self.drop_fact(id, *fact));
+        /// What is given up first.
+        const LIKELY: [(&Code, Fact); 6] = [
+            (rule_codes::NO_LENGTH, Fact::Mapping),
+            (rule_codes::MAPPING_AGAINST_ACCESS, Fact::Mapping),
+            (rule_codes::NOT_MAPPABLE, Fact::Mapping),
+            (rule_codes::SWAPPED_LIMITS, Fact::LowLimit),
+            (rule_codes::USELESS_LOCK, Fact::Access),
+            (rule_codes::STORED_CONSTANT, Fact::Storage),
+        ];
+        if is_about_name(error) {
+            return self.rename_entry(id);
+        }
+        let likely =
+            LIKELY.iter().find(|(code, _)| *code == error.code).map_or(Fact::Default, |(_, fact)| *fact);
+        let repair = [likely].iter().chain(&ORDER).find_map(|fact| self.drop_fact(id, *fact));
         repair.or_else(|| self.drop_entry(id))
     }
 
@@ -189,11 +196,14 @@ impl Draft {
     }
 
     fn mend_object(&mut self, index: Index, error: &Diagnostic) -> Option<Repair> {
-        match error.code.id {
-            "OD0303" | "OD0318" => return self.rename_object(index),
-            "OD0316" => return self.drop_object(index),
-            "OD0509" => return self.mend_granularity(),
-            _ => {}
+        if is_about_name(error) {
+            return self.rename_object(index);
+        }
+        if error.code == rule_codes::OUTSIDE_AREAS {
+            return self.drop_object(index);
+        }
+        if error.code == rule_codes::GRANULARITY_DIFFERS {
+            return self.mend_granularity();
         }
         let subs: Vec<SubIndex> =
             self.device.objects.get(&index)?.entries.iter().map(|entry| entry.sub).collect();
@@ -254,7 +264,7 @@ impl Draft {
         };
         let count = value(self, 0).and_then(|count| u8::try_from(count).ok());
         let Some(count) = count else { return self.drop_fact(id, Fact::Default) };
-        if error.code.id == "OD0508" && id.sub.0 > 0 && id.sub.0 <= count {
+        if error.code == rule_codes::PDO_PARAMETERS_DIFFER && id.sub.0 > 0 && id.sub.0 <= count {
             return self.mend_granularity();
         }
         if id.sub.0 == 0 || id.sub.0 > count {
@@ -365,32 +375,28 @@ impl Draft {
     fn mend_device(&mut self, error: &Diagnostic) -> Option<Repair> {
         /// The rates that an EDS has keys for.
         const STANDARD: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
-        match error.code.id {
-            "OD0509" => self.mend_granularity(),
-            "OD0601" => {
-                let rates = &mut self.device.info.bit_rates;
-                let (kept, gone): (Vec<u16>, Vec<u16>) =
-                    rates.iter().partition(|rate| STANDARD.contains(rate));
-                *rates = kept;
-                (!gone.is_empty())
-                    .then(|| repair(Place::Device, Some(Fact::BitRates), format!("{gone:?}"), None))
-            }
-            "OD0602" => {
-                let rates = &mut self.device.info.bit_rates;
-                let had_none = rates.is_empty();
-                *rates = vec![125];
-                had_none.then(|| {
-                    repair(Place::Device, Some(Fact::BitRates), "none".to_owned(), Some("[125]".to_owned()))
-                })
-            }
-            _ => self.mend_header(),
+        let rates = &mut self.device.info.bit_rates;
+        if error.code == rule_codes::GRANULARITY_DIFFERS {
+            self.mend_granularity()
+        } else if error.code == rule_codes::NO_STANDARD_BIT_RATE {
+            let (kept, gone): (Vec<u16>, Vec<u16>) = rates.iter().partition(|rate| STANDARD.contains(rate));
+            *rates = kept;
+            (!gone.is_empty()).then(|| repair(Place::Device, Some(Fact::BitRates), format!("{gone:?}"), None))
+        } else if error.code == rule_codes::NO_BIT_RATE {
+            let had_none = rates.is_empty();
+            *rates = vec![125];
+            had_none.then(|| {
+                repair(Place::Device, Some(Fact::BitRates), "none".to_owned(), Some("[125]".to_owned()))
+            })
+        } else {
+            self.mend_header()
         }
     }
 
-    /// The entry that a message names, where its place is the device: what the device fills in does not suit the entry.
+    /// The entry that a message is about, where its place is the device: what the device fills in does not suit the entry.
     fn mend_named(&mut self, error: &Diagnostic, effort: Effort) -> Option<Repair> {
-        let name = error.message.split([' ', ':']).next()?;
-        let id = self.device.entries().map(|(id, ..)| id).find(|id| id.to_string() == name)?;
+        let id = error.about?.entry();
+        self.device.entry(id)?;
         match effort {
             Effort::Fact => self.mend_entry(id, error),
             Effort::Object => self.drop_object(id.index),
@@ -447,6 +453,11 @@ impl Draft {
         let now = self.system.vendor.name.clone();
         (now != original).then(|| repair(Place::Device, Some(Fact::Name), original, Some(now)))
     }
+}
+
+/// Whether another name puts it right.
+fn is_about_name(error: &Diagnostic) -> bool {
+    [rule_codes::DUPLICATE_NAME, rule_codes::NAME_NOT_FOR_EDS].contains(&error.code)
 }
 
 /// A repair whose reason the message gives.

@@ -287,6 +287,22 @@ fn told(written: &Specification) -> Vec<Told<'_>> {
     repairs.chain(written.allowed.iter().map(|code| (Place::Device, None, *code))).collect()
 }
 
+/// The lamp with each fault alone, and with all of them.
+pub(super) fn broken() -> Vec<(&'static str, System)> {
+    let mut all = lamp();
+    let mut broken: Vec<_> = FAULTS
+        .iter()
+        .map(|(what, fault, _)| {
+            let mut system = lamp();
+            fault(&mut system);
+            fault(&mut all);
+            (*what, system)
+        })
+        .collect();
+    broken.push(("all of them", all));
+    broken
+}
+
 #[test]
 fn each_fault_is_allowed_or_costs_the_fact_that_is_wrong_and_nothing_else() {
     for (what, fault, expected) in FAULTS {

@@ -10,6 +10,7 @@ mod random;
 mod shipped;
 #[path = "../../../../tests/shared/shipped.rs"]
 mod texts;
+mod words;
 
 use od_import::yaml::{Options, Specification, specification};
 use od_spec::diag::render::{Format, render};

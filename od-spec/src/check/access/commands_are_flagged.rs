@@ -4,8 +4,9 @@ use crate::check::findings::{Findings, others};
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Entry, EntryId, Fact, Index};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -33,15 +34,18 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let entries = object.entries.iter().filter(|entry| entry.sub.0 > 0 && entry.default.is_some());
         let mut written = entries.filter(is_written);
         let Some(entry) = written.next() else { continue };
-        let id = EntryId { index: object.index, sub: entry.sub };
+        let (id, keys) = (EntryId { index: object.index, sub: entry.sub }, subject.format);
         let message =
             format!("{id} ({}) is a command, and its default invites tools to write it", entry.name);
-        let diagnostic =
-            Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(subject.help(Help {
-                specification: "add `eds: {flags: [no-write]}`, or remove the default",
-                eds: "write `ObjFlags=1`, which keeps tools from writing it, or remove `DefaultValue`",
-                setting: "leave the entry out; writing it triggers the command",
-            }));
+        let diagnostic = subject.finding(CODE, id, entry, Fact::Default, message).help(subject.help(Help {
+            specification: "add `eds: {flags: [no-write]}`, or remove the default",
+            eds: &format!(
+                "write {}, which keeps tools from writing it, or remove {}",
+                keys.set(Key::ObjectFlags, "1"),
+                keys.key(Key::Default)
+            ),
+            setting: "leave the entry out; writing it triggers the command",
+        }));
         findings.push(match written.count() {
             0 => diagnostic,
             more => diagnostic.note(format!("the same holds for {}", others(more))),

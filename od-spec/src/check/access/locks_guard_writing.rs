@@ -4,12 +4,14 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Fact;
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0414",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -30,10 +32,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let message = format!("{id} ({}) is `{}`: it cannot be locked", entry.name, entry.access.word());
             let help = subject.help(Help {
                 specification: "`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`",
-                eds: "correct `AccessType`, or remove the comment that it is writable when unlocked",
+                eds: &format!("correct {}, or remove the comment that it is writable when unlocked", subject.format.key(Key::Access)),
                 setting: "leave the entry out; nobody can write it",
             });
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Access), message).help(help));
+            findings.push(subject.finding(CODE, id, entry, Fact::Access, message).help(help));
         }
     }
 }

@@ -4,8 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Repeated, Severity};
+use crate::diag::{Code, Example, Repeated, Severity};
 use crate::model::{Entry, Fact};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -24,7 +25,7 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    let mut found = Repeated::new();
+    let (mut found, keys) = (Repeated::new(), subject.format);
     let hidden = |entry: &Entry| !entry.access.is_readable() && !entry.is_set();
     for (id, entry, _) in subject.values().filter(|(_, entry, _)| hidden(entry)) {
         // What a standard says so is meant so.
@@ -34,9 +35,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let place = subject.place(entry, Fact::Default);
         found.add(place, [], || {
             let message = format!("{id} ({}) is `wo`, its default value cannot be read back", entry.name);
-            Diagnostic::new(CODE, place, message).help(subject.help(Help {
+            subject.finding(CODE, id, entry, Fact::Default, message).help(subject.help(Help {
                 specification: "leave `default:` out, or make the entry `rw`",
-                eds: "leave `DefaultValue` out, or write `AccessType=rw`",
+                eds: &format!(
+                    "leave {} out, or write {}",
+                    keys.key(Key::Default),
+                    keys.set(Key::Access, "rw")
+                ),
                 setting: "leave the default value out, or make the entry `rw`",
             }))
         });

@@ -39,6 +39,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 
 fn finding(subject: &Subject<'_>, id: EntryId, view: &Entry, target: EntryId) -> Diagnostic {
     let message = format!("{id} ({}) writes {target}, which is a command", view.name);
-    Diagnostic::new(CODE, subject.place(view, Fact::Alias), message)
+    subject
+        .finding(CODE, id, view, Fact::Alias, message)
         .help("write to the command itself, and remove the alias or make it `access: ro`")
 }

@@ -11,7 +11,8 @@ pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: C
 /// Bit rates of CiA 301 in kbit/s.
 const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0601",
     severity: Severity::Error,
     foreign: Severity::Error,

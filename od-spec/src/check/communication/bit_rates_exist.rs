@@ -5,10 +5,12 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0602",
     severity: Severity::Error,
     foreign: Severity::Warning,
@@ -29,7 +31,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             Diagnostic::new(CODE, device.span, format!("device `{}` supports no bit rate", device.key))
                 .help(subject.help(Help {
                     specification: "add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without",
-                    eds: "write 1 for each bit rate of the device, such as `BaudRate_125=1`; a PLC refuses a device without",
+                    eds: &format!("write 1 for each bit rate of the device, such as {}; a PLC refuses a device without", subject.format.set(Key::BitRate(125), "1")),
                     setting: "the device has to tell its bit rates; a PLC refuses one without",
                 })),
         );

@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::pdo::parameters::{NO_REMOTE_FRAMES, NOT_VALID, Parameter};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -63,10 +63,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                     setting: of_pdo,
                 })
             } else {
-                "write a free identifier; bits 31 and 30 are flags"
+                "write a free identifier; bits 31 and 30 are flags".to_owned()
             };
             findings.push(
-                Diagnostic::new(CODE, parameter.place, message)
+                parameter
+                    .finding(CODE, message)
                     .help(help)
                     .note("CiA 301 table 35: restricted CAN identifiers"),
             );

@@ -8,8 +8,8 @@ use crate::check::help::Help;
 use crate::check::pdo::parameters::{NOT_VALID, Parameter, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Direction, Index, Object, Value};
+use crate::diag::{About, Code, Diagnostic, Example, Severity};
+use crate::model::{Direction, Fact, Index, Object, Value};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -91,6 +91,8 @@ enum Source<'a> {
 struct User<'a> {
     message: Message,
     name: String,
+    /// The value of the COB-ID; none where it is fixed.
+    about: Option<About>,
     source: Source<'a>,
     place: Span,
     is_set: bool,
@@ -99,7 +101,14 @@ struct User<'a> {
 impl<'a> User<'a> {
     fn of(message: Message, name: String, parameter: &Parameter<'a>) -> Self {
         let (value, is_set) = (parameter.value, parameter.entry.is_set());
-        Self { message, name, source: Source::Value(value), place: parameter.place, is_set }
+        Self {
+            message,
+            name,
+            about: Some((parameter.id, Fact::Default).into()),
+            source: Source::Value(value),
+            place: parameter.place,
+            is_set,
+        }
     }
 
     /// The identifier on a node, where the message exists. That 0 cannot be one is said by itself.
@@ -172,6 +181,7 @@ fn users<'a>(subject: &Subject<'a>) -> Vec<User<'a>> {
     let first_channel = FIRST_CHANNEL.map(|(base, what)| User {
         message: Message::FirstSdoServer,
         name: format!("{what} of the first SDO channel"),
+        about: None,
         source: Source::Fixed(base),
         place: device.span,
         is_set: false,
@@ -223,5 +233,6 @@ fn finding(subject: &Subject<'_>, first: &User<'_>, second: &User<'_>, node: u8)
         setting: "give one of them another COB-ID, or switch one off: bit 31, but for SYNC and TIME",
     });
     let diagnostic = Diagnostic::new(CODE, blamed.place, message).label(blamed.name.clone()).help(help);
+    let diagnostic = Diagnostic { about: blamed.about, ..diagnostic };
     if is_placed(namesake) { diagnostic.with(namesake.place, namesake.name.clone()) } else { diagnostic }
 }

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::is_from_library;
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
@@ -44,7 +44,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             _ => format!("{index} ({}) lies among the objects of CiA 301, which has none there", object.name),
         };
         findings.push(
-            Diagnostic::new(CODE, subject.object_place(object), message)
+            subject
+                .object_finding(CODE, object, message)
                 .help("move the object to 2000h to 5FFFh, or remove it"),
         );
     }

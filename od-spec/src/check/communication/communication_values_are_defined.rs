@@ -79,7 +79,7 @@ fn problem(subject: &Subject<'_>, id: EntryId, entry: &Entry, raw: i128, node: u
 
 fn undefined(subject: &Subject<'_>, id: EntryId, entry: &Entry, what: &str, help: &str) -> Diagnostic {
     let message = format!("{id} ({}): {what}", entry.name);
-    Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help)
+    subject.finding(CODE, id, entry, Fact::Default, message).help(help)
 }
 
 /// The node that a value of 1016h watches: bits 23 to 16 are the node, 15 to 0 the time in ms; without either, none.

@@ -3,7 +3,7 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -41,7 +41,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some(problem) = subject.nodes_of(value).find_map(problem) {
             let message = format!("{id} ({}): {problem}", entry.name);
             let help = "write the node-ID of another node in bits 23..16, or the time 0";
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help));
+            findings.push(subject.finding(CODE, id, entry, Fact::Default, message).help(help));
         }
     }
 }

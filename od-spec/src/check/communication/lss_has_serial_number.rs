@@ -4,8 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Index, SubIndex};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -28,12 +29,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let Some(identity) = device.objects.get(&Index(0x1018)).filter(|_| device.info.lss) else { return };
     if identity.entry(SubIndex(4)).is_none() {
         let message = format!("`{}` supports LSS, but 1018h has no serial number", device.key);
-        findings.push(Diagnostic::new(CODE, subject.object_place(identity), message).help(subject.help(
-            Help {
-                specification: "add sub-index 4 to 1018h, or remove `lss: yes`",
-                eds: "add sub-index 4 to 1018h, or write `LSS_Supported=0`",
-                setting: "the device has to have sub-index 4 of 1018h",
-            },
-        )));
+        findings.push(subject.object_finding(CODE, identity, message).help(subject.help(Help {
+            specification: "add sub-index 4 to 1018h, or remove `lss: yes`",
+            eds: &format!("add sub-index 4 to 1018h, or write {}", subject.format.set(Key::Lss, "0")),
+            setting: "the device has to have sub-index 4 of 1018h",
+        })));
     }
 }

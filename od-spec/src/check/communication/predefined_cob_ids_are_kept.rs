@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::pdo::parameters::{NO_REMOTE_FRAMES, NOT_VALID};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Index, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -56,7 +56,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let (id, expected) = (parameter.id, i128::from(service.base) + i128::from(node));
         let message = format!("{id}: {} {raw:X}h{on_node}, masters expect {expected:X}h", uses(service.name));
         let help = format!("write `$NODEID+0x{:X}`, or remove the default", service.base);
-        findings.push(Diagnostic::new(CODE, parameter.place, message).help(help));
+        findings.push(parameter.finding(CODE, message).help(help));
     }
     let client = entry_id(0x1200, 3);
     if let Some(entry) =
@@ -64,7 +64,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     {
         let message = format!("{client} ({}): the first SDO channel is open to every client", entry.name);
         let help = "remove sub-index 3; only 1201h and following have it";
-        findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Name), message).help(help));
+        findings.push(subject.finding(CODE, client, entry, Fact::Name, message).help(help));
     }
 }
 

@@ -35,7 +35,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let all = [Some(answer), Some(request), server.as_ref()];
         let blamed = all.into_iter().flatten().find(|parameter| parameter.entry.is_set()).unwrap_or(answer);
         let help = "write both identifiers and sub-index 3 for the same node";
-        findings.push(Diagnostic::new(CODE, blamed.place, format!("{index}: {problem}")).help(help));
+        findings.push(
+            Diagnostic::new(CODE, blamed.place, format!("{index}: {problem}")).about(*index).help(help),
+        );
     }
 }
 

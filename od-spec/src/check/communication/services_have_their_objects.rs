@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::pdo::parameters::title;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -39,7 +39,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         device.pdos.iter().filter_map(transmission).filter(|(_, parameter)| is_synchronous(parameter.raw()));
     if let Some((pdo, parameter)) = synchronous.next().filter(|_| !has(SYNC)) {
         let message = format!("{} waits for SYNC, but `{}` has no {}", title(pdo), device.key, Index(SYNC));
-        findings.push(Diagnostic::new(CODE, parameter.place, message).help(subject.help(Help {
+        findings.push(parameter.finding(CODE, message).help(subject.help(Help {
             specification: "add the feature `sync consumer` of `cia301`, or write another transmission type",
             eds: "add 1005h, the COB-ID of SYNC, or write another transmission type",
             setting: "write another transmission type; nobody can tell the device which message is SYNC",
@@ -49,7 +49,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     if !has(PERIOD) {
         let message =
             format!("{} of `{}` produces SYNC, but there is no {}", sync.id, device.key, entry_id(PERIOD, 0));
-        findings.push(Diagnostic::new(CODE, sync.place, message).help(subject.help(Help {
+        findings.push(sync.finding(CODE, message).help(subject.help(Help {
             specification: "add the feature `sync producer` of `cia301`, or clear bit 30 of 1005h",
             eds: "add 1006h, the communication cycle period, or clear bit 30 of 1005h",
             setting: "clear bit 30 of 1005h",

@@ -4,8 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -64,11 +65,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         format!("the device type of `{}` tells of {}", subject.device.key, differences.join("; of "));
     let (high, low) = (expected >> 16, expected & 0xFFFF);
     let specification = format!("write `device-type: 0x{high:04X}_{low:04X}`, or correct the objects");
-    let eds = format!("write `DefaultValue=0x{expected:08X}` at 1000h, or correct the objects");
+    let value = subject.format.set(Key::Default, &format!("0x{expected:08X}"));
+    let eds = format!("write {value} at 1000h, or correct the objects");
     let help = subject.help(Help {
         specification: &specification,
         eds: &eds,
         setting: "the device has to have these objects, or another device type",
     });
-    findings.push(Diagnostic::new(CODE, parameter.place, message).help(help));
+    findings.push(parameter.finding(CODE, message).help(help));
 }

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Index;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -74,7 +74,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         return;
     }
     let (what, help) = if lacks_types {
-        ("several profiles".to_owned(), "add the types of the profiles, or correct the device type")
+        (
+            "several profiles".to_owned(),
+            "add the types of the profiles, or correct the device type".to_owned(),
+        )
     } else {
         let help = subject.help(Help {
             specification: "add the feature `drive` of `cia402`, or correct the device type",
@@ -85,5 +88,5 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     };
     let message =
         format!("the device type of `{}` names {what}, but there is no {}", device.key, missing.join(", "));
-    findings.push(Diagnostic::new(CODE, parameter.place, message).help(help));
+    findings.push(parameter.finding(CODE, message).help(help));
 }

@@ -5,8 +5,9 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::check::subject::entry_id;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, SystemSource, Value};
+use crate::wording::Key;
 use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -27,13 +28,13 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    let info = &subject.device.info;
+    let (info, keys) = (&subject.device.info, subject.format);
     // An EDS tells the device type in 1000h alone.
     let identity = [
-        (entry_id(0x1000, 0), info.device_type, "the device type"),
-        (entry_id(0x1018, 1), subject.system.vendor.number, "`VendorNumber`"),
-        (entry_id(0x1018, 2), info.product, "`ProductNumber`"),
-        (entry_id(0x1018, 3), info.product_revision, "`RevisionNumber`"),
+        (entry_id(0x1000, 0), info.device_type, "the device type".to_owned()),
+        (entry_id(0x1018, 1), subject.system.vendor.number, keys.key(Key::Vendor)),
+        (entry_id(0x1018, 2), info.product, keys.key(Key::Product)),
+        (entry_id(0x1018, 3), info.product_revision, "`RevisionNumber`".to_owned()),
     ];
     for (id, number, key) in identity {
         let Some(entry) = subject.device.entry(id) else { continue };
@@ -42,20 +43,26 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if *stated != number {
             let (stated, number) = (format_value(entry, stated), format_value(entry, &number));
             findings.push(
-                Diagnostic::new(
-                    CODE,
-                    subject.place(entry, Fact::Default),
-                    format!(
-                        "{id} ({}) says {stated}, {} {number}",
-                        entry.name,
-                        said_by(subject.system.source)
-                    ),
-                )
-                .help(subject.help(Help {
-                    specification: "remove the default; it follows from the vendor and the device",
-                    eds: &format!("correct {key} in `[DeviceInfo]`, or `DefaultValue` of {id}"),
-                    setting: "leave the entry out; it tells what the device is",
-                })),
+                subject
+                    .finding(
+                        CODE,
+                        id,
+                        entry,
+                        Fact::Default,
+                        format!(
+                            "{id} ({}) says {stated}, {} {number}",
+                            entry.name,
+                            said_by(subject.system.source)
+                        ),
+                    )
+                    .help(subject.help(Help {
+                        specification: "remove the default; it follows from the vendor and the device",
+                        eds: &format!(
+                            "correct {key} in `[DeviceInfo]`, or {} of {id}",
+                            keys.key(Key::Default)
+                        ),
+                        setting: "leave the entry out; it tells what the device is",
+                    })),
             );
         }
     }

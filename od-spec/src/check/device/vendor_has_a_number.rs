@@ -6,10 +6,12 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::SystemSource;
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0821",
     severity: Severity::Note,
     foreign: Severity::Note,
@@ -34,7 +36,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let message = "the vendor number is 0, which CiA gives to nobody";
     findings.push(Diagnostic::new(CODE, place, message).help(subject.help(Help {
         specification: "write the vendor-ID that CiA has given, as `number:` of the vendor",
-        eds: "write the vendor-ID that CiA has given, here and as `DefaultValue` of 1018h.1",
+        eds: &format!(
+            "write the vendor-ID that CiA has given, here and as {} of 1018h.1",
+            subject.format.key(Key::Default)
+        ),
         setting: "the device has to tell who made it",
     })));
 }

@@ -5,7 +5,7 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Author, EntryId, Fact, SubIndex, SystemSource, TypeKind};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -53,7 +53,7 @@ fn value(subject: &Subject<'_>, axis: &Axis<'_>, index: u16, findings: &mut Find
     let help = format!("write a mode that {listing} lists, or 0 for none; or add the bit to {listing}");
     let set = format!("write a mode that {listing} lists, or 0 for none");
     let help = subject.help(Help { specification: &help, eds: &help, setting: &set });
-    findings.push(Diagnostic::new(CODE, parameter.place, message).help(help));
+    findings.push(parameter.finding(CODE, message).help(help));
 }
 
 /// The values that the device's own enum has.
@@ -77,7 +77,7 @@ fn values(subject: &Subject<'_>, axis: &Axis<'_>, findings: &mut Findings) {
         return;
     }
     let message = format!("the enum of {id} ({}) has {}", entry.name, problems.join("; "));
-    findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Type), message).help(format!(
+    findings.push(subject.finding(CODE, id, entry, Fact::Type, message).help(format!(
         "correct the values of the enum (`supported: no` where the drive lacks one), or {listing}"
     )));
 }

@@ -5,11 +5,12 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0839",
     severity: Severity::Warning,
     foreign: Severity::Note,
@@ -52,6 +53,6 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             eds: "add these objects, or clear the bits of what the drive cannot do",
             setting: "clear the bits of what the drive cannot do",
         });
-        findings.push(Diagnostic::new(CODE, axis.supported.place, message).help(help));
+        findings.push(axis.supported.finding(CODE, message).help(help));
     }
 }

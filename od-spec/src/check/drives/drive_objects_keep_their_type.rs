@@ -7,7 +7,7 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard::continued;
 use crate::check::standard_objects::from_library::{CIA402, says_itself};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Access, Entry, EntryId, Fact, Index, Object};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -71,7 +71,7 @@ fn judge(subject: &Subject<'_>, object: &Object, known: &Object, findings: &mut 
             word(object),
             word(known)
         );
-        findings.push(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
+        findings.push(subject.object_finding(CODE, object, message).help(help));
         return;
     }
     let entries = object.entries.iter().filter(|entry| !object.is_structured() || entry.sub.0 > 0);
@@ -82,7 +82,7 @@ fn judge(subject: &Subject<'_>, object: &Object, known: &Object, findings: &mut 
     let Some((entry, problem, fact)) = wrong.next() else { return };
     let id = EntryId { index: object.index, sub: entry.sub };
     let message = format!("{id} ({}) {problem}", entry.name);
-    let diagnostic = Diagnostic::new(CODE, subject.place(entry, fact), message).help(help);
+    let diagnostic = subject.finding(CODE, id, entry, fact, message).help(help);
     findings.push(match wrong.count() {
         0 => diagnostic,
         more => diagnostic.note(format!("something of the kind holds for {}", others(more))),
@@ -117,5 +117,5 @@ fn help(subject: &Subject<'_>, object: &Object) -> String {
             )
         }
     };
-    subject.help(Help { specification: &from_library, eds: as_described, setting: as_described }).to_owned()
+    subject.help(Help { specification: &from_library, eds: as_described, setting: as_described })
 }

@@ -10,7 +10,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
-use crate::model::{DataType, Entry, Fact, Object};
+use crate::model::{DataType, Entry, EntryId, Fact, Object};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
@@ -44,7 +44,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some(object) = by_name.get(name).filter(|object| object.name == name) {
             let message = format!("`{name}` is the name of a data type");
             let help = "choose another name; this one means the data type wherever an object is named";
-            findings.push(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
+            findings.push(subject.object_finding(CODE, object, message).help(help));
         }
     }
     // Only a name with a dot can look like an object and its entry.
@@ -65,6 +65,7 @@ fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnos
     let message =
         format!("{} and {} of `{}` are both named `{name}`", before.index, object.index, subject.device.key);
     Diagnostic::new(CODE, blamed.span, message)
+        .about((blamed.index, Fact::Name))
         .label(blamed.index.to_string())
         .with(namesake.span, namesake.index.to_string())
         .help("give one of the two another name; people and generated code refer to objects by name")
@@ -82,7 +83,7 @@ fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings
         } else {
             format!("{index}.{first} and {index}.{second} have one name in ASCII")
         };
-        let diagnostic = Diagnostic::new(CODE, place, message);
+        let diagnostic = subject.finding(CODE, EntryId { index, sub: second }, entry, Fact::Name, message);
         findings.push(if place == before_place {
             let help = subject.help(Help {
                 specification: "write `{n}` into the name; it stands for the sub-index",
@@ -108,7 +109,8 @@ fn check_dotted(subject: &Subject<'_>, object: &Object, by_name: &ByName<'_>, fi
         let message =
             format!("`{}` is the name of {} and means {index}.{sub}", shorten(&full), namesake.index);
         findings.push(
-            Diagnostic::new(CODE, subject.object_place(namesake), message)
+            subject
+                .object_finding(CODE, namesake, message)
                 .label(namesake.index.to_string())
                 .with(entry.span, format!("{index}.{sub}"))
                 .help("give one of them a name without this dot"),

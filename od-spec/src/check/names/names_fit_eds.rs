@@ -5,13 +5,14 @@ use crate::check::findings::Findings;
 use crate::check::names::texts_fit_eds::unfit;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
-use crate::model::{Dictionary, Fact, SystemSource};
+use crate::diag::{About, Code, Diagnostic, Example, Severity, shorten};
+use crate::model::{Dictionary, EntryId, Fact, SystemSource};
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0318",
     severity: Severity::Error,
     foreign: Severity::Note,
@@ -33,9 +34,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     check_header(subject.system.source, subject.device, findings);
     check_vendor(subject, findings);
     for object in subject.device.objects.values() {
-        check_name(&object.name, subject.object_place(object), findings);
+        check_name(&object.name, subject.object_place(object), (object.index, Fact::Name).into(), findings);
         for entry in object.entries.iter().filter(|_| object.is_structured()) {
-            check_name(&entry.name, subject.place(entry, Fact::Name), findings);
+            let id = EntryId { index: object.index, sub: entry.sub };
+            check_name(&entry.name, subject.place(entry, Fact::Name), (id, Fact::Name).into(), findings);
         }
     }
 }
@@ -105,7 +107,7 @@ fn check_header(source: SystemSource, device: &Dictionary, findings: &mut Findin
     }
 }
 
-fn check_name(name: &str, place: Span, findings: &mut Findings) {
+fn check_name(name: &str, place: Span, about: About, findings: &mut Findings) {
     let written = in_ascii(name);
     let problem = if written.len() > LONGEST {
         let length = name.chars().count();
@@ -117,5 +119,5 @@ fn check_name(name: &str, place: Span, findings: &mut Findings) {
     } else {
         return;
     };
-    findings.push(Diagnostic::new(CODE, place, problem).help("choose another name"));
+    findings.push(Diagnostic::new(CODE, place, problem).about(about).help("choose another name"));
 }

@@ -6,8 +6,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Entry, Fact, Value};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -84,15 +85,15 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let message = format!("{id} ({}): the value {problem}", entry.name);
             let set = "choose another value, or write it over the bus";
             let help = if entry.is_set() {
-                set
+                set.to_owned()
             } else {
                 subject.help(Help {
                     specification: "choose another text, or withhold the default from the EDS with `eds: {default: withheld}`",
-                    eds: "choose another text, or leave `DefaultValue` out",
+                    eds: &format!("choose another text, or leave {} out", subject.format.key(Key::Default)),
                     setting: set,
                 })
             };
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(help));
+            findings.push(subject.finding(CODE, id, entry, Fact::Default, message).help(help));
         }
     }
 }

@@ -6,10 +6,12 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{DataType, Fact, Index, Pdo};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0509",
     severity: Severity::Error,
     foreign: Severity::Warning,
@@ -31,7 +33,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 
 /// Granularity 0 and fixed mappings go together.
 fn mapping(subject: &Subject<'_>, findings: &mut Findings) {
-    let device = subject.device;
+    let (device, keys) = (subject.device, subject.format);
     // A PDO without a mapping parameter is said by itself.
     let has_mapping = |pdo: &&Pdo| device.objects.contains_key(&Index(pdo.mapping_index()));
     let Some(first) = device.pdos.iter().find(has_mapping) else { return };
@@ -41,10 +43,15 @@ fn mapping(subject: &Subject<'_>, findings: &mut Findings) {
         (1.., None) => (first, "granularity is not 0, but no mapping can be changed"),
         (0, None) | (1.., Some(_)) => return,
     };
-    let diagnostic =
-        Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key)).help(subject.help(Help {
+    let diagnostic = Diagnostic::new(CODE, pdo.span, format!("`{}`: {problem}", device.key))
+        .about(Index(pdo.mapping_index()))
+        .help(subject.help(Help {
             specification: "correct the device's `granularity:`, or `mapping:` of the PDOs",
-            eds: "correct `Granularity`, or `AccessType` of the mapping parameters",
+            eds: &format!(
+                "correct {}, or {} of the mapping parameters",
+                keys.key(Key::Granularity),
+                keys.key(Key::Access)
+            ),
             setting: "the granularity and the mappings of the device have to be corrected",
         }));
     findings.push(match device.facts.get(Fact::Granularity) {
@@ -64,7 +71,11 @@ fn placeholders(subject: &Subject<'_>, findings: &mut Findings) {
         findings.push_each(Diagnostic::new(CODE, device.place(Fact::Granularity), message).help(
             subject.help(Help {
                 specification: "take the type out of `dummies:`, or lower the device's `granularity:`",
-                eds: &format!("write `Dummy{:04X}=0`, or lower `Granularity`", short.code()),
+                eds: &format!(
+                    "write `Dummy{:04X}=0`, or lower {}",
+                    short.code(),
+                    subject.format.key(Key::Granularity)
+                ),
                 setting: "the granularity and the placeholders of the device have to be corrected",
             }),
         ));

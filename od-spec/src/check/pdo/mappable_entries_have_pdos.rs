@@ -4,8 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Direction, Fact, Index};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -40,13 +41,17 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 Direction::Receive => (Index(0x1400), Index(0x1600)),
                 Direction::Transmit => (Index(0x1800), Index(0x1A00)),
             };
-            findings.push_each(Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message).help(
-                subject.help(Help {
+            findings.push_each(subject.finding(CODE, id, entry, Fact::Mapping, message).help(subject.help(
+                Help {
                     specification: &format!("describe the device's {}s under `pdos:`", direction.pdo()),
-                    eds: &format!("add the device's {}s, from {communication} and {mapping} on, or write `PDOMapping=0`", direction.pdo()),
+                    eds: &format!(
+                        "add the device's {}s, from {communication} and {mapping} on, or write {}",
+                        direction.pdo(),
+                        subject.format.set(Key::Mapping, "0")
+                    ),
                     setting: &format!("the device has to have {}s", direction.pdo()),
-                }),
-            ));
+                },
+            )));
         }
     }
 }

@@ -4,12 +4,14 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, PdoMapping};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0416",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -27,13 +29,16 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
         if entry.pdo != PdoMapping::None && !entry.data_type.is_mappable() {
             let message = format!("{id} ({}): {} cannot travel in a PDO", entry.name, entry.data_type);
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message).help(
-                subject.help(Help {
+            findings.push(subject.finding(CODE, id, entry, Fact::Mapping, message).help(subject.help(
+                Help {
                     specification: "remove `pdo:`; only types of fixed length can be mapped",
-                    eds: "write `PDOMapping=0`; only types of fixed length can be mapped",
+                    eds: &format!(
+                        "write {}; only types of fixed length can be mapped",
+                        subject.format.set(Key::Mapping, "0")
+                    ),
                     setting: "only types of fixed length can be mapped",
-                }),
-            ));
+                },
+            )));
         }
     }
 }

@@ -7,11 +7,13 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Direction, Entry, EntryId, Object, Pdo, PdoMapping, PdoTarget};
+use crate::wording::Key;
 use crate::wording::{Notation, Wording};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0502",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -45,12 +47,12 @@ fn finding(
     id: EntryId,
     length: u8,
 ) -> Option<Diagnostic> {
-    let (at, place) = (parameter.id, parameter.place);
+    let at = parameter.id;
     let object = subject.device.objects.get(&id.index);
     let Some((object, entry)) = object.and_then(|object| Some((object, object.entry(id.sub)?))) else {
         let message = format!("{at}: there is no entry {id}");
         let help = "map an entry of the device; bits 31..16: index, 15..8: sub-index, 7..0: length in bits";
-        return Some(Diagnostic::new(CODE, place, message).help(help));
+        return Some(parameter.finding(CODE, message).help(help));
     };
     if !entry.pdo.allows(pdo.direction) {
         let direction = match entry.pdo {
@@ -60,7 +62,7 @@ fn finding(
             }
         };
         let message = format!("{at}: {id} ({}) cannot be mapped into {direction}", entry.name);
-        let diagnostic = Diagnostic::new(CODE, place, message).help(help(subject, object, id, pdo.direction));
+        let diagnostic = parameter.finding(CODE, message).help(help(subject, object, id, pdo.direction));
         return Some(if entry.span.file.is_one_with(subject.device.span.file) {
             diagnostic.with(entry.span, what_it_is(entry))
         } else {
@@ -70,7 +72,8 @@ fn finding(
     // That a type without a length says it can be mapped is said at the entry.
     let bits = entry.data_type.bits()?;
     (u16::from(length) != bits).then(|| {
-        Diagnostic::new(CODE, place, format!("{at}: {id} has {bits} bits, not {length}"))
+        parameter
+            .finding(CODE, format!("{at}: {id} has {bits} bits, not {length}"))
             .help(format!("write the entry's length in bits 7..0 of the mapping of {}", title(pdo)))
     })
 }
@@ -95,12 +98,17 @@ fn help(subject: &Subject<'_>, object: &Object, id: EntryId, direction: Directio
                 Direction::Receive => "`rw`, `rww` or `wo`",
                 Direction::Transmit => "`ro`, `rw`, `rwr` or `const`",
             };
+            let keys = subject.format;
             let help = Help {
                 specification: &format!("give the entry `pdo: {}`, or map another one", direction.word()),
-                eds: &format!("write `PDOMapping=1` with `AccessType` {access}, or map another entry"),
+                eds: &format!(
+                    "write {} with {} {access}, or map another entry",
+                    keys.set(Key::Mapping, "1"),
+                    keys.key(Key::Access)
+                ),
                 setting: "map another entry",
             };
-            subject.help(help).to_owned()
+            subject.help(help)
         }
     }
 }

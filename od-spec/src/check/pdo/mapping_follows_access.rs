@@ -6,10 +6,12 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Access, Author, Direction, Entry, EntryId, Fact, PdoMapping};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-pub(in crate::check) const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0417",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -56,15 +58,17 @@ fn against_access(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<D
     if entry.pdo == PdoMapping::None || allowed.contains(&entry.pdo) {
         return None;
     }
+    let keys = subject.format;
     let words: Vec<String> = allowed.iter().map(|pdo| format!("`pdo: {}`", pdo.word())).collect();
     let (name, access, pdo) = (&entry.name, entry.access.word(), entry.pdo.word());
     let message = format!("{id} ({name}) is `{access}` and cannot be mapped as `{pdo}`");
     Some(
-        Diagnostic::new(CODE, subject.place(entry, Fact::Mapping), message)
+        subject
+            .finding(CODE, id, entry, Fact::Mapping, message)
             .with(subject.place(entry, Fact::Access), "the access")
             .help(subject.help(Help {
                 specification: &format!("write {}, or correct the access", words.join(" or ")),
-                eds: "write `PDOMapping=0`, or correct `AccessType`",
+                eds: &format!("write {}, or correct {}", keys.set(Key::Mapping, "0"), keys.key(Key::Access)),
                 setting: "the mapping or the access has to be corrected",
             }))
             .note("CiA 306 4.6.3.2: a TPDO carries what can be read, an RPDO what can be written"),
@@ -74,7 +78,6 @@ fn against_access(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<D
 /// The EDS promises no access that the device refuses, and none that contradicts the mapping.
 fn against_eds(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<Diagnostic> {
     let (access, shown) = (entry.access, entry.eds.access);
-    let place = subject.place(entry, Fact::Eds);
     let promises_more =
         (shown.is_writable() && !access.is_writable()) || (shown.is_readable() && !access.is_readable());
     if promises_more {
@@ -85,7 +88,7 @@ fn against_eds(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<Diag
             access.word()
         );
         let help = "an EDS may show less access than the device gives, not more";
-        return Some(Diagnostic::new(CODE, place, message).help(help));
+        return Some(subject.finding(CODE, id, entry, Fact::Eds, message).help(help));
     }
     let permits = |direction: Direction| {
         let mapping = match direction {
@@ -105,5 +108,5 @@ fn against_eds(subject: &Subject<'_>, id: EntryId, entry: &Entry) -> Option<Diag
         shown.word()
     );
     let help = "remove `pdo:`, or let the EDS show the access; a locked entry is `ro` in the EDS";
-    Some(Diagnostic::new(CODE, place, message).help(help))
+    Some(subject.finding(CODE, id, entry, Fact::Eds, message).help(help))
 }

@@ -3,7 +3,7 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{EntryId, Fact, Role, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
@@ -36,7 +36,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             "{count_id}, the number of mapped entries, is `{count_word}`, but {other_id} is `{other_word}`"
         );
         findings.push(
-            Diagnostic::new(CODE, subject.place(other, Fact::Access), message)
+            subject
+                .finding(CODE, other_id, other, Fact::Access, message)
                 .help("make number and entries of the mapping writable, or neither"),
         );
     }

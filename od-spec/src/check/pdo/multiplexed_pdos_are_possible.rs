@@ -7,6 +7,7 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Fact, Index, Pdo, Value};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -34,10 +35,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         return;
     }
     let message = format!("`{}` says that it has multiplexed PDOs, but nothing of them is there", device.key);
+    let no = subject.format.set(Key::GroupMessaging, "0");
     findings.push(Diagnostic::new(CODE, device.place(Fact::GroupMessaging), message).help(subject.help(
         Help {
             specification: "remove `group-messaging:`, or describe the objects 1FA0h to 1FFFh",
-            eds: "write `GroupMessaging=0`, or describe the objects 1FA0h to 1FFFh",
+            eds: &format!("write {no}, or describe the objects 1FA0h to 1FFFh"),
             setting: "the device has to have such PDOs",
         },
     )));

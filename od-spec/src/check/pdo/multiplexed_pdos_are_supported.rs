@@ -5,8 +5,9 @@ use crate::check::help::Help;
 use crate::check::pdo::parameters::{Parameter, SOURCE_ADDRESS, is_multiplexed, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Direction, Pdo};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -48,9 +49,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         } else {
             continue;
         };
-        findings.push(Diagnostic::new(CODE, count.place, problem).help(subject.help(Help {
+        findings.push(count.finding(CODE, problem).help(subject.help(Help {
             specification: "map entries instead; a multiplexed PDO needs `group-messaging: yes` and transmission type 254 or 255, and only one TPDO may have 254 entries",
-            eds: "map entries instead; a multiplexed PDO needs `GroupMessaging=1` and transmission type 254 or 255, and only one TPDO may have 254 entries",
+            eds: &format!("map entries instead; a multiplexed PDO needs {} and transmission type 254 or 255, and only one TPDO may have 254 entries", subject.format.set(Key::GroupMessaging, "1")),
             setting: "map entries instead; a multiplexed PDO needs a device that has such PDOs and transmission type 254 or 255, and only one TPDO may have 254 entries",
         })));
     }

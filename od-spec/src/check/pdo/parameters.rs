@@ -2,6 +2,7 @@
 
 use crate::check::subject::Subject;
 use crate::check::subject::entry_id;
+use crate::diag::{Code, Diagnostic};
 use crate::model::{DataType, Entry, EntryId, Fact, Index, Mapped, Pdo, PdoTarget, Value};
 use crate::source::Span;
 
@@ -35,6 +36,11 @@ pub(in crate::check) struct Parameter<'a> {
 }
 
 impl Parameter<'_> {
+    /// A finding about its value.
+    pub(in crate::check) fn finding(&self, code: &'static Code, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(code, self.place, message).about((self.id, Fact::Default))
+    }
+
     /// The raw value. In a specification only a COB-ID can depend on the node-ID.
     pub(in crate::check) fn raw(&self) -> i128 {
         let raw = match self.node {

@@ -8,10 +8,12 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Direction, Fact, Mapped, Pdo, PdoTarget};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0508",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -56,22 +58,29 @@ fn count(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
             Some(capacity) if !parameter.entry.is_set() => capacity.span,
             Some(_) | None => parameter.place,
         };
-        return Some(Diagnostic::new(CODE, place, message).help(help));
+        return Some(Diagnostic::new(CODE, place, message).about((parameter.id, Fact::Default)).help(help));
     }
     if count == 0 && !pdo.variable_mapping {
         let message = format!("{title} has a fixed mapping of nothing");
         let help = subject.help(Help {
             specification: "map something, or let the mapping be `variable`",
-            eds: "map something, or write `AccessType=rw` if the mapping can be changed",
+            eds: &format!(
+                "map something, or write {} if the mapping can be changed",
+                subject.format.set(Key::Access, "rw")
+            ),
             setting: "map something",
         });
-        return Some(Diagnostic::new(CODE, parameter.place, message).help(help));
+        return Some(parameter.finding(CODE, message).help(help));
     }
     let empty = subject.mapped(pdo).find(|mapped| mapped.raw() == 0)?;
     let message =
         format!("{}: {title} maps {count} entries, but entry {} is empty", parameter.id, empty.id.sub);
     let help = "set the mapped entry, or a smaller number of them";
-    Some(Diagnostic::new(CODE, subject.mapping_place(pdo), message).help(help))
+    Some(
+        Diagnostic::new(CODE, subject.mapping_place(pdo), message)
+            .about((parameter.id, Fact::Default))
+            .help(help),
+    )
 }
 
 /// What is mapped comes in multiples of the device's granularity.
@@ -94,9 +103,9 @@ fn granularity(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         parameter.id,
         title(pdo)
     );
-    Some(Diagnostic::new(CODE, parameter.place, message).help(subject.help(Help {
+    Some(parameter.finding(CODE, message).help(subject.help(Help {
         specification: "lower the device's `granularity:`, or map entries of its multiples",
-        eds: "lower `Granularity`, or map entries of its multiples",
+        eds: &format!("lower {}, or map entries of its multiples", subject.format.key(Key::Granularity)),
         setting: "map entries of its multiples",
     })))
 }
@@ -117,11 +126,11 @@ fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         eds: "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
         setting: "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
     });
-    Some(Diagnostic::new(CODE, place, message).help(help))
+    Some(Diagnostic::new(CODE, place, message).about((parameter.id, Fact::RemoteFrames)).help(help))
 }
 
 fn sync_start(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     let parameter = subject.communication(pdo, 6).filter(|parameter| parameter.raw() > 240)?;
     let message = format!("{}: the SYNC counter never reaches {}", parameter.id, parameter.raw());
-    Some(Diagnostic::new(CODE, parameter.place, message).help("write 0 to 240"))
+    Some(parameter.finding(CODE, message).help("write 0 to 240"))
 }

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::pdo::parameters::title;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::{Subject, entry_id};
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -35,7 +35,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             title(pdo)
         );
         findings.push(
-            Diagnostic::new(CODE, subject.place(entry, Fact::Access), message)
+            subject
+                .finding(CODE, cob_id, entry, Fact::Access, message)
                 .help("make the COB-ID `rw`, or number and entries of the mapping `ro`"),
         );
     }

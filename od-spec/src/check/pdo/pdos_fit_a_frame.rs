@@ -5,7 +5,7 @@ use crate::check::pdo::parameters::{target, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Dictionary, Mapped, PdoTarget};
+use crate::model::{Dictionary, Index, Mapped, PdoTarget};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -36,6 +36,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                     subject.mapping_place(pdo),
                     format!("{} carries {bits} bits", title(pdo)),
                 )
+                .about(Index(pdo.mapping_index()))
                 .label(format!("{} bits; a PDO holds 64", parts.join(" + ")))
                 .help(
                     narrower(subject.device, &mapped)

@@ -7,7 +7,7 @@ use crate::check::help::Help;
 use crate::check::pdo::parameters::{NO_REMOTE_FRAMES, NOT_VALID, Parameter, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Repeated, Severity};
+use crate::diag::{Code, Example, Repeated, Severity};
 use crate::model::{Direction, Pdo};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -56,7 +56,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                     String::new(),
                 ),
             };
-            Diagnostic::new(CODE, parameter.place, message).help(subject.help(Help {
+            parameter.finding(CODE, message).help(subject.help(Help {
                 specification: &format!("{identifier}make the PDO `valid: no`; a master that uses it gives it an identifier"),
                 eds: &format!("{identifier}set bit 31, not valid; a master that uses it gives it an identifier"),
                 setting: "set bit 31, not valid, or an identifier that is free",

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::pdo::parameters::{target, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::PdoTarget;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -33,7 +33,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let (at, place) = (parameter.id, parameter.place);
             let Some((first, first_place)) = before.insert(id, (at, place)) else { continue };
             let message = format!("{} maps {id} twice, at {first} and {at}", title(pdo));
-            let diagnostic = Diagnostic::new(CODE, place, message).label("again here");
+            let diagnostic = parameter.finding(CODE, message).label("again here");
             let help = "map the entry that was meant, or leave one of the two out";
             findings.push(diagnostic.with(first_place, "first here").help(help));
         }

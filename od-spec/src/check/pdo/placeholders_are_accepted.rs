@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::pdo::parameters::{placeholder, target, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Direction;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -43,7 +43,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             };
             let message = format!("{}: {problem}", parameter.id);
             findings.push(
-                Diagnostic::new(CODE, parameter.place, message)
+                parameter.finding(CODE, message)
                     .help(subject.help(Help {
                         specification: "list the type in the device's `dummies:`; placeholders stand in RPDOs only, in the length of their type",
                         eds: &format!(

@@ -58,7 +58,7 @@ fn never_sent(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         transmission.raw(),
         cob_id.id
     );
-    let diagnostic = Diagnostic::new(CODE, place, message);
+    let diagnostic = Diagnostic::new(CODE, place, message).about((transmission.id, Fact::Default));
     let diagnostic = if other == place { diagnostic } else { diagnostic.with(other, what) };
     Some(diagnostic.help(subject.help(Help {
         specification: "remove `no-rtr:`, or write another `transmission:`",

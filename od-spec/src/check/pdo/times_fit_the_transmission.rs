@@ -52,7 +52,7 @@ fn unused(subject: &Subject<'_>, pdo: &Pdo, time: &Time) -> Option<Diagnostic> {
     let (id, title, name) = (parameter.id, title(pdo), time.name);
     if pdo.direction == Direction::Receive {
         let message = format!("{id}: {title} has {name}, which only a TPDO keeps");
-        return Some(Diagnostic::new(CODE, parameter.place, message).help("write 0"));
+        return Some(parameter.finding(CODE, message).help("write 0"));
     }
     // What is reserved is said by itself.
     let transmission =
@@ -60,7 +60,7 @@ fn unused(subject: &Subject<'_>, pdo: &Pdo, time: &Time) -> Option<Diagnostic> {
     let kind = if transmission.raw() <= 240 { "on SYNC" } else { "on remote frames" };
     let message =
         format!("{id}: {title} has {name}, but is sent {kind} (transmission type {})", transmission.raw());
-    Some(Diagnostic::new(CODE, parameter.place, message).help(subject.help(Help {
+    Some(parameter.finding(CODE, message).help(subject.help(Help {
         specification: "leave the time out, or let `transmission:` be 254 or 255",
         eds: "write 0, or the transmission type 254 or 255",
         setting: "write 0, or the transmission type 254 or 255",
@@ -89,7 +89,7 @@ fn outrun(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
         inhibit.raw() / 10,
         inhibit.raw() % 10
     );
-    let diagnostic = Diagnostic::new(CODE, blamed.place, message);
+    let diagnostic = blamed.finding(CODE, message);
     let diagnostic = if other.place == blamed.place {
         diagnostic
     } else {

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::pdo::parameters::title;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Direction;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -35,7 +35,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let message =
                 format!("{}: transmission type {transmission} is reserved for {}", parameter.id, title(pdo));
             findings.push(
-                Diagnostic::new(CODE, parameter.place, message)
+                parameter.finding(CODE, message)
                     .help("0 to 240: synchronous; 254 and 255: event-driven; 252 and 253: on remote frames, TPDOs only")
                     .note("CiA 301 table 56"),
             );

@@ -4,6 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Settings(check) };
 
@@ -30,6 +31,6 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, entry, place) in subject.set_entries().filter(|(_, entry, _)| is_command(entry)) {
         let message = format!("{id} ({}) must not be written by configuration tools", entry.name);
         let help = "leave the entry out; writing it triggers a command";
-        findings.push(Diagnostic::new(CODE, place, message).help(help));
+        findings.push(Diagnostic::new(CODE, place, message).about((id, Fact::Default)).help(help));
     }
 }

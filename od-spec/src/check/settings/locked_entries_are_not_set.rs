@@ -4,6 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Settings(check) };
 
@@ -27,6 +28,6 @@ const HELP: &str = "leave the entry out, as a PLC cannot write it; for a service
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, entry, place) in subject.set_entries().filter(|(_, entry, _)| entry.locked) {
         let message = format!("{id} ({}) is locked: factory-set, writable only in service", entry.name);
-        findings.push(Diagnostic::new(CODE, place, message).help(HELP));
+        findings.push(Diagnostic::new(CODE, place, message).about((id, Fact::Default)).help(HELP));
     }
 }

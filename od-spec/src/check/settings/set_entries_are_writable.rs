@@ -4,6 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Settings(check) };
 
@@ -34,6 +35,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         } else {
             continue;
         };
-        findings.push(Diagnostic::new(CODE, place, format!("{id} ({}) is {shown}", entry.name)).help(help));
+        findings.push(
+            Diagnostic::new(CODE, place, format!("{id} ({}) is {shown}", entry.name))
+                .about((id, Fact::Default))
+                .help(help),
+        );
     }
 }

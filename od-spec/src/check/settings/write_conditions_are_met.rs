@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::Outcome;
+use crate::model::{Fact, Outcome};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Settings(check) };
 
@@ -35,7 +35,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let shown = if id == set { String::new() } else { format!(", which {set} shows,") };
         let message = format!("the device accepts {id}{shown} only while `{}`", condition.text);
         findings.push(
-            Diagnostic::new(CODE, place, message).help(
+            Diagnostic::new(CODE, place, message).about((set, Fact::Default)).help(
                 "a download at boot will be refused unless the device is brought into that state first",
             ),
         );

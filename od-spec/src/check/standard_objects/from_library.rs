@@ -33,5 +33,5 @@ pub(in crate::check) fn help(subject: &Subject<'_>, object: &Object) -> String {
         format!("correct it, or take the object from the library: `0x{:04X}: {{from: cia301}}`", index.0);
     let as_described = "correct it; masters know the object as CiA 301 describes it";
     let specification = if (subject.standard.is_in_library)(index) { &from_library } else { as_described };
-    subject.help(Help { specification, eds: as_described, setting: as_described }).to_owned()
+    subject.help(Help { specification, eds: as_described, setting: as_described })
 }

@@ -3,7 +3,7 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Index, Object, Role};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -46,7 +46,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         };
         let message = format!("{} ({}) is there without the {what} {other}", object.index, object.name);
         findings.push(
-            Diagnostic::new(CODE, subject.object_place(object), message)
+            subject
+                .object_finding(CODE, object, message)
                 .help(format!("add {other}, or remove {}", object.index)),
         );
     }

@@ -5,7 +5,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::{CIA301, help, says_itself};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Access, Entry, EntryId, Fact, Object, PdoMapping, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
@@ -37,9 +37,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             {
                 let id = EntryId { index: object.index, sub: entry.sub };
                 let message = format!("{id} ({}) {problem}", entry.name);
-                findings.push(
-                    Diagnostic::new(CODE, subject.place(entry, fact), message).help(help(subject, object)),
-                );
+                findings.push(subject.finding(CODE, id, entry, fact, message).help(help(subject, object)));
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::is_from_library;
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Category, Object, ObjectKind, Role, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -36,7 +36,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         };
         let problems = [missing(object, defined), unknown(object), gap(object)];
         for (message, help) in problems.into_iter().flatten() {
-            findings.push_each(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
+            findings.push_each(subject.object_finding(CODE, object, message).help(help));
         }
     }
 }

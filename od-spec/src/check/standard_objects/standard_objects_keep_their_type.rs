@@ -82,7 +82,7 @@ fn shape(subject: &Subject<'_>, object: &Object, defined: &Object) -> Option<Dia
         article(object.kind),
         article(kind)
     );
-    Some(Diagnostic::new(CODE, subject.object_place(object), message).help(help(subject, object)))
+    Some(subject.object_finding(CODE, object, message).help(help(subject, object)))
 }
 
 const fn article(kind: ObjectKind) -> &'static str {
@@ -112,8 +112,7 @@ fn data_type(
 ) -> Diagnostic {
     let id = EntryId { index: object.index, sub: entry.sub };
     let message = format!("{id} ({}) is {}, CiA 301 makes it {known}", entry.name, entry.data_type);
-    let diagnostic =
-        Diagnostic::new(CODE, subject.place(entry, Fact::Type), message).help(help(subject, object));
+    let diagnostic = subject.finding(CODE, id, entry, Fact::Type, message).help(help(subject, object));
     match more {
         0 => diagnostic,
         _ => diagnostic.note(format!("the same holds for {}", others(more))),

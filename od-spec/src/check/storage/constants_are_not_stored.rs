@@ -4,12 +4,14 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Access, Fact, Storage};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0415",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -28,13 +30,16 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if entry.access == Access::Const && entry.stored != Storage::No {
             let message =
                 format!("{id} ({}) is constant and stored, but a constant never changes", entry.name);
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message).help(
-                subject.help(Help {
+            findings.push(subject.finding(CODE, id, entry, Fact::Storage, message).help(subject.help(
+                Help {
                     specification: "remove `stored:`, or correct the access",
-                    eds: "remove the comment that it is stored, or correct `AccessType`",
+                    eds: &format!(
+                        "remove the comment that it is stored, or correct {}",
+                        subject.format.key(Key::Access)
+                    ),
                     setting: "leave the entry out; a constant cannot be written",
-                }),
-            ));
+                },
+            )));
         }
     }
 }

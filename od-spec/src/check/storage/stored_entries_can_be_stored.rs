@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::check::subject::entry_id;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Storage};
 use crate::wording::{Notation, Wording};
 
@@ -41,13 +41,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some((id, _, entry)) = entries.find(|(.., entry)| stored(entry)) {
             let message =
                 format!("{id} is {}, but `{}` has no {command}", wording.storage(group), device.key);
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Storage), message).help(
-                subject.help(Help {
+            findings.push(subject.finding(CODE, id, entry, Fact::Storage, message).help(subject.help(
+                Help {
                     specification: "add the feature `store parameters` of `cia301`, or correct `stored:`",
                     eds: &format!("add {command}, or correct the comment that the entry is stored"),
                     setting: "the device has to have what stores it",
-                }),
-            ));
+                },
+            )));
         }
     }
 }

@@ -3,12 +3,13 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, ObjectKind};
+use crate::diag::{Code, Example, Severity};
+use crate::model::{EntryId, Fact, ObjectKind};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0315",
     severity: Severity::Error,
     foreign: Severity::Warning,
@@ -29,13 +30,16 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if let Some(element) = elements.find(|element| element.data_type != first) {
             let (index, sub, data_type) = (object.index, element.sub, element.data_type);
             findings.push(
-                Diagnostic::new(
-                    CODE,
-                    subject.place(element, Fact::Type),
-                    format!("{index}.{sub} ({}) is {data_type}, the first element {first}", element.name),
-                )
-                .help("all elements of an array have one data type; make the object a record")
-                .note("CiA 301 table 37: ARRAY"),
+                subject
+                    .finding(
+                        CODE,
+                        EntryId { index, sub },
+                        element,
+                        Fact::Type,
+                        format!("{index}.{sub} ({}) is {data_type}, the first element {first}", element.name),
+                    )
+                    .help("all elements of an array have one data type; make the object a record")
+                    .note("CiA 301 table 37: ARRAY"),
             );
         }
     }

@@ -5,7 +5,8 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{DataType, Entry, Fact, Index, Object, Role, SubIndex, Value};
+use crate::model::{DataType, Entry, EntryId, Fact, Index, Object, Role, SubIndex, Value};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
 
@@ -36,13 +37,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 
 fn count(subject: &Subject<'_>, object: &Object, entry: &Entry) -> Option<Diagnostic> {
     let index = object.index;
+    let id = EntryId { index, sub: SubIndex(0) };
     if !entry.access.is_readable() || entry.data_type != DataType::Unsigned8 {
         let message = format!("{index}: sub-index 0 is not a readable UNSIGNED8");
         let help = "correct its type and access; CiA 301 fixes the type, and every client reads it";
-        let place = subject.place(entry, Fact::Type);
-        return Some(
-            Diagnostic::new(crate::check::pdo::mapping_follows_access::CODE, place, message).help(help),
-        );
+        let code = crate::check::pdo::mapping_follows_access::CODE;
+        return Some(subject.finding(code, id, entry, Fact::Type, message).help(help));
     }
     let highest = i128::from(object.highest().0);
     // A count without a value is said by itself.
@@ -53,9 +53,12 @@ fn count(subject: &Subject<'_>, object: &Object, entry: &Entry) -> Option<Diagno
         return None;
     }
     let message = format!("{index}: sub-index 0 is {shown}, the highest sub-index {highest}");
-    Some(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(subject.help(Help {
+    Some(subject.finding(CODE, id, entry, Fact::Default, message).help(subject.help(Help {
         specification: "remove `default:` from `sub0:`; the value follows from the entries",
-        eds: "correct `DefaultValue` of sub-index 0, or describe the missing sub-indices",
+        eds: &format!(
+            "correct {} of sub-index 0, or describe the missing sub-indices",
+            subject.format.key(Key::Default)
+        ),
         setting: "leave the entry out; the value follows from the entries",
     })))
 }

@@ -4,8 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, Object, PdoMapping, Role, SubIndex};
+use crate::diag::{Code, Example, Severity};
+use crate::model::{EntryId, Fact, Object, PdoMapping, Role, SubIndex};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Objects(check) };
 
@@ -30,6 +31,7 @@ fn is_told(object: &Object) -> bool {
 }
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let keys = subject.format;
     for object in subject.device.objects.values().filter(|object| object.is_structured()) {
         let Some(count) = object.entry(SubIndex(0)) else { continue };
         let id = format_args!("{}: sub-index 0", object.index);
@@ -37,23 +39,27 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let problem = if count.access.is_writable() && !told {
             let what =
                 format!("{id} is `{}`, although it only tells the highest sub-index", count.access.word());
-            Some((what, Fact::Access, "write `AccessType=ro`"))
+            Some((what, Fact::Access, format!("write {}", keys.set(Key::Access, "ro"))))
         } else if count.pdo != PdoMapping::None {
             let what = format!("{id} is mappable, although it only tells the highest sub-index");
-            Some((what, Fact::Mapping, "write `PDOMapping=0`"))
+            Some((what, Fact::Mapping, format!("write {}", keys.set(Key::Mapping, "0"))))
         } else if count.default.is_none() && !told {
             let what = format!("{id} does not say which the highest sub-index is");
-            Some((what, Fact::Default, "write the highest sub-index as `DefaultValue`"))
+            Some((what, Fact::Default, format!("write the highest sub-index as {}", keys.key(Key::Default))))
         } else {
             None
         };
         if let Some((message, fact, eds)) = problem {
             let help = subject.help(Help {
                 specification: "remove what `sub0:` says about it; type, access and value follow",
-                eds,
+                eds: &eds,
                 setting: "leave the entry out; it tells the highest sub-index",
             });
-            findings.push(Diagnostic::new(CODE, subject.place(count, fact), message).help(help));
+            findings.push(
+                subject
+                    .finding(CODE, EntryId { index: object.index, sub: count.sub }, count, fact, message)
+                    .help(help),
+            );
         }
     }
 }

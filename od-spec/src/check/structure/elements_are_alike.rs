@@ -3,12 +3,13 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Repeated, Severity};
-use crate::model::{Entry, Fact, Object, ObjectKind, PdoMapping};
+use crate::diag::{Code, Example, Repeated, Severity};
+use crate::model::{Entry, EntryId, Fact, Object, ObjectKind, PdoMapping};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0822",
     severity: Severity::Note,
     foreign: Severity::Note,
@@ -37,7 +38,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         found.add(place, [], || {
             let (index, sub, name) = (object.index, element.sub, &element.name);
             let message = format!("{index}.{sub} ({name}) {this}, the first element {first}");
-            Diagnostic::new(CODE, place, message).help("make the elements alike, or the object a record")
+            let id = EntryId { index, sub };
+            subject
+                .finding(CODE, id, element, fact, message)
+                .help("make the elements alike, or the object a record")
         });
     }
     if let Some(finding) = found.into_diagnostic("arrays") {

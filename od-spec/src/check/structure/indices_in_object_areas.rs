@@ -3,11 +3,12 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0316",
     severity: Severity::Error,
     foreign: Severity::Warning,
@@ -29,7 +30,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             0x1000..=0xBFFF => continue,
         };
         findings.push(
-            Diagnostic::new(CODE, subject.object_place(object), format!("{} lies in {area}", object.index))
+            subject.object_finding(CODE, object, format!("{} lies in {area}", object.index))
                 .help("1000h to 1FFFh: communication; 2000h to 5FFFh: manufacturer; 6000h to 9FFFh: device profiles; A000h to BFFFh: network variables"),
         );
     }

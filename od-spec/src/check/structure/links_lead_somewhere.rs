@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::Index;
+use crate::model::{Fact, Index};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -45,11 +45,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 subject.object_place(object)
             };
             let message = format!("{} is linked to {}, which {who} does not have", object.index, link.value);
-            findings.push(Diagnostic::new(CODE, place, message).help(subject.help(Help {
-                specification: "correct the index, or remove it from `links:`",
-                eds: "correct the index, or remove it from the list and count one less",
-                setting: "correct the index, or remove the link",
-            })));
+            findings.push(Diagnostic::new(CODE, place, message).about((object.index, Fact::Links)).help(
+                subject.help(Help {
+                    specification: "correct the index, or remove it from `links:`",
+                    eds: "correct the index, or remove it from the list and count one less",
+                    setting: "correct the index, or remove the link",
+                }),
+            ));
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::Role;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
@@ -30,7 +30,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         if object.counted().next().is_none() && !is_fixed_mapping {
             let message = format!("{} has no entry beside sub-index 0", object.index);
             findings.push(
-                Diagnostic::new(CODE, subject.object_place(object), message)
+                subject
+                    .object_finding(CODE, object, message)
                     .help("an array or record has at least one element or member"),
             );
         }

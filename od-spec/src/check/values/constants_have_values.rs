@@ -6,6 +6,7 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
 use crate::model::{Access, DataType, Fact};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -31,21 +32,20 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         // The library says that it is constant, and the file describes the object.
         let is_described = object.span.file.is_one_with(subject.device.span.file);
         let is_taken = entry.is_only_standard(Fact::Access);
+        let keys = subject.format;
         let help = match object.profile.as_ref().filter(|_| is_taken && !is_described) {
             Some(library) => {
                 format!("write it among the objects: `0x{:04X}: {{from: {library}, default: …}}`", id.index.0)
             }
-            None => subject
-                .help(Help {
-                    specification: "add `default:`, or make it `ro`",
-                    eds: "add `DefaultValue`, or write `AccessType=ro`",
-                    setting: "the device has to tell its value; a constant cannot be set",
-                })
-                .to_owned(),
+            None => subject.help(Help {
+                specification: "add `default:`, or make it `ro`",
+                eds: &format!("add {}, or write {}", keys.key(Key::Default), keys.set(Key::Access, "ro")),
+                setting: "the device has to tell its value; a constant cannot be set",
+            }),
         };
         let message =
             format!("{id} ({}) of `{}` is constant, but has no value", object.name, subject.device.key);
         let place = if is_taken { subject.object_place(object) } else { subject.place(entry, Fact::Access) };
-        findings.push(Diagnostic::new(CODE, place, message).help(help));
+        findings.push(Diagnostic::new(CODE, place, message).about((id, Fact::Default)).help(help));
     }
 }

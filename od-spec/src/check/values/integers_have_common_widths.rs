@@ -3,7 +3,7 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Repeated, Severity};
+use crate::diag::{Code, Example, Repeated, Severity};
 use crate::model::Fact;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
@@ -32,7 +32,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let place = subject.place(entry, Fact::Type);
         found.add(place, [], || {
             let message = format!("{id} ({}) is {}, which few programs know", entry.name, entry.data_type);
-            Diagnostic::new(CODE, place, message).help("use 32 or 64 bits where the width is free")
+            subject
+                .finding(CODE, id, entry, Fact::Type, message)
+                .help("use 32 or 64 bits where the width is free")
         });
     }
     if let Some(finding) = found.into_diagnostic("entries") {

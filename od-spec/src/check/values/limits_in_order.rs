@@ -3,13 +3,14 @@
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Value};
 use crate::wording::format_value;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "OD0407",
     severity: Severity::Error,
     foreign: Severity::Error,
@@ -45,7 +46,8 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             show(high)
         );
         findings.push(
-            Diagnostic::new(CODE, subject.place(entry, Fact::LowLimit), message)
+            subject
+                .finding(CODE, id, entry, Fact::LowLimit, message)
                 .label("low limit")
                 .with(subject.place(entry, Fact::HighLimit), "high limit")
                 .help("swap or correct the two"),

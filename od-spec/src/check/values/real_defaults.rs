@@ -4,8 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{Fact, Value};
+use crate::wording::Key;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
@@ -36,13 +37,15 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         // What is set was wished for, in this notation.
         let has_default =
             matches!(entry.default, Some(Value::Real(_))) && entry.eds.default && !entry.is_set();
+        let leave_out =
+            format!("leave {} out, or scale the value to an integer", subject.format.key(Key::Default));
         let (what, fact, help) = match (has_default, &limits.low, &limits.high) {
             (true, None, None) => (
                 "default",
                 Fact::Default,
                 Help {
                     specification: "withhold it from the EDS with `eds: {default: withheld}`, or scale the value to an integer",
-                    eds: "leave `DefaultValue` out, or scale the value to an integer",
+                    eds: &leave_out,
                     setting: "the device has to scale the value to an integer",
                 },
             ),
@@ -52,6 +55,6 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             (false, None, None) => continue,
         };
         let message = format!("PLC tools may misread the {what} of {id}");
-        findings.push(Diagnostic::new(CODE, subject.place(entry, fact), message).help(subject.help(help)));
+        findings.push(subject.finding(CODE, id, entry, fact, message).help(subject.help(help)));
     }
 }

@@ -4,7 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
+use crate::diag::{Code, Example, Severity, shorten};
 use crate::model::{DataType, Fact, Value};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
@@ -42,10 +42,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             format!("{id} ({}): of {}, a {} keeps {kept}", entry.name, shorten(written), entry.data_type);
         let write = format!("write {kept}");
         let or_wider = if entry.data_type == DataType::Real32 { ", or take `real64`" } else { "" };
-        let help = subject
-            .help(Help { specification: &format!("{write}{or_wider}"), eds: &write, setting: &write })
-            .to_owned();
-        findings.push(Diagnostic::new(CODE, subject.place(entry, fact), message).help(help));
+        let help =
+            subject.help(Help { specification: &format!("{write}{or_wider}"), eds: &write, setting: &write });
+        findings.push(subject.finding(CODE, id, entry, fact, message).help(help));
     }
 }
 

@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::is_from_library;
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity};
+use crate::diag::{Code, Example, Severity};
 use crate::model::{BitUsage, Entry, EntryId, Fact, TypeKind};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
@@ -51,13 +51,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let what = if entry.is_set() { "value" } else { "default" };
             let on_node = subject.on_node(value, node);
             let message = format!("the {what} of {id} sets bit {bit}{on_node}, which is reserved");
-            findings.push(Diagnostic::new(CODE, subject.place(entry, Fact::Default), message).help(
-                subject.help(Help {
+            findings.push(subject.finding(CODE, id, entry, Fact::Default, message).help(subject.help(
+                Help {
                     specification: "correct the default, or say what the bit means",
                     eds: "correct the default; the bit has no meaning",
                     setting: "correct the value; the bit has no meaning",
-                }),
-            ));
+                },
+            )));
         }
     }
 }

@@ -31,7 +31,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
     for (id, entry) in starting_wrong(subject.device) {
         let message = format!("{id} ({}) starts with 0, which is {}", entry.name, problem(entry));
-        let diagnostic = Diagnostic::new(CODE, subject.place(entry, limit(entry).fact()), message);
+        let diagnostic = subject.finding(CODE, id, entry, limit(entry).fact(), message);
         findings.push(diagnostic.help(if entry.data_type.family() == Family::Real {
             "add `default:`, with `eds: {default: withheld}` where it is no promise"
         } else {
@@ -47,7 +47,7 @@ pub fn start_of_code(device: &Dictionary) -> Option<Diagnostic> {
     let mut wrong = starting_wrong(device);
     let (id, entry) = wrong.next()?;
     let message = format!("in the code, {id} ({}) starts with 0, which is {}", entry.name, problem(entry));
-    let diagnostic = Diagnostic::new(CODE, entry.place(limit(entry).fact()), message).help(
+    let diagnostic = Diagnostic::new(CODE, entry.place(limit(entry).fact()), message).about((id, limit(entry).fact())).help(
         "write `DefaultValue` into the EDS; or let the firmware write these entries before anybody reads them",
     );
     let mut named: Vec<String> = wrong.by_ref().take(NAMED).map(|(id, _)| id.to_string()).collect();

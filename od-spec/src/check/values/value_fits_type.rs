@@ -53,9 +53,10 @@ fn number(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
         let shown = format_value(entry, value);
         let message = format!("{id} ({}): `{shown}` is no value of type {}", entry.name, entry.data_type);
         // A value that follows from the device is right; the type is not.
-        let type_place = subject.place(entry, Fact::Type);
         let help = "correct the type, or the fact that the value follows from";
-        return Some(Diagnostic::new(CODE, type_place, message).with(place, "the value").help(help));
+        return Some(
+            subject.finding(CODE, id, entry, Fact::Type, message).with(place, "the value").help(help),
+        );
     }
     let (low, high) = entry.data_type.range()?;
     let misfit = |raw: &i128| !(low..=high).contains(raw);
@@ -66,7 +67,8 @@ fn number(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
     let on_node = subject.on_node(value, node);
     let message = format!("{id} ({}): {raw} does not fit {}{on_node}", entry.name, entry.data_type);
     Some(
-        Diagnostic::new(CODE, place, message)
+        subject
+            .finding(CODE, id, entry, Fact::Default, message)
             .label(format!("allowed: {low} to {high}"))
             .help("correct the value or the type"),
     )
@@ -81,7 +83,8 @@ fn length(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
     }
     let message = format!("{id} ({}): the value has {length} bytes, the capacity is {capacity}", entry.name);
     Some(
-        Diagnostic::new(CODE, subject.place(entry, Fact::Default), message)
+        subject
+            .finding(CODE, id, entry, Fact::Default, message)
             .with(subject.place(entry, Fact::Capacity), "the capacity")
             .help(subject.help(Help {
                 specification: "raise the capacity, or shorten the value",

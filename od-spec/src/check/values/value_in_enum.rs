@@ -62,6 +62,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let places = [Fact::Default, Fact::Type].map(|fact| subject.place(entry, fact));
         let is_makers = |place: &&Span| **place != subject.device.span && **place != entry.span;
         let place = places.iter().find(is_makers).unwrap_or(&places[0]);
-        findings.push(subject.seen_through(id, Diagnostic::new(CODE, *place, message).help(help)));
+        findings.push(
+            subject.seen_through(
+                id,
+                Diagnostic::new(CODE, *place, message).about((id, Fact::Default)).help(help),
+            ),
+        );
     }
 }

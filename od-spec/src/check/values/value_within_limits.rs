@@ -78,5 +78,5 @@ fn finding(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value, nod
     let places = [Fact::Default, Fact::LowLimit, Fact::HighLimit].map(|fact| subject.place(entry, fact));
     let is_makers = |place: &&Span| **place != subject.device.span && **place != entry.span;
     let place = places.iter().find(is_makers).unwrap_or(&places[0]);
-    subject.seen_through(id, Diagnostic::new(CODE, *place, message).help(help))
+    subject.seen_through(id, Diagnostic::new(CODE, *place, message).about((id, Fact::Default)).help(help))
 }

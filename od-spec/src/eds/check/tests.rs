@@ -10,6 +10,7 @@ use crate::eds::view::{FileFacts, View};
 use crate::eds::{Document, file_name, is_dcf};
 use crate::encoding::Encoding;
 use crate::source::SourceMap;
+use crate::wording::FileFormat;
 
 /// What some rules say about a text of an example.
 fn said<'r>(rules: impl Iterator<Item = &'r FormatRule>, example: Example, text: &str) -> Diagnostics {
@@ -18,7 +19,7 @@ fn said<'r>(rules: impl Iterator<Item = &'r FormatRule>, example: Example, text:
     let source = sources.file(file);
     let name = file_name(source.name());
     let document = Document::scan(file, source.text());
-    let facts = FileFacts { name, encoding: Encoding::Ascii };
+    let facts = FileFacts { name, encoding: Encoding::Ascii, format: FileFormat::Eds };
     let mut diagnostics = Diagnostics::new();
     document_with(rules, &View::new(&document, file, is_dcf(name), facts), &mut diagnostics);
     diagnostics.sort();

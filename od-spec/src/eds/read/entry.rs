@@ -4,13 +4,14 @@ use super::comments::Meanings;
 use super::node::NodeDecl;
 use super::{made, owned, value};
 use crate::ast::{DefaultDecl, EdsDecl, EntryDecl};
-use crate::diag::{Diagnostic, Diagnostics, shorten};
+use crate::diag::{About, Diagnostic, Diagnostics, shorten};
 use crate::eds::codes;
 use crate::eds::number;
 use crate::eds::view::Part;
 use crate::limits::{ENTRIES_OF_DEVICE, Room};
-use crate::model::{Access, AccessRight, DataType, EntryId, Index, ObjectKind, PdoMapping};
+use crate::model::{Access, AccessRight, DataType, EntryId, Fact, Index, ObjectKind, PdoMapping};
 use crate::source::{Span, Spanned};
+use crate::wording::{FileFormat, Key};
 
 /// What is read together with an entry.
 pub(super) struct Context<'a> {
@@ -21,6 +22,8 @@ pub(super) struct Context<'a> {
     pub diagnostics: &'a mut Diagnostics,
     /// How much more there may be; nothing, once something was left out.
     pub room: Option<Room>,
+    /// How the file is written.
+    pub format: FileFormat,
 }
 
 impl Context<'_> {
@@ -40,6 +43,12 @@ impl Context<'_> {
         );
         false
     }
+
+    /// What is said from now on is about this.
+    pub(super) fn about(&mut self, about: impl Into<About>) {
+        self.diagnostics.now_about(Some(about.into()));
+    }
+
     pub(super) fn push(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
@@ -51,12 +60,15 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
     let data_type = data_type(part, id, kind, context);
     let access = access(part, id, data_type.value, context);
     let read = |key: &str, context: &mut Context<'_>| {
+        context.about((id, Fact::Default));
         value::value(part.value(key)?, data_type.value, context.diagnostics)
     };
-    let limit = |key: &str, context: &mut Context<'_>| {
+    let limit = |key: &str, fact: Fact, context: &mut Context<'_>| {
+        context.about((id, fact));
         value::limit(part.value(key)?, data_type.value, context.diagnostics)
     };
-    let (min, max) = (limit("LowLimit", context), limit("HighLimit", context));
+    let min = limit("LowLimit", Fact::LowLimit, context);
+    let max = limit("HighLimit", Fact::HighLimit, context);
     let default = read("DefaultValue", context);
     if let Some(value) = part.value("ParameterValue") {
         let read = context.node.is_some().then(|| read("ParameterValue", context)).flatten();
@@ -80,6 +92,7 @@ pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mu
         eds: flags(part, id, context),
         ..EntryDecl::empty(place)
     };
+    context.about(id);
     context.meanings.add_to(entry, part, &name.value)
 }
 
@@ -90,11 +103,12 @@ pub(super) fn type_of(entry: &EntryDecl) -> Option<DataType> {
 
 /// The name of an object or an entry; its index where it has none.
 pub(super) fn name(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> Spanned<String> {
+    context.about((id, Fact::Name));
     if let Some(name) = part.value("ParameterName") {
         return owned(name);
     }
     let place = part.key("ParameterName").map_or(part.place(), |entry| entry.key.span);
-    let message = format!("{id} has no `ParameterName`");
+    let message = format!("{id} has no {}", context.format.key(Key::Name));
     context.push(
         Diagnostic::new(codes::MISSING_NAME, place, message).help("add the name that the manual gives it"),
     );
@@ -102,13 +116,16 @@ pub(super) fn name(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> S
 }
 
 fn data_type(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Context<'_>) -> Spanned<DataType> {
+    context.about((id, Fact::Type));
     let is_domain = kind == ObjectKind::Domain;
     let Some(text) = part.value("DataType") else {
         let is_count = kind != ObjectKind::Var && !is_domain && id.sub.0 == 0;
         let taken = if is_count { DataType::Unsigned8 } else { DataType::Domain };
         if !is_domain {
-            let message = format!("{id} has no `DataType`; it is taken as {taken}");
-            let help = "add the index of its data type, such as `DataType=0x0007`";
+            let message =
+                format!("{id} has no {}; it is taken as {taken}", context.format.key(Key::DataType));
+            let example = context.format.set(Key::DataType, "0x0007");
+            let help = format!("add the index of its data type, such as {example}");
             context.push(Diagnostic::new(codes::MISSING_DATA_TYPE, part.place(), message).help(help));
         }
         return Spanned::new(taken, part.place());
@@ -135,17 +152,17 @@ pub(super) fn report(text: Spanned<&str>, read: Option<&number::Number>, context
 }
 
 fn access(part: &Part<'_>, id: EntryId, data_type: DataType, context: &mut Context<'_>) -> Spanned<Access> {
+    context.about((id, Fact::Access));
     let Some(text) = part.value("AccessType") else {
         // The standard's replacement value for a DOMAIN (CiA 306 4.6.3.2); for anything else it has none.
         if data_type == DataType::Domain && part.key("AccessType").is_none() {
             return Spanned::new(Access::Rw, part.place());
         }
         let place = part.key("AccessType").map_or(part.place(), |entry| entry.key.span);
-        let message = format!("{id} has no `AccessType`; it is taken as read-only");
-        context.push(
-            Diagnostic::new(codes::MISSING_ACCESS, place, message)
-                .help("add `AccessType=ro`, `wo`, `rw`, `rwr`, `rww` or `const`, as the manual has it"),
-        );
+        let message = format!("{id} has no {}; it is taken as read-only", context.format.key(Key::Access));
+        let ro = context.format.set(Key::Access, "ro");
+        let help = format!("add {ro}, `wo`, `rw`, `rwr`, `rww` or `const`, as the manual has it");
+        context.push(Diagnostic::new(codes::MISSING_ACCESS, place, message).help(help));
         return Spanned::new(Access::Ro, place);
     };
     let mut deviations = Vec::new();
@@ -192,10 +209,14 @@ fn mapping(
     access: Access,
     context: &mut Context<'_>,
 ) -> Option<Spanned<PdoMapping>> {
+    context.about((id, Fact::Mapping));
     let text = part.value("PDOMapping")?;
     let number = number::integer(text.value);
     if !matches!(number.as_ref().map(|number| number.value), Some(0 | 1)) {
-        let message = format!("{id}: found `PDOMapping={}`, expected 0 or 1", shorten(text.value));
+        let message = format!(
+            "{id}: found {}, expected 0 or 1",
+            context.format.set(Key::Mapping, &shorten(text.value))
+        );
         context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0 or 1"));
     }
     report(text, number.as_ref(), context);
@@ -210,10 +231,14 @@ fn mapping(
 
 /// `ObjFlags`; nothing for the usual 0.
 pub(super) fn flags(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> Option<Spanned<EdsDecl>> {
+    context.about((id, Fact::Eds));
     let text = part.value("ObjFlags")?;
     let read = number::integer(text.value);
     let Some(number) = &read else {
-        let message = format!("{id}: found `ObjFlags={}`, expected a number", shorten(text.value));
+        let message = format!(
+            "{id}: found {}, expected a number",
+            context.format.set(Key::ObjectFlags, &shorten(text.value))
+        );
         context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0, 1, 2 or 3"));
         return None;
     };

@@ -84,13 +84,15 @@ fn objects(
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
     let room = Some(Room::new(ENTRIES_OF_DEVICE));
-    let mut context = entry::Context { node, meanings, diagnostics, room };
+    let mut context = entry::Context { node, meanings, diagnostics, room, format: view.facts.format };
     let described = view.objects.iter().filter(|(_, part)| part.object.is_some() || !part.subs.is_empty());
     // A declaration is large: the list has room for as many as there are, and no more.
     let mut objects: Vec<ObjectDecl> = Vec::with_capacity(view.objects.len());
     objects.extend(described.filter_map(|(index, part)| objects::object(*index, part, &mut context)));
+    context.diagnostics.now_about(None);
     implicit_pdos::add(view, &mut objects);
     modules::add(view, &mut objects, &mut context);
+    context.diagnostics.now_about(None);
     objects.sort_by_key(|object| object.index.value);
     objects
 }

@@ -10,6 +10,7 @@ use crate::eds::codes;
 use crate::eds::view::Part;
 use crate::model::{DataType, EntryId, SubIndex};
 use crate::source::Spanned;
+use crate::wording::Key;
 
 /// Longest line without its line break (CiA 306 4.2).
 const LONGEST_LINE: usize = 255;
@@ -19,14 +20,14 @@ pub(super) fn read(part: &Part<'_>, of: Denoted, data_type: Option<DataType>, co
     if let Some(name) = part.value("Denotation") {
         match context.node.as_deref_mut() {
             Some(node) => node.denotations.push((of, owned(name))),
-            None => context.push(no_dcf(name, "Denotation", of)),
+            None => context.push(no_dcf(name, &context.format.key(Key::Denotation), of)),
         }
     }
     for file in FileUse::ALL {
         let Some(path) = part.value(file.key()) else { continue };
         let why = match data_type {
             _ if context.node.is_none() => {
-                context.push(no_dcf(path, file.key(), of));
+                context.push(no_dcf(path, &format!("`{}`", file.key()), of));
                 continue;
             }
             Some(DataType::Domain) => problem(path.value, file.key()),
@@ -74,8 +75,7 @@ fn problem(path: &str, key: &str) -> Option<&'static str> {
     (key.len() + 1 + path.len() > LONGEST_LINE).then_some("the path is too long for a line")
 }
 
-fn no_dcf(text: Spanned<&str>, key: &str, of: Denoted) -> Diagnostic {
-    let what = if key.contains(' ') { key.to_owned() } else { format!("`{key}`") };
+fn no_dcf(text: Spanned<&str>, what: &str, of: Denoted) -> Diagnostic {
     Diagnostic::new(codes::NO_PLACE, text.span, format!("{what} of {of} is left out: this is no DCF"))
         .help("call the file a DCF if it is for one node")
 }

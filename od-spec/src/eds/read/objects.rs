@@ -14,12 +14,14 @@ use crate::eds::number;
 use crate::eds::view::{ObjectPart, Part};
 use crate::model::{EntryId, Index, ObjectKind, SubIndex};
 use crate::source::Span;
+use crate::wording::Key;
 
 /// One object; `None` for one that is left out.
 pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<'_>) -> Option<ObjectDecl> {
     let id = EntryId { index, sub: SubIndex(0) };
     let first = part.object.as_ref().or_else(|| part.subs.values().next())?;
     let place = first.place();
+    context.about(index);
     if index.0 < 0x1000 {
         let message = format!("{index} is no entry of the dictionary; it is left out");
         context.push(without_place(codes::OBJECT_LEFT_OUT, place, message));
@@ -66,6 +68,7 @@ fn described(
         ObjectKind::Array | ObjectKind::Record => {
             let name = entry::name(main, id, context);
             let common = EntryDecl { name: Some(name.clone()), ..EntryDecl::empty(place) };
+            context.about(index);
             let common = context.meanings.add_to(common, main, &name.value);
             node_texts::read(main, Denoted::object(index), None, context);
             Some(structured(index, kind, part, common, place, context))
@@ -106,8 +109,8 @@ fn kind(
     };
     if stated != Some(taken) || (text.is_none() && has_subs) {
         let (place, found) = match text {
-            Some(text) => (text.span, format!("`ObjectType={}`", shorten(text.value))),
-            None => (main.place(), "no `ObjectType`".to_owned()),
+            Some(text) => (text.span, context.format.set(Key::ObjectType, &shorten(text.value))),
+            None => (main.place(), format!("no {}", context.format.key(Key::ObjectType))),
         };
         let why = if has_subs { "has sub-indices" } else { "has none" };
         let message = format!("{index}: found {found}, but it {why}; it is taken as {}", taken.name());
@@ -130,7 +133,8 @@ fn structured(
         Some(count) => Some(Box::new(sub(EntryId { index, sub: SubIndex(0) }, kind, count, context))),
         None => {
             let message = format!("{index} has no sub-index 0");
-            let help = "add the section, with `DataType=0x0005` and the highest sub-index as its default";
+            let data_type = context.format.set(Key::DataType, "0x0005");
+            let help = format!("add the section, with {data_type} and the highest sub-index as its default");
             context.push(Diagnostic::new(codes::NO_SUB_0, place, message).help(help));
             None
         }

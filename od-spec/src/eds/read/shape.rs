@@ -10,6 +10,7 @@ use crate::eds::number;
 use crate::eds::view::{ObjectPart, Part};
 use crate::model::{EntryId, Index, ObjectKind, SubIndex};
 use crate::source::{Span, Spanned};
+use crate::wording::Key;
 
 /// An object about which nothing but its entry is known.
 pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> ObjectDecl {
@@ -83,6 +84,7 @@ pub(super) fn sub(
     section: &Part<'_>,
     context: &mut Context<'_>,
 ) -> EntryDecl {
+    context.about(id);
     let text = section.value("ObjectType");
     let code = text.map(|text| number::lenient_integer(text.value));
     let kind = match code {
@@ -90,7 +92,8 @@ pub(super) fn sub(
         Some(Some(2)) => ObjectKind::Domain,
         Some(_) => {
             let shown = text.map(|text| shorten(text.value)).unwrap_or_default();
-            let message = format!("{id}: a sub-index is a VAR, found `ObjectType={shown}`");
+            let found = context.format.set(Key::ObjectType, &shown);
+            let message = format!("{id}: a sub-index is a VAR, found {found}");
             let place = text.map_or(section.place(), |text| text.span);
             context.push(
                 Diagnostic::new(codes::BAD_OBJECT_TYPE, place, message)
@@ -102,5 +105,6 @@ pub(super) fn sub(
     };
     let entry = entry::entry(section, id, kind, context);
     node_texts::read(section, Denoted::entry(id), entry::type_of(&entry), context);
+    context.about(id.index);
     entry
 }

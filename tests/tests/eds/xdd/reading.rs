@@ -125,6 +125,18 @@ fn faults_have_their_place_and_the_rest_is_read() {
 }
 
 #[test]
+fn a_name_that_is_a_key_of_an_eds_stays_a_name() {
+    let object = |index: u16| {
+        format!(
+            "<CANopenObject index=\"{index:X}\" name=\"ObjFlags\" objectType=\"7\" dataType=\"0005\" accessType=\"const\"/>\n"
+        )
+    };
+    let said = said("tank.xdd", file("", "", &(object(0x2000) + &object(0x2001))));
+    assert!(said.contains("2000h and 2001h of `tank` are both named `ObjFlags`"), "{said}");
+    assert!(!said.contains("`objFlags`"), "{said}");
+}
+
+#[test]
 fn namespaces_do_not_matter() {
     let text = file(
         "",

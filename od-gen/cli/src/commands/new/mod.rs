@@ -115,7 +115,7 @@ mod tests {
         let messages: Vec<String> = compiled
             .diagnostics
             .iter()
-            .filter(|diagnostic| diagnostic.code.id != "OD0821")
+            .filter(|diagnostic| diagnostic.code != od_spec::rule_codes::NO_VENDOR_NUMBER)
             .map(|diagnostic| format!("{}: {}", diagnostic.code, diagnostic.message))
             .collect();
         assert_eq!(messages, Vec::<String>::new(), "{text}");

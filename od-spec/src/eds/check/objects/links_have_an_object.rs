@@ -6,7 +6,8 @@ use crate::eds::view::{ObjectPart, View};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "EDS427",
     severity: Severity::Error,
     foreign: Severity::Note,
