@@ -151,9 +151,9 @@ od-spec: 1
 title: Lamp
 uses: [cia301]
 devices:
-  lamp: {name: Lamp, features: [heartbeat producer]}
+  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer, emergency]}
 objects:
-  0x2000: {name: brightness, type: unsigned8, access: rw, pdo: transmit, max: 100}
+  0x2000: {name: brightness, type: unsigned8, access: rw, pdo: transmit, default: 80, max: 100}
 pdos:
   lamp:
     transmit: {1: {map: [brightness]}}
@@ -206,7 +206,8 @@ pdos:
     fn on_stage(test: impl FnOnce(&mut Stage<'_>)) {
         let mut sources = SourceMap::new();
         let root = sources.add("lamp.od.yaml", LAMP);
-        let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+        let compiled = compile(&mut sources, root, &mut NoFiles);
+        let system = compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics));
         let device = runtime::device(&system, &system.devices[0], &mut Diagnostics::new()).unwrap();
         let lists = device.lists();
         let table = lists.table().unwrap();
