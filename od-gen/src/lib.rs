@@ -1,7 +1,7 @@
 //! Generators: from the resolved model to the files that tools and people use.
 //!
 //! Every backend is a pure function from the model to bytes, so that the same specification gives the same files on every
-//! machine. Files are written in one place, [`files`]: all of them or none.
+//! machine. Files are written in one place, [`files`]: each whole, and only what differs.
 
 mod artifact;
 #[cfg(all(feature = "eds", feature = "json"))]

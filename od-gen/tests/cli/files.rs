@@ -8,8 +8,8 @@ use std::time::Duration;
 use crate::{FAN, LAMP, Scratch, code, files, odgen, stderr, stdout};
 
 /// Runs killed in a test; as many as the environment says, for a long one.
-fn kills() -> u64 {
-    std::env::var("ODGEN_KILLS").ok().and_then(|number| number.parse().ok()).unwrap_or(25)
+pub(crate) fn kills(otherwise: u64) -> u64 {
+    std::env::var("ODGEN_KILLS").ok().and_then(|number| number.parse().ok()).unwrap_or(otherwise)
 }
 
 /// Three devices that all show `mark`, with many documents.
@@ -37,90 +37,98 @@ fn tree(directory: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn a_build_that_is_killed_at_any_time_leaves_no_mixture_to_the_next() {
+fn a_build_that_is_killed_at_any_time_leaves_whole_files_and_the_next_completes_them() {
     let scratch = Scratch::new("killed");
-    let built = |mark: &str| {
-        scratch.file("lamps.od.yaml", fleet(mark));
-        let output = odgen(&scratch.0, &BUILD);
+    let mixed = killed_at_any_time(&scratch, "lamps.od.yaml", &["a", "b"].map(fleet), &BUILD, kills(25));
+    println!("{mixed} were killed between two files");
+}
+
+/// Kills a command that makes `out` of one of two texts, at times that differ, and runs it again.
+/// Returns how often it had made some of the files.
+pub(crate) fn killed_at_any_time(
+    scratch: &Scratch,
+    source: &str,
+    texts: &[String; 2],
+    command: &[&str],
+    kills: u64,
+) -> usize {
+    let out = scratch.0.join("out");
+    let build = |text: &str| {
+        scratch.file(source, text);
+        let output = odgen(&scratch.0, command);
         assert_eq!(code(&output), 0, "{}", stderr(&output));
-        tree(&scratch.0.join("out"))
+        tree(&out)
     };
     let began = std::time::Instant::now();
-    let mut now = built("a");
+    let first = build(&texts[0]);
     let whole = u64::try_from(began.elapsed().as_micros()).unwrap().max(1000);
-    let sets = [built("b"), built("a")];
-    assert!(now.len() > 15 && sets[1] == now, "{}", now.len());
+    let sets = [build(&texts[1]), build(&texts[0])];
+    assert!(first.len() > 15 && sets[1] == first && sets[0] != first, "{}", first.len());
+    let (name, _) = first.iter().find(|file| !sets[0].contains(file)).unwrap();
     // Numbers that look random, the same in every run (Knuth's MMIX).
     let mut random = 1_u64;
-    let journal = scratch.0.join("out/.odgen-journal");
-    let (mut completed, mut kept) = (0, 0);
-    for round in 0..kills() {
-        let set = usize::try_from(round % 2).unwrap();
-        scratch.file("lamps.od.yaml", fleet(["b", "a"][set]));
+    let mut mixed = 0;
+    for round in 0..kills {
+        let new = usize::try_from(round % 2).unwrap();
+        scratch.file(source, &texts[1 - new]);
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
             .current_dir(&scratch.0)
-            .args(BUILD)
+            .args(command)
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // Most of the time goes into the documents: of three, two are killed while they write.
+        // Writing takes little of the time: of three, two are killed soon after a file has changed.
         let mut most = whole;
         if round % 3 != 0 {
-            while !journal.exists() && child.try_wait().unwrap().is_none() {
+            let before = fs::read(out.join(name)).unwrap();
+            while fs::read(out.join(name)).unwrap() == before && child.try_wait().unwrap().is_none() {
                 std::hint::spin_loop();
             }
-            most = whole / 4;
+            most = whole / 50;
         }
         std::thread::sleep(Duration::from_micros((random >> 33) % most));
         child.kill().unwrap();
         child.wait().unwrap();
-        // The next command has a mistake in its specification, and puts the directory in order all the same.
-        scratch.file("lamps.od.yaml", "od-spec: 1\n");
-        assert_eq!(code(&odgen(&scratch.0, &BUILD)), 1);
-        let found = tree(&scratch.0.join("out"));
-        let names: Vec<&String> = found.iter().map(|(name, _)| name).collect();
-        assert!(found == now || found == sets[set], "round {round}: {names:?}");
-        if found == now {
-            kept += 1;
-        } else {
-            completed += 1;
+        let found = tree(&out);
+        for file in found.iter().filter(|(name, _)| !name.contains(".odgen-new-")) {
+            assert!(sets.iter().any(|set| set.contains(file)), "round {round}: {}", file.0);
         }
-        now = found;
+        mixed += usize::from(!sets.contains(&found));
+        assert!(build(&texts[1 - new]) == sets[new], "round {round}");
     }
-    // Of few runs, chance may have hit one half only.
-    assert!(kills() < 100 || kept.min(completed) > 10, "{completed} completed, {kept} as before");
-    println!("{completed} completed, {kept} as before");
+    mixed
 }
 
+/// A limit on the size of written files, in the place of a disk that is full.
+#[cfg(target_os = "linux")]
 #[test]
-fn two_builds_into_one_directory_take_turns() {
-    let scratch = Scratch::new("turns");
-    for mark in ["a", "b"] {
-        fs::create_dir(scratch.0.join(mark)).unwrap();
-        scratch.file(&format!("{mark}/lamps.od.yaml"), fleet(mark));
+fn where_the_disk_is_full_the_message_names_what_is_written_and_the_next_run_completes_it() {
+    let scratch = Scratch::new("full");
+    let out = scratch.0.join("out");
+    scratch.file("lamps.od.yaml", fleet("b"));
+    assert_eq!(code(&odgen(&scratch.0, &BUILD)), 0);
+    let old = tree(&out);
+    scratch.file("lamps.od.yaml", fleet("a"));
+    let limited =
+        format!("trap '' XFSZ; ulimit -f 16; exec {} {}", env!("CARGO_BIN_EXE_odgen"), BUILD.join(" "));
+    let output = Command::new("bash").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
+    assert_eq!(code(&output), 1);
+    let text = stderr(&output);
+    for part in [
+        "error[OD0709]: cannot write out/",
+        "File too large",
+        "; written before it: out/",
+        "run it again: it writes the rest",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
     }
-    let children: Vec<_> = ["a", "b", "a", "b", "a", "b"]
-        .into_iter()
-        .map(|mark| {
-            Command::new(env!("CARGO_BIN_EXE_odgen"))
-                .current_dir(scratch.0.join(mark))
-                .args(["build", "lamps.od.yaml", "--out", "../out", "--docs", "md"])
-                .stdout(Stdio::null())
-                .spawn()
-                .unwrap()
-        })
-        .collect();
-    for mut child in children {
-        assert!(child.wait().unwrap().success());
-    }
-    let texts = tree(&scratch.0.join("out"))
-        .into_iter()
-        .map(|(_, bytes)| String::from_utf8_lossy(&bytes).into_owned());
-    let marks: Vec<bool> =
-        texts.filter(|text| text.contains("Lamps ")).map(|text| text.contains("Lamps a")).collect();
-    assert!(marks.len() > 3 && marks.iter().all(|mark| *mark == marks[0]), "{marks:?}");
+    let found = tree(&out);
+    assert_eq!(code(&odgen(&scratch.0, &BUILD)), 0);
+    let new = tree(&out);
+    assert!(found.iter().all(|file| old.contains(file) || new.contains(file)));
+    assert!(found != old && found != new);
 }
 
 #[test]

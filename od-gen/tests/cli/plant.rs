@@ -1,9 +1,8 @@
 //! `odgen plant`.
 
 use std::fs;
-use std::process::{Command, Stdio};
-use std::time::Duration;
 
+use crate::files::{killed_at_any_time, kills};
 use crate::{Scratch, code, files, odgen, stderr, stdout};
 
 const PRESS: &str = include_str!("../../../tests/shared/press.od.yaml");
@@ -168,52 +167,11 @@ fn each_value_tells_the_level_that_gives_it() {
     );
 }
 
-/// As many as the environment says, for a long run.
-fn kills() -> u64 {
-    std::env::var("ODGEN_KILLS").ok().and_then(|number| number.parse().ok()).unwrap_or(15)
-}
-
 #[test]
-fn a_plant_that_is_killed_leaves_the_old_or_the_new_set() {
+fn a_plant_that_is_killed_leaves_whole_files_and_the_next_completes_them() {
     let scratch = presses("plant-killed");
-    let plants = [
-        PLANT.replace("1..20", "1..120"),
-        PLANT.replace("1..20", "1..120").replace("510.0 V", "511.0 V").replace("500}", "501}"),
-    ];
-    let built: Vec<_> = plants
-        .iter()
-        .map(|text| {
-            scratch.file("plant.yaml", text);
-            assert_eq!(code(&odgen(&scratch.0, &BUILD)), 0);
-            tree(&scratch)
-        })
-        .collect();
-    let (mut now, mut random, mut found) = (1, 1_u64, [0, 0]);
-    let journal = scratch.0.join("out/.odgen-journal");
-    for round in 0..kills() {
-        let next = 1 - now;
-        scratch.file("plant.yaml", &plants[next]);
-        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-            .current_dir(&scratch.0)
-            .args(BUILD)
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        while !journal.exists() && child.try_wait().unwrap().is_none() {
-            std::hint::spin_loop();
-        }
-        std::thread::sleep(Duration::from_micros((random >> 33) % 300_000));
-        child.kill().unwrap();
-        child.wait().unwrap();
-        // The next command has a mistake in its plant, and puts the directory in order all the same.
-        scratch.file("plant.yaml", "od-plant: 1\n");
-        assert_eq!(code(&odgen(&scratch.0, &BUILD)), 1);
-        let seen = tree(&scratch);
-        assert!(seen == built[0] || seen == built[1], "round {round}");
-        now = usize::from(seen == built[1]);
-        found[usize::from(now == next)] += 1;
-    }
-    println!("{found:?} as before and completed");
+    let plant = PLANT.replace("1..20", "1..120");
+    let texts = [plant.clone(), plant.replace("510.0 V", "511.0 V").replace("500}", "501}")];
+    let mixed = killed_at_any_time(&scratch, "plant.yaml", &texts, &BUILD, kills(15));
+    println!("{mixed} were killed between two files");
 }

@@ -11,7 +11,7 @@ use od_spec::source::SourceMap;
 
 use super::ERRORS;
 use super::args::BuildArgs;
-use super::output::{clash, forced, not_written, overwritten, tidy, write};
+use super::output::{clash, forced, not_written, overwritten, write};
 use super::report::{Report, Used, node_id, print, shown};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
@@ -25,9 +25,6 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(specs) => specs,
         Err(code) => return code,
     };
-    if let Err(code) = tidy(&args.out, report) {
-        return code;
-    }
     let Some(mut systems) = compile_all(&specs, args, report) else { return ERRORS };
     let mut set: Vec<Artifact> = Vec::new();
     let mut summary = String::new();

@@ -11,7 +11,7 @@ use od_spec::rule_codes;
 
 use super::args::{DocsArgs, DocsFormat};
 use super::language::language;
-use super::output::{clash, forced, tidy, write};
+use super::output::{clash, forced, write};
 use super::report::{Report, print_json};
 use super::specs::{self, stem};
 use super::templates::{Problem, templates};
@@ -31,11 +31,6 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
         Ok(specs) => specs,
         Err(code) => return code,
     };
-    if !args.dump_context
-        && let Err(code) = tidy(&args.out, report)
-    {
-        return code;
-    }
     let Some(systems) = compile_all(&specs, report) else { return ERRORS };
     for key in &args.device {
         if !systems.iter().any(|(_, system)| system.device(key).is_some()) {

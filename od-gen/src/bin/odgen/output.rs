@@ -1,11 +1,11 @@
-//! What a command has made goes to the disk, all of it or nothing.
+//! What a command has made goes to the disk: all files that differ, each as a whole.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_gen::Artifact;
-use od_gen::files::{Existing, Outcome, Reason, Recovered, WriteError, recover, write_set};
+use od_gen::files::{Existing, Outcome, Reason, WriteError, write_durable, write_set};
 use od_spec::diag::{Diagnostic, codes};
 
 use super::report::{Report, print, shown};
@@ -18,26 +18,19 @@ pub(crate) fn write(out: &Path, set: &[Artifact], existing: Existing, summary: &
     }
 }
 
-/// Writes the files: all of them or, with a message, none.
+/// Writes the files.
 pub(crate) fn save(out: &Path, set: &[Artifact], existing: Existing) -> Result<Vec<Outcome>, Diagnostic> {
     write_set(out, set, existing).map_err(|error| not_written(&error))
+}
+
+/// Writes files that nothing can make again: what a node had.
+pub(crate) fn keep(out: &Path, set: &[Artifact], existing: Existing) -> Result<Vec<Outcome>, Diagnostic> {
+    write_durable(out, set, existing).map_err(|error| not_written(&error))
 }
 
 /// What is to be replaced: with `--force` anything, else only what is ours.
 pub(crate) const fn forced(force: bool, otherwise: Existing) -> Existing {
     if force { Existing::Any } else { otherwise }
-}
-
-/// Completes or undoes what a killed command began in a directory, before anything else is made of it.
-pub(crate) fn tidy(out: &Path, report: &Report) -> Result<(), u8> {
-    let what = match recover(out) {
-        Ok(None) => return Ok(()),
-        Ok(Some(Recovered::Completed)) => "its new files are in place now",
-        Ok(Some(Recovered::Undone)) => "the files from before are in place",
-        Err(error) => return Err(report.refuse(not_written(&error))),
-    };
-    report.note(&format!("a command that wrote into {} was interrupted; {what}", shown(out)));
-    Ok(())
 }
 
 /// The message about files that could not be written, with a way out.
@@ -52,7 +45,7 @@ pub(crate) fn not_written(error: &WriteError) -> Diagnostic {
         Reason::Clash(_) => {
             "give devices and specifications names that differ by more than capitals, or write into different directories with `--out`"
         }
-        _ => "nothing was changed; check the directory, its permissions and the free space",
+        _ => error.advice(),
     };
     Diagnostic::without_place(codes::WRITE_FAILED, error.to_string()).help(help)
 }

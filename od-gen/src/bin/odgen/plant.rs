@@ -6,7 +6,6 @@ mod show;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use od_gen::files::{Existing, Outcome, WriteError, left_over_of_folders, remove, write_set_watched};
 use od_gen::plant::{Job, SHEET, WORKBOOK, files, jobs, make};
@@ -22,7 +21,7 @@ pub(crate) use schema::schema;
 
 use super::ERRORS;
 use super::args::{PlantArgs, PlantBuildArgs, PlantCommand};
-use super::output::{forced, not_written, tidy};
+use super::output::{forced, not_written};
 use super::parallel::in_order;
 use super::progress::Progress;
 use super::report::{Report, print, shown};
@@ -97,7 +96,6 @@ fn settle(plant: &Plant, report: &Report) -> Vec<Settled> {
 }
 
 fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
-    tidy(&args.out, report)?;
     let Read { plant, settled, files: read, .. } = read(&args.plant, report)?;
     let jobs = jobs(&plant);
     let mut progress = Progress::new("made", "kinds of nodes", jobs.len(), report.audience());
@@ -152,23 +150,16 @@ fn build(args: &PlantBuildArgs, report: &Report) -> Result<u8, u8> {
 }
 
 /// Writes the files, and says how far it is; `new` makes the line for so many files.
-fn written<W: Write + Send>(
+fn written<W: Write>(
     out: &Path,
     set: &[SharedFile],
     existing: Existing,
-    new: impl Fn(usize) -> Progress<W> + Sync,
+    new: impl Fn(usize) -> Progress<W>,
 ) -> Result<Vec<Outcome>, WriteError> {
-    let progress: Mutex<Option<Progress<W>>> = Mutex::new(None);
-    let with = |act: &dyn Fn(&mut Option<Progress<W>>)| {
-        act(&mut progress.lock().unwrap_or_else(PoisonError::into_inner));
-    };
-    let watch = |written: usize, of: usize| {
-        with(&|progress| {
-            progress.get_or_insert_with(|| new(of)).show(written);
-        });
-    };
-    let outcomes = write_set_watched(out, set, existing, &watch);
-    with(&|progress| progress.iter_mut().for_each(Progress::clear));
+    let mut progress: Option<Progress<W>> = None;
+    let mut watch = |written: usize, of: usize| progress.get_or_insert_with(|| new(of)).show(written);
+    let outcomes = write_set_watched(out, set, existing, &mut watch);
+    progress.iter_mut().for_each(Progress::clear);
     outcomes
 }
 
@@ -231,7 +222,7 @@ fn left_from_before(args: &PlantBuildArgs, set: &[SharedFile]) -> Result<String,
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
+    use std::sync::{Arc, Mutex, PoisonError};
 
     use super::*;
 

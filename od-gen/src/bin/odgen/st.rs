@@ -12,7 +12,7 @@ use od_spec::rule_codes;
 use super::ERRORS;
 use super::args::StArgs;
 use super::language::language;
-use super::output::{clash, forced, overwritten, tidy, write};
+use super::output::{clash, forced, overwritten, write};
 use super::report::{Report, node_id, shown};
 use super::specs;
 
@@ -25,7 +25,6 @@ fn st(args: &StArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
     let node =
         args.node.as_deref().map(node_id).transpose().map_err(|diagnostic| report.refuse(diagnostic))?;
     let specs = specs::all(&args.specs, directory, report)?;
-    tidy(&args.out, report)?;
     // Everything is compiled, so that all messages are shown.
     let used: Vec<_> = specs.iter().map(|path| report.compile_with_sources(path)).collect();
     let used: Option<Vec<_>> = used.into_iter().collect();

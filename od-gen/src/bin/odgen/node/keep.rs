@@ -14,7 +14,7 @@ use od_spec::source::{SourceMap, Span};
 use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
 
 use super::super::args::{NodeBackupArgs, NodeFileArgs};
-use super::super::output::{forced, save};
+use super::super::output::{forced, keep};
 use super::super::progress::Progress;
 use super::super::report::{Report, print, shown};
 use super::super::settings::{ParameterFiles, parameter_files};
@@ -90,7 +90,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     let artifact =
         Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
     let directory = args.out.parent().unwrap_or(Path::new(""));
-    save(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::None))
+    keep(directory, std::slice::from_ref(&artifact), forced(args.force, Existing::None))
         .map_err(|diagnostic| report.refuse(diagnostic))?;
     Ok(print(&kept_line(&args.out, written.count, target)))
 }

@@ -13,7 +13,7 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
 use super::super::args::{NodeBackupArgs, NodeFileArgs, OneNodeArgs};
-use super::super::output::{forced, save};
+use super::super::output::{forced, keep};
 use super::super::plant;
 use super::super::report::{Report, node_id, print, shown};
 use super::super::{DIFFERS, SUCCESS};
@@ -114,7 +114,7 @@ impl Machine {
             );
             return Err(code);
         }
-        save(&args.out, &set, forced(args.force, Existing::None))
+        keep(&args.out, &set, forced(args.force, Existing::None))
             .map_err(|diagnostic| report.refuse(diagnostic))?;
         Ok(print(&lines))
     }
