@@ -45,7 +45,7 @@ mod nmt;
 #[cfg(feature = "yaml")]
 pub mod parameters;
 mod plan;
-#[cfg(feature = "eds")]
+#[cfg(feature = "plant")]
 pub mod plant;
 mod provenance;
 #[cfg(feature = "runtime")]
@@ -64,8 +64,6 @@ pub mod trace;
 pub mod xdd;
 #[cfg(feature = "yaml")]
 pub mod yaml;
-#[cfg(feature = "eds")]
-mod zip;
 
 pub use artifact::{Artifact, OutputFile, Pool, SharedFile};
 #[cfg(all(feature = "eds", feature = "json"))]
