@@ -1,5 +1,6 @@
 //! What is demanded of findings, whatever text they are about: their places, and how they read in every format.
 
+use od_reference::explanation;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Findings, Format, render, sarif};
 use od_spec::source::{SourceMap, Span};
@@ -15,7 +16,7 @@ pub(super) fn wrong(
     let text = |format| render(diagnostics, sources, format, false);
     let human = text(Format::Human);
     let [short, json, github] = [Format::Short, Format::Json, Format::Github].map(text);
-    let document = sarif("0.0.0", &[Findings { name, diagnostics, sources }]);
+    let document = sarif("0.0.0", explanation, &[Findings { name, diagnostics, sources }]);
     let mut wrong = places(diagnostics, sources);
     for (format, text) in
         [("human", &human), ("short", &short), ("json", &json), ("github", &github), ("sarif", &document)]

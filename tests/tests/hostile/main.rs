@@ -4,7 +4,8 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::diff::{self, Question, Scope, compare};
+use od_diff::{self as diff, Question, Scope, compare};
+use od_reference::explanation;
 use od_spec::diag::codes;
 use od_spec::diag::render::{Findings, Format, render, sarif};
 use od_spec::source::SourceMap;
@@ -32,7 +33,7 @@ const LIBRARIES: [KeyName; 8] = [
 fn check_messages(sources: &SourceMap, compiled: &Compiled, complaints: &mut Vec<String>) {
     let all = &compiled.diagnostics;
     let findings = Findings { name: "\u{9b}2J", diagnostics: all, sources };
-    let mut texts = vec![("SARIF", sarif("1", &[findings]))];
+    let mut texts = vec![("SARIF", sarif("1", explanation, &[findings]))];
     for (name, format) in [
         ("human", Format::Human),
         ("short", Format::Short),

@@ -106,7 +106,7 @@ mod tests {
         }
         let findings =
             crate::diag::render::Findings { name: HOSTILE, diagnostics: &diagnostics, sources: &sources };
-        let text = sarif("1", &[findings]);
+        let text = sarif("1", |_| String::new(), &[findings]);
         assert!(!text.trim_end().contains(is_hidden), "{text}");
         // The mark is as long as what it is under.
         let shown = human(diagnostics.iter().next().unwrap(), &sources, false);

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::json::quote;
 use crate::diag::{Code, Diagnostic, Diagnostics, Label, Severity};
-use crate::explanation;
 use crate::source::{FileId, SourceMap, Span};
 
 /// What was found in one file, and in the libraries that it uses.
@@ -18,11 +17,12 @@ pub struct Findings<'a> {
     pub sources: &'a SourceMap,
 }
 
-/// The document, for a version of `odgen`. Names of files become addresses relative to the directory in which they were given.
-pub fn sarif(version: &str, files: &[Findings<'_>]) -> String {
+/// The document, for a version of `odgen`, with codes explained as `odgen explain` does. Names of files become addresses relative to the
+/// directory in which they were given.
+pub fn sarif(version: &str, explanation: fn(&Code) -> String, files: &[Findings<'_>]) -> String {
     let codes: BTreeSet<&'static Code> =
         files.iter().flat_map(|file| file.diagnostics).map(|diagnostic| diagnostic.code).collect();
-    let rules = codes.iter().map(|code| rule(code)).collect::<Vec<_>>();
+    let rules = codes.iter().map(|code| rule(code, &explanation(code))).collect::<Vec<_>>();
     let positions: BTreeMap<&str, usize> = codes.iter().map(|code| code.id).zip(0..).collect();
     let results = files.iter().flat_map(|file| {
         file.diagnostics.iter().map(|diagnostic| {
@@ -49,15 +49,14 @@ pub fn sarif(version: &str, files: &[Findings<'_>]) -> String {
     document + "\n"
 }
 
-fn rule(code: &Code) -> String {
+fn rule(code: &Code, whole: &str) -> String {
     let text = |text: &str| object(&[("text", quote(text))]);
-    let whole = explanation(code);
     object(&[
         ("id", quote(code.id)),
         ("name", quote(&name(code.title))),
         ("shortDescription", text(code.title)),
         ("fullDescription", text(code.explanation)),
-        ("help", object(&[("text", quote(&whole)), ("markdown", quote(&whole))])),
+        ("help", object(&[("text", quote(whole)), ("markdown", quote(whole))])),
         ("defaultConfiguration", object(&[("level", quote(level(code.severity)))])),
     ])
 }
