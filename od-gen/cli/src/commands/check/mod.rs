@@ -9,8 +9,8 @@ mod summary;
 
 use std::path::Path;
 
+use od_formats::findings::{Findings, sarif};
 use od_reference::explanation;
-use od_spec::diag::render::{Findings, sarif};
 
 use self::checked::{Checked, check};
 use self::inputs::Input;
