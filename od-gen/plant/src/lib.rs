@@ -8,7 +8,6 @@ mod rows;
 mod sheet;
 mod values;
 mod workbook;
-mod zip;
 
 #[cfg(test)]
 mod tests;

@@ -33,7 +33,7 @@ fn the_overview_names_the_tables_that_are_written() {
     let root = sources.add("plant.yaml", PLANT);
     let plant = plant(&mut sources, root, &mut Lamp).plant.unwrap();
     let settled: Vec<Settled> = (0..plant.classes.len()).filter_map(|class| plant.settle(class)).collect();
-    let with = |rows: usize| {
+    let with = |rows: u32| {
         let workbook = workbook::write(&plant, &settled, rows);
         let files = files_with(workbook, &plant, &settled, &[], &[]);
         let overview = String::from_utf8(files[0].pieces.concat()).unwrap();

@@ -113,7 +113,7 @@ fn where_the_disk_is_full_the_message_names_what_is_written_and_the_next_run_com
     scratch.file("lamps.od.yaml", fleet("a"));
     let limited =
         format!("trap '' XFSZ; ulimit -f 16; exec {} {}", env!("CARGO_BIN_EXE_odgen"), BUILD.join(" "));
-    let output = Command::new("bash").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
+    let output = Command::new("sh").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
     assert_eq!(code(&output), 1);
     let text = stderr(&output);
     for part in [

@@ -2,7 +2,6 @@
 
 mod device;
 mod document;
-mod layout;
 mod node;
 mod rules;
 mod types;
@@ -14,7 +13,6 @@ use serde_json::{Value as Json, json};
 
 use device::DeviceView;
 use document::DocumentView;
-use layout::Layout;
 use node::NodeView;
 use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
 use types::{TypeView, UnitView};
@@ -56,8 +54,7 @@ fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec
     let entries: usize = system.devices.iter().map(|device| device.entries().count()).sum();
     let mut text = Vec::with_capacity(2048 * entries);
     // Maps with text keys and plain values only, into memory: this cannot fail.
-    let mut serializer = serde_json::Serializer::with_formatter(&mut text, Layout::default());
-    let _ = dump.serialize(&mut serializer);
+    let _ = serde_json::to_writer_pretty(&mut text, &dump);
     text.push(b'\n');
     text
 }

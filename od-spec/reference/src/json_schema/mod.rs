@@ -14,7 +14,7 @@
 mod parameters;
 mod plants;
 
-use std::fmt::Write as _;
+use serde::{Serialize, Serializer};
 
 use od_spec::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, PLANT, SPEC, Shape, VERSION};
 use od_spec::model::{Access, DataType};
@@ -33,10 +33,13 @@ pub fn json_schema() -> String {
     let tables = tables.map(|keys| (slug(keys.name), object(members(keys))));
     let scalars = SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
     root.push(("definitions", Json::Object(tables.chain(scalars).collect())));
-    let mut out = String::new();
-    object(root).print(0, &mut out);
-    out.push('\n');
-    out
+    printed(root)
+}
+
+/// A schema as a file.
+fn printed(root: Vec<(&str, Json)>) -> String {
+    // Maps with text keys and plain values, into memory: this cannot fail.
+    serde_json::to_string_pretty(&object(root)).unwrap_or_default() + "\n"
 }
 
 /// What the top level of a file is.
@@ -113,60 +116,19 @@ enum Json {
     Object(Vec<(String, Json)>),
 }
 
-impl Json {
-    fn print(&self, depth: usize, out: &mut String) {
+/// In the order of the members, which the values of `serde_json` do not keep.
+impl Serialize for Json {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Json::Bool(value) => drop(write!(out, "{value}")),
-            Json::Number(value) => drop(write!(out, "{value}")),
-            Json::Text(value) => quote(value, out),
-            Json::List(items) => {
-                let items = items.iter().map(|item| (None, item));
-                print_all('[', ']', items, depth, out);
-            }
+            Json::Bool(value) => serializer.serialize_bool(*value),
+            Json::Number(value) => serializer.serialize_i128(*value),
+            Json::Text(value) => serializer.serialize_str(value),
+            Json::List(items) => serializer.collect_seq(items),
             Json::Object(members) => {
-                let members = members.iter().map(|(name, value)| (Some(name.as_str()), value));
-                print_all('{', '}', members, depth, out);
+                serializer.collect_map(members.iter().map(|(name, value)| (name, value)))
             }
         }
     }
-}
-
-fn print_all<'a>(
-    open: char,
-    close: char,
-    items: impl Iterator<Item = (Option<&'a str>, &'a Json)>,
-    depth: usize,
-    out: &mut String,
-) {
-    out.push(open);
-    let mut empty = true;
-    for (name, value) in items {
-        out.push_str(if empty { "\n" } else { ",\n" });
-        empty = false;
-        out.push_str(&"  ".repeat(depth + 1));
-        if let Some(name) = name {
-            quote(name, out);
-            out.push_str(": ");
-        }
-        value.print(depth + 1, out);
-    }
-    if !empty {
-        out.push('\n');
-        out.push_str(&"  ".repeat(depth));
-    }
-    out.push(close);
-}
-
-fn quote(value: &str, out: &mut String) {
-    out.push('"');
-    for c in value.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => drop(write!(out, "\\u{:04x}", u32::from(c))),
-            c => out.push(c),
-        }
-    }
-    out.push('"');
 }
 
 fn text(value: impl Into<String>) -> Json {
@@ -480,12 +442,5 @@ mod tests {
         assert_eq!((names.len(), scalars.len()), (tables.len(), SCALARS.len()));
         assert!(scalars.iter().all(|name| !names.contains(*name)));
         assert!(names.contains("entrys-eds-policy"));
-    }
-
-    #[test]
-    fn text_is_escaped() {
-        let mut out = String::new();
-        object([("a\"b", text("c\\d\ne")), ("empty", Json::List(Vec::new()))]).print(0, &mut out);
-        assert_eq!(out, "{\n  \"a\\\"b\": \"c\\\\d\\u000ae\",\n  \"empty\": []\n}");
     }
 }

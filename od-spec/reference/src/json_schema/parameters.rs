@@ -8,7 +8,7 @@ mod values;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Json, SCALARS, any_of, definition, members, object, reference, scalar, text, texts};
+use super::{Json, SCALARS, any_of, definition, members, object, printed, reference, scalar, text, texts};
 use keys::Spellings;
 use od_spec::keys::{PARAMETER_FILE, Shape};
 use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, System};
@@ -63,10 +63,7 @@ pub fn parameter_schema(system: &System, device: &Dictionary) -> String {
     let scalars = scalars.filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))));
     let entries = definitions(ALONE, device, language);
     root.push(("definitions", Json::Object(scalars.chain(entries).collect())));
-    let mut out = String::new();
-    object(root).print(0, &mut out);
-    out.push('\n');
-    out
+    printed(root)
 }
 
 /// A definition of an entry for each that may be set. Where a schema has several devices, `of` tells them apart.

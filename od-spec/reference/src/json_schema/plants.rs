@@ -1,8 +1,8 @@
 //! The JSON Schema of plant files: of any, or of those with certain devices, whose entries it then knows.
 
 use super::{
-    Json, SCALARS, any_of, definition, key_pattern, members, object, parameters, reachable_in_plants,
-    reference, scalar, schema, slug, text,
+    Json, SCALARS, any_of, definition, key_pattern, members, object, parameters, printed,
+    reachable_in_plants, reference, scalar, schema, slug, text,
 };
 use od_spec::keys::{KeyKind, Keys, PLANT, PLANT_NODE, Shape};
 use od_spec::model::{Dictionary, System};
@@ -73,13 +73,6 @@ fn head(title: &str) -> Vec<(&'static str, Json)> {
 
 fn scalars() -> impl Iterator<Item = (String, Json)> {
     SCALARS.iter().filter_map(|shape| Some((definition(*shape)?.to_owned(), scalar(*shape))))
-}
-
-fn printed(root: Vec<(&str, Json)>) -> String {
-    let mut out = String::new();
-    object(root).print(0, &mut out);
-    out.push('\n');
-    out
 }
 
 /// The members of a table, in which what is said by device is said of these.

@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn every_chapter_is_printed() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/reference/chapters");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/language/chapters");
         let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
         let texts: Vec<String> = files.map(|path| std::fs::read_to_string(path).unwrap()).collect();
         assert!(texts.iter().all(|text| CHAPTERS.contains(&text.as_str())));
