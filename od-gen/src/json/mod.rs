@@ -8,6 +8,7 @@ mod rules;
 mod types;
 
 use od_spec::Commissioning;
+use od_spec::eds::MARK;
 use od_spec::model::{self, Date, DateTime, Devices, Dictionary, EntryId, System, Text};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
@@ -18,8 +19,6 @@ use layout::Layout;
 use node::NodeView;
 use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
 use types::{TypeView, UnitView};
-
-use crate::hexadecimal;
 
 /// Version of the format; raised when a consumer would have to change.
 const FORMAT: u32 = 1;
@@ -40,6 +39,7 @@ fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec
     let wanted = |device: &&Dictionary| devices.includes(&device.key);
     let dump = SystemView {
         od_json: FORMAT,
+        made: MARK,
         title: &system.title,
         languages: &system.languages,
         vendor: json!({"name": system.vendor.name, "number": system.vendor.number}),
@@ -66,6 +66,7 @@ fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec
 #[serde(rename_all = "kebab-case")]
 struct SystemView<'a> {
     od_json: u32,
+    made: &'static str,
     title: &'a str,
     languages: &'a [String],
     vendor: Json,
@@ -95,12 +96,12 @@ const fn words(text: &Text) -> Words<'_> {
 }
 
 fn index(index: model::Index) -> String {
-    hexadecimal::prefixed(index.0, 4)
+    index.notation()
 }
 
 /// `0x6040`, or `0x30FA.3` for a sub-index other than 0.
 fn entry_id(id: EntryId) -> String {
-    if id.sub.0 == 0 { index(id.index) } else { format!("{}.{}", index(id.index), id.sub) }
+    id.notation()
 }
 
 fn date(date: Date) -> String {

@@ -52,7 +52,7 @@ pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
 pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
-pub use owner::{GENERATED, Owner, Remark};
+pub use owner::{GENERATED, MARK, Owner, Remark};
 
 #[cfg(test)]
 mod examples;
