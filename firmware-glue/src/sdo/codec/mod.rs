@@ -13,7 +13,7 @@ pub(crate) use answer::{downloaded, uploaded};
 pub use request::Request;
 
 use crate::abort::AbortCode;
-use crate::id::EntryId;
+use crate::table::entry::EntryId;
 
 /// The value in a frame that begins and ends a transfer: one to four bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use super::{
     Segment, TOGGLE, alone, checksum, crc_bit, end, frame, id, number, size_if, stated, toggle_bit, unused,
 };
 use crate::abort::AbortCode;
-use crate::id::EntryId;
+use crate::table::entry::EntryId;
 
 /// What a client sends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
