@@ -7,12 +7,13 @@
 //!
 //! An SDO server needs five functions: [`Dictionary::upload`] and [`Dictionary::write`] for values,
 //! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
-//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`]. All of a node, and each of its services by itself, is here, too, behind
-//! features: a firmware that has a stack of its own needs none of it.
+//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`]. A firmware with a stack of its own needs nothing else.
 //!
-//! `no_std`, no allocation, no `unsafe`; no function panics on any input, but for `Shared::with` called from inside itself.
-//! There is no hidden state: a dictionary is a plain
-//! value, and a program can have several.
+//! The services of a node are types of their own ([`sdo`], [`pdo::engine`], [`nmt`], [`sync`], [`emcy`], [`lss`]), and [`Node`] joins
+//! them: frames go in, frames come out, and the time is passed in. A firmware links what it calls.
+//!
+//! `no_std`, no allocation, no `unsafe`; no function panics on any input, except `Shared::with` called from inside itself.
+//! There is no hidden state: a dictionary is a plain value, and a program can have several.
 //!
 //! # Layers
 //!
@@ -25,9 +26,7 @@
 //! - `defmt`: `defmt::Format` for codes, events, states, frames and values, also in generated code; not for tables and for the services themselves
 //! - `critical-section`: `Shared`, a dictionary behind short critical sections
 //! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
-//! - `sdo-server`, `sdo-client`: the two ends of an SDO channel, in the module `sdo`; with `sdo-block`, also block transfers
-//! - `node`: the services of a CANopen node besides SDO (`nmt`, `pdo::engine`, `sync`, `emcy`, `lss`), and all together (`Node`); frames in, frames out,
-//!   time passed in
+//! - `sdo-block`: block transfers of the SDO server and client
 //! - `storage`: `storage::ParameterStore`, parameters in flash that survive a power failure at any byte
 
 #![no_std]
@@ -39,18 +38,13 @@ mod bus;
 pub mod emcy;
 #[doc(hidden)]
 pub mod generated_for_layout_1;
-#[cfg(feature = "node")]
 pub mod lss;
-#[cfg(feature = "node")]
 pub mod nmt;
-#[cfg(feature = "node")]
 pub mod node;
 pub mod pdo;
-#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 pub mod sdo;
 pub mod state_machine;
 pub mod storage;
-#[cfg(feature = "node")]
 pub mod sync;
 pub mod table;
 mod value;
@@ -67,7 +61,6 @@ pub use bus::{clock, frame};
 #[cfg(feature = "defmt")]
 pub use defmt;
 pub use emcy::error_register;
-#[cfg(feature = "node")]
 pub use node::Node;
 pub use state_machine::StateMachine;
 pub use table::entry::{EntryId, Info};
@@ -84,6 +77,6 @@ pub use value::time::Time;
 pub use value::{image, named, quantity, text};
 
 /// What the README shows compiles.
-#[cfg(all(doctest, feature = "node"))]
+#[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

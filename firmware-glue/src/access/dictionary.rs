@@ -309,7 +309,6 @@ pub(crate) fn refresh<'t, D: Dictionary<'t>, A: Application<D>>(
 }
 
 /// An entry that a client may write, in some state of the device.
-#[cfg(feature = "sdo-server")]
 pub(crate) fn writable<'t>(table: &Table<'t>, index: u16, sub: u8) -> Result<Found<'t>, AbortCode> {
     let found = table.search(index, sub)?;
     if found.shared.flags.has(Flags::WRITE) { Ok(found) } else { Err(AbortCode::READ_ONLY) }

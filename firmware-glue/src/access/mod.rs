@@ -6,10 +6,9 @@ pub(crate) mod communication;
 pub(crate) mod constraint;
 mod corrected;
 pub(crate) mod dictionary;
-#[cfg(feature = "node")]
 pub(crate) mod parameters;
 #[cfg(feature = "critical-section")]
 pub(crate) mod shared;
 pub(crate) mod table_dictionary;
-#[cfg(all(test, feature = "node"))]
+#[cfg(test)]
 pub(crate) mod test_table;

@@ -90,7 +90,6 @@ impl Frame {
     }
 
     /// The bytes of a data frame that has all eight.
-    #[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
     #[inline]
     pub(crate) const fn all_eight(&self) -> Option<&[u8; 8]> {
         match &self.content {

@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 use crate::bus::frame::CanId;
 
 /// Which node of a network: 1 to 127 (CiA 301 9.4).
@@ -24,7 +23,6 @@ impl NodeId {
     }
 
     /// The node's own identifier behind a base below 780h, such as 700h (CiA 301 table 34).
-    #[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
     pub(crate) fn identifier(self, base: u16) -> CanId {
         CanId::new(base + u16::from(self.0)).unwrap_or(CanId::MAX)
     }
@@ -38,13 +36,12 @@ impl fmt::Display for NodeId {
 }
 
 /// Identifiers that belong to the nodes 1 to 127, one each, behind a base such as 700h: the node of one.
-#[cfg(feature = "node")]
 pub(crate) fn node_of(id: CanId, base: u16) -> Option<u8> {
     let nodes = base + 1..base + 128;
     if nodes.contains(&id.get()) { u8::try_from(id.get() - base).ok() } else { None }
 }
 
-#[cfg(all(test, any(feature = "sdo-server", feature = "sdo-client")))]
+#[cfg(test)]
 mod tests {
     use super::NodeId;
 

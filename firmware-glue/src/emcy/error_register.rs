@@ -57,7 +57,6 @@ impl ErrorRegister {
     }
 
     /// The bits that another node sent, whatever they are.
-    #[cfg(feature = "node")]
     pub(crate) const fn received(bits: u8) -> Self {
         Self(bits)
     }

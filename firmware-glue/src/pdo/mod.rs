@@ -54,7 +54,6 @@
     reason = "not inlined, packing takes four times as long: it waits for its own stores"
 )]
 
-#[cfg(feature = "node")]
 pub mod engine;
 
 use core::ops::Deref;
@@ -203,13 +202,11 @@ pub fn unpack_consistent<D: Constrained, A: Application<D>>(
 ///
 /// # Errors
 /// [`PdoError`], of what does not depend on data and values.
-#[cfg(feature = "node")]
 pub(crate) fn received_length<'t, D: Dictionary<'t>>(dictionary: &D, number: u16) -> Result<usize, PdoError> {
     Mapping::of(dictionary, RECEIVE, number)?.length(dictionary)
 }
 
 /// Whether a TPDO, 1 to 512, carries an entry or a view of it.
-#[cfg(feature = "node")]
 pub(crate) fn carries<'t, D: Dictionary<'t>>(dictionary: &D, number: u16, row: Row) -> bool {
     let Ok(mapping) = Mapping::of(dictionary, TRANSMIT, number) else { return false };
     (0..mapping.count).any(|at| {

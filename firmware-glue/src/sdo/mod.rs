@@ -2,28 +2,24 @@
 //!
 //! Nothing here sends, waits or knows a clock: frames go in, frames come out, and the time is told.
 //!
-//! - [`SdoServer`] (feature `sdo-server`) serves any dictionary: expedited and segmented transfers, and with the feature
+//! - [`SdoServer`] serves any dictionary: expedited and segmented transfers, and with the feature
 //!   `sdo-block` blocks with checksums.
-//! - [`SdoClient`] (feature `sdo-client`) reads and writes the dictionary of another node the same ways.
+//! - [`SdoClient`] reads and writes the dictionary of another node the same ways.
 //! - [`codec`] has the frames.
 
 #[cfg(feature = "sdo-block")]
 mod block;
 mod channel;
-#[cfg(feature = "sdo-client")]
 mod client;
 pub mod codec;
 #[cfg(feature = "sdo-block")]
 mod crc;
 mod piece;
-#[cfg(feature = "sdo-server")]
 mod server;
 
 use crate::bus::clock::Duration;
 pub use channel::Channel;
-#[cfg(feature = "sdo-client")]
 pub use client::{Failure, Filled, SdoClient, SdoRead, SdoWrite, Sink, Source, Step, Way};
-#[cfg(feature = "sdo-server")]
 pub use server::SdoServer;
 
 /// Time without a frame of the other side, after which a transfer ends with

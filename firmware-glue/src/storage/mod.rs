@@ -1,5 +1,5 @@
 //! Parameters that outlive a power failure: the commands of a client (1010h, 1011h) and, with the feature `storage`, a store
-//! in flash ([`ParameterStore`]).
+//! in flash (`ParameterStore`).
 
 mod command;
 #[cfg(feature = "storage")]

@@ -30,7 +30,6 @@ impl Flags {
     }
 
     /// Those of some flags that are set.
-    #[cfg(feature = "sdo-server")]
     #[inline]
     pub(crate) const fn of(self, some: Self) -> Self {
         Self(self.0 & some.0)

@@ -113,7 +113,6 @@ impl<'t> Table<'t> {
 
     /// [`lookup`](Self::lookup) of an entry that has some flags and is in an object without gaps, as almost every one is. Why another
     /// entry is not found is left to `lookup`.
-    #[cfg(feature = "sdo-server")]
     #[inline]
     pub(crate) fn look_quickly(&self, index: u16, sub: u8, flags: Flags) -> Option<Found<'t>> {
         let Range { start: first, end } = self.object(index).ok()?;

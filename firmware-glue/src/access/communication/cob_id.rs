@@ -1,7 +1,6 @@
 //! COB-IDs in communication objects (CiA 301 9.6.3).
 
 use crate::abort::AbortCode;
-#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 use crate::bus::frame::CanId;
 
 /// Bit 31 of COB-ID entries: the message does not exist.
@@ -54,7 +53,6 @@ fn check_usable(cob_id: u32) -> Result<(), AbortCode> {
 }
 
 /// The identifier in a COB-ID, whatever else it says; `None` of one with 29 bits, which the services do not use.
-#[cfg(any(feature = "sdo-server", feature = "sdo-client"))]
 pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
     if cob_id & EXTENDED != 0 {
         return None;
@@ -63,7 +61,6 @@ pub(crate) fn can_id(cob_id: u32) -> Option<CanId> {
 }
 
 /// The identifier of a message that bit 31 does not switch off.
-#[cfg(feature = "node")]
 pub(crate) fn valid_id(cob_id: u32) -> Option<CanId> {
     if cob_id & NOT_VALID == 0 { can_id(cob_id) } else { None }
 }

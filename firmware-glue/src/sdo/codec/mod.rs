@@ -8,7 +8,6 @@ mod request;
 mod tests;
 
 pub use answer::Answer;
-#[cfg(feature = "sdo-server")]
 pub(crate) use answer::{downloaded, uploaded};
 pub use request::Request;
 
@@ -38,7 +37,6 @@ impl Expedited {
     }
 
     /// The first bytes of some, one to four, without a loop.
-    #[cfg(feature = "sdo-server")]
     #[inline]
     pub(crate) fn first_of(bytes: &[u8], length: u16) -> Option<Self> {
         let (number, length) = match length {

@@ -47,7 +47,7 @@ mod error;
 mod groups;
 mod loaded;
 mod record;
-#[cfg(all(test, feature = "node"))]
+#[cfg(test)]
 mod tests;
 
 use embedded_storage::nor_flash::NorFlash;
