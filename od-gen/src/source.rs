@@ -97,7 +97,7 @@ pub fn whole(path: &Path) -> PathBuf {
 }
 
 /// A path without the steps down that a step up takes back.
-pub(crate) fn plain(path: &Path) -> PathBuf {
+pub fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
         match (part, plain.components().next_back()) {

@@ -3,7 +3,7 @@
 //! counts these.
 
 use allocation_counter::{AllocationInfo, measure};
-use od_gen::{eds, json};
+use od_formats::{eds, json};
 use od_spec::diag::render::{Format, render};
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, NoFiles, compile};

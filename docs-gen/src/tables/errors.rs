@@ -4,9 +4,9 @@ use od_spec::model::{AnyError, Devices, Dictionary, ErrorCode, Text};
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::entry_anchor;
 use crate::view::{Align, Cell, Grid, Row};
 
 /// Where links to an error code lead.

@@ -6,9 +6,9 @@ use od_spec::model::{
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::{entry_anchor, object_anchor};
 use crate::view::{Cell, Grid, ObjectHead, Row};
 
 impl Source<'_> {

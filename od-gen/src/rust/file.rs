@@ -85,7 +85,7 @@ pub fn plain_file(
 }
 
 fn header(device: &Dictionary, provenance: &Provenance) -> String {
-    format!("// Object dictionary `{}` of {}.\n// {GENERATED}\n\n", device.key, provenance.name)
+    format!("// Object dictionary `{}` of {}.\n// {GENERATED}\n\n", device.key, provenance.name())
 }
 
 /// Puts blank lines between items: printers leave them out.

@@ -10,8 +10,6 @@ pub(crate) mod dates;
 mod document;
 pub(crate) mod example;
 mod extras;
-#[cfg(test)]
-mod findings;
 mod line;
 pub(crate) mod names;
 pub(crate) mod number;
@@ -53,6 +51,3 @@ pub use document::{Document, Section, SectionRef};
 pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
 pub use owner::{GENERATED, MARK, Owner, Remark};
-
-#[cfg(test)]
-mod examples;

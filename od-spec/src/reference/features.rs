@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::tables::cell;
-use crate::shipped::{self, LIBRARIES};
+use crate::library::shipped::{self, LIBRARIES};
 use crate::yaml::Node;
 
 /// One table for each library.

@@ -1,6 +1,6 @@
 //! Random specifications: nothing panics, and a refusal has a reason with a place.
 
-use od_gen::parameters::{About, write};
+use od_import::parameters::{About, write};
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity, codes};
 use od_spec::read_text;

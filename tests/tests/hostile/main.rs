@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::diff::{self, Question, Scope, compare};
+use od_diff::{self as diff, Question, Scope, compare};
 use od_spec::diag::codes;
 use od_spec::diag::render::{Findings, Format, render, sarif};
 use od_spec::source::SourceMap;

@@ -1,0 +1,21 @@
+//! `odgen lsp`.
+
+use od_lsp::{Exit, serve_stdio};
+use od_spec::diag::{Diagnostic, codes};
+
+use super::report::Report;
+use super::{ERRORS, SUCCESS};
+
+pub(crate) fn run(report: &Report) -> u8 {
+    match serve_stdio() {
+        Ok(Exit::Agreed) => SUCCESS,
+        Ok(Exit::Sudden) => ERRORS,
+        Err(error) => {
+            let message = format!("cannot serve the editor: {error}");
+            report.refuse(
+                Diagnostic::without_place(codes::UNREADABLE, message)
+                    .help("an editor starts `odgen lsp` and speaks the Language Server Protocol with it"),
+            )
+        }
+    }
+}
